@@ -10,22 +10,23 @@
 /* Returns the impulse of a dashpot along axis d on a node or particle in a step [N s], by the implicit mean velocity
  * (v_old + v_new)/2. Adds impulse and dissipated energy to *a, and to its member `kick` a quarter of the impulse times
  * the change of velocity (struct absorbed). rate_dt: dashpot rate times the duration of the step, k dt [kg]; mass [kg];
- * before: velocity v_old [m/s]; change: velocity change by all other forces [m/s]. */
-static inline real dashpot_kick(struct absorbed *a, int d, real rate_dt, real mass, real before, real change)
+ * old_velocity: velocity v_old [m/s]; velocity_change: velocity change by all other forces [m/s]. */
+static inline real dashpot_add_impulse(struct absorbed *a, int d, real rate_dt, real mass, real old_velocity,
+                                       real velocity_change)
 {
-    const real mean = (before + 0.5 * change) / (1 + 0.5 * rate_dt / mass), impulse = -rate_dt * mean;
+    const real mean = (old_velocity + 0.5 * velocity_change) / (1 + 0.5 * rate_dt / mass), impulse = -rate_dt * mean;
     a->energy += rate_dt * mean * mean;
-    a->kick += 0.5 * impulse * (mean - before); /* v_new - v_old = 2 (mean - v_old) */
+    a->kick += 0.5 * impulse * (mean - old_velocity); /* v_new - v_old = 2 (mean - v_old) */
     a->impulse[d] += impulse;
     return impulse;
 }
 
 /* Corrects dissipated energy and kick in *a for a dashpot impulse [N s] if the velocity at the end of the step is
- * changed by a further `more` [m/s] after dashpot_kick. */
-static inline void dashpot_correct(struct absorbed *a, real impulse, real more)
+ * changed by a further `velocity_change` [m/s] after dashpot_add_impulse. */
+static inline void dashpot_correct_energy(struct absorbed *a, real impulse, real velocity_change)
 {
-    a->energy -= 0.5 * impulse * more;
-    a->kick += 0.25 * impulse * more;
+    a->energy -= 0.5 * impulse * velocity_change;
+    a->kick += 0.25 * impulse * velocity_change;
 }
 
 #endif

@@ -9,12 +9,12 @@
 static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const int32_t *list, real limit2,
                                                const int dim)
 {
-    const int32_t first = list_together(list) ? list[0] : -1;
-    lanes speed2 = lanes_of(0), place = lanes_of(0);
+    const int32_t first = list_is_consecutive(list) ? list[0] : -1;
+    lanes speed2 = lanes_broadcast(0), place = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) {
-        const lanes v = lanes_at(p->v[d], first, list);
+        const lanes v = lanes_load_or_gather(p->v[d], first, list);
         speed2 += v * v;
-        place += lanes_size(lanes_at(p->x[d], first, list));
+        place += lanes_absolute(lanes_load_or_gather(p->x[d], first, list));
     }
     return has_diverged(speed2, place, limit2);
 }
@@ -27,7 +27,7 @@ static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t 
 #pragma omp parallel for schedule(static) reduction(+ : found)
     for (int64_t k = 0; k < n; k += LANES) {
         _Alignas(sizeof(lanes)) int32_t room[LANES];
-        found += lanes_any(eight_diverged(p, list_eight(list, k, n, room), limit2, dim));
+        found += lanes_any(eight_diverged(p, list_eight_entries(list, k, n, room), limit2, dim));
     }
     return found > 0;
 }

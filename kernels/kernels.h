@@ -43,7 +43,7 @@ static inline bool elastic_yields(const struct elastic *m) { return m->yield > 0
 /* Returns the largest principal stress at which material point i, of material m, is marked for conversion to a
  * peridynamic particle [Pa]: m->trigger, or, where strength is random, m->trigger_mean times the strength of the
  * point. */
-static inline real point_trigger(const struct elastic *m, const struct particles *p, int64_t i)
+static inline real point_conversion_stress(const struct elastic *m, const struct particles *p, int64_t i)
 {
     return p->strength ? m->trigger_mean * p->strength[i] : m->trigger;
 }
@@ -67,12 +67,12 @@ struct partial_stress {
 
 /* Returns true if material point i has state-based bonds of its own. Returns false if bonds of other points at most
  * cross its cell, or if the model is bond-based. */
-static inline bool partial_end(const struct partial_stress *partial, int64_t i, int dim)
+static inline bool point_has_state_bonds(const struct partial_stress *partial, int64_t i, int dim)
 {
     if (!partial->local || partial->index[i] < 0) return false;
     bool any = partial->gives_all;
-    for (int k = 0; k < symmetric_count(dim) && !any; k++)
-        any = partial->local[partial->index[i] * symmetric_count(dim) + k] != 0;
+    for (int k = 0; k < symmetric_component_count(dim) && !any; k++)
+        any = partial->local[partial->index[i] * symmetric_component_count(dim) + k] != 0;
     return any;
 }
 
@@ -126,7 +126,7 @@ KERNEL(int64_t, bond_forces,
  * from the present positions into b->state: the first of the two loops of a state-based force. Call it before these
  * quantities are read without a force computation. Stores the reactions on the cells of material points with bonds in
  * p->end_pull and p->end_moment. */
-typedef void state_precompute_fn(struct bonds *b, struct particles *p);
+typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 
 /* Breaks the bonds of one row block (all bonds of eight particles) whose stretch exceeds `limit`, and adds their energy
  * to the fracture energy of their rows; their force on the particle is replaced by that of the step in which they break
@@ -195,17 +195,17 @@ typedef void p2g_fn(struct grid *g, const struct particles *p, const struct tran
 /* Remapping of MUSL (Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the change of nodal velocities to
  * the points, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points to the nodes of g; below called
  * the second map, after the first one by p2g. */
-typedef void remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
+typedef void musl_remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h). Adds the
  * change of nodal velocities to the points, v_p += sum N (f/m dt), and stores in transfer->turn the angular momentum
  * that each point loses in this interpolation [kg m^2/s], for its group. 2D and 3D. */
-typedef void turn_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
+typedef void rotating_remap_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x
  * (x_I - x_p)) of the points to the nodes x_I of g, with the spin w of the point's group in transfer->turn [1/s], to
  * second order in w dt (mpm/turn.h). 2D and 3D. */
-typedef void turn_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
+typedef void rotating_remap_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Moves the points with the nodal velocities, x_p += dt sum N v, and updates their stress, volume, stretch, plastic
  * strain and conversion flag (Zeng et al. 2022, steps 4, 7, 8); with APIC also v_p and its gradient (Jiang et al.
@@ -214,8 +214,8 @@ typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct t
 
 /* Distributes one value per particle to nodes: adds value[k] N of particle list[k] to `field` ([g->n], in the unit of
  * value), for k = 0 .. n - 1. half_width: half the reference edge of a particle, l_p [m]. Serial. */
-typedef void spread_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list, int64_t n,
-                       const real *value, real *field);
+typedef void spread_to_nodes_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list,
+                                int64_t n, const real *value, real *field);
 
 /* The kernels of a run, chosen once at set-up. */
 struct kernels {
@@ -224,11 +224,11 @@ struct kernels {
     bond_stress_fn *bond_stress;
     pd_move_fn *pd_move;
     p2g_fn *p2g;
-    remap_fn *remap;
-    turn_gather_fn *turn_gather; /* NULL in 1D */
-    turn_scatter_fn *turn_scatter;
+    musl_remap_fn *remap;
+    rotating_remap_gather_fn *turn_gather; /* NULL in 1D */
+    rotating_remap_scatter_fn *turn_scatter;
     g2p_fn *g2p;
-    spread_fn *spread;
+    spread_to_nodes_fn *spread;
 };
 
 KERNEL_TABLE(bond_force_fn, bond_force_table, [PD_MODELS]);
@@ -237,14 +237,14 @@ KERNEL_TABLE(bond_stress_fn, bond_stress_table, [PD_MODELS]);
 KERNEL_TABLE(bond_force_fn, state_force_table, [PD_MODELS]);
 KERNEL_TABLE(bond_energy_fn, state_energy_table, [PD_MODELS]);
 KERNEL_TABLE(bond_stress_fn, state_stress_table, [PD_MODELS]);
-KERNEL_TABLE(state_precompute_fn, state_precompute_table, [PD_MODELS]);
+KERNEL_TABLE(family_states_precompute_fn, state_precompute_table, [PD_MODELS]);
 KERNEL_TABLE(pd_move_fn, pd_move_table, );
 KERNEL_TABLE(p2g_fn, p2g_table, [SHAPES][TRANSFERS]);
-KERNEL_TABLE(remap_fn, remap_table, [SHAPES]);
-KERNEL_TABLE(turn_gather_fn, turn_gather_table, [SHAPES]);
-KERNEL_TABLE(turn_scatter_fn, turn_scatter_table, [SHAPES]);
+KERNEL_TABLE(musl_remap_fn, remap_table, [SHAPES]);
+KERNEL_TABLE(rotating_remap_gather_fn, turn_gather_table, [SHAPES]);
+KERNEL_TABLE(rotating_remap_scatter_fn, turn_scatter_table, [SHAPES]);
 KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
-KERNEL_TABLE(spread_fn, spread_table, [SHAPES]);
+KERNEL_TABLE(spread_to_nodes_fn, spread_table, [SHAPES]);
 
 /* Stores in k the kernels for bodies of `dim` dimensions with the given peridynamic model, shape function of the grid
  * and transfer scheme (FLIP or APIC). The combination must exist in simd/variants.h. */
@@ -272,8 +272,8 @@ KERNEL(void, grid_constrain,
 
 /* Calls grid_advance and grid_constrain with these arguments, for a body that has no contact with bodies on other
  * grids. */
-static inline void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass,
-                             real impulse[DIM_MAX], real *work)
+static inline void grid_move_nodes(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass,
+                                   real impulse[DIM_MAX], real *work)
 {
     grid_advance(g, transfer, dt_velocity, smallest_mass);
     grid_constrain(g, transfer, smallest_mass, impulse, work);

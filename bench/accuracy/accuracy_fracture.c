@@ -63,7 +63,7 @@ static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct 
 
 /* Returns the time at which the cracks have grown by `length` [m], interpolated between the samples at which their mean
  * growth increased; NAN: never. */
-static double time_of(const struct tips *t, double length)
+static double time_of(const struct crack_tips *t, double length)
 {
     double time[2] = {NAN, NAN}, growth[2] = {0, 0};
     for (int64_t s = 0; s < t->samples; s++) {
@@ -86,12 +86,12 @@ static double time_of(const struct tips *t, double length)
  * none. */
 static double angle_at(const struct run *e, double radius, double width)
 {
-    const struct tips *t = &e->fracture->tips;
+    const struct crack_tips *t = &e->fracture->tips;
     double along = 0, across = 0;
     for (int64_t i = 0; i < e->part.n; i++) {
         const int k = t->label[i] - 1;
         if (k < 0 || k >= t->n || !t->tip[k].from_crack) continue;
-        const struct tip *tip = &t->tip[k];
+        const struct crack_tip *tip = &t->tip[k];
         const double offset[2] = {e->part.X[0][i] - tip->origin[0], e->part.X[1][i] - tip->origin[1]};
         if (fabs(hypot(offset[0], offset[1]) - radius) > width) continue;
         along += e->part.damage[i] * (offset[0] * tip->along[0] + offset[1] * tip->along[1]);
@@ -103,7 +103,7 @@ static double angle_at(const struct run *e, double radius, double width)
 
 struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struct run *e)
 {
-    const struct tips *t = &e->fracture->tips;
+    const struct crack_tips *t = &e->fracture->tips;
     struct fracture f = {.start = time_of(t, watched[p->at].start), .speed = NAN};
     int n = 0;
     for (int k = 0; k < t->n; k++)

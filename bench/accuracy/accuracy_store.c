@@ -83,10 +83,10 @@ status accuracy_store_append(const struct accuracy_entry *entry)
     TRY(bench_begin("accuracy"));
     const bool fresh = !path_is_file(STORE);
     FILE *to = fopen(STORE, "a");
-    if (!to) return file_fault(STORE, errno);
+    if (!to) return file_report_write_failure(STORE, errno);
     if (fresh) fputs(HEADER "\n", to);
     put_line(to, entry);
-    return fclose(to) == 0 ? OK : file_fault(STORE, errno);
+    return fclose(to) == 0 ? OK : file_report_write_failure(STORE, errno);
 }
 
 static void fill_points(struct bench_table *t, const struct accuracy_plan *plan)

@@ -94,11 +94,11 @@ status accuracy_table_write(const struct accuracy_plan *plan)
     static const char path[] = BENCH_FOLDER "/cost_accuracy.csv";
     TRY(bench_folder_make());
     FILE *to = fopen(path, "w");
-    if (!to) return file_fault(path, errno);
+    if (!to) return file_report_write_failure(path, errno);
     bool *kept = kept_points(plan);
     fputs(ACCURACY_TABLE_HEADER "\n", to);
     for (int k = 0; k < plan->n; k++)
         if (kept[k] && is_usable(&plan->entry[k])) put_entry(to, &plan->entry[k]);
     memory_free(kept);
-    return fclose(to) == 0 ? OK : file_fault(path, errno);
+    return fclose(to) == 0 ? OK : file_report_write_failure(path, errno);
 }

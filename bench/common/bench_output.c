@@ -121,8 +121,8 @@ static status bench_folder_guard(void)
 status bench_folder_make(void)
 {
     TRY(bench_folder_guard());
-    if (mkdir("results", 0777) != 0 && errno != EEXIST) return file_fault("results", errno);
-    if (mkdir(BENCH_FOLDER, 0777) != 0 && errno != EEXIST) return file_fault(BENCH_FOLDER, errno);
+    if (mkdir("results", 0777) != 0 && errno != EEXIST) return file_report_write_failure("results", errno);
+    if (mkdir(BENCH_FOLDER, 0777) != 0 && errno != EEXIST) return file_report_write_failure(BENCH_FOLDER, errno);
     return OK;
 }
 

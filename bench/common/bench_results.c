@@ -106,7 +106,7 @@ status bench_results_begin(struct bench_results *r, const char *name, bool quick
 {
     if (!path_exists("bench"))
         return status_set(REFUSED, "bench: no such folder; --readme is for the top of the source tree");
-    if (mkdir(RESULTS, 0777) != 0 && errno != EEXIST) return file_fault(RESULTS, errno);
+    if (mkdir(RESULTS, 0777) != 0 && errno != EEXIST) return file_report_write_failure(RESULTS, errno);
     fprintf(stderr, "bench %s: its figures go to " RESULTS "\n", name);
     results_head(r->head, sizeof r->head, name, quick);
     snprintf(table_head, sizeof table_head, "%s", r->head);

@@ -65,7 +65,7 @@ void bench_engine_free(struct run *e, struct scene *s)
 
 status bench_engine_run(struct run *e, int64_t until, struct timers *spent)
 {
-    const int64_t steps = e->clock.steps, stride = levels_stride(&e->frame->levels);
+    const int64_t steps = e->clock.steps, stride = levels_steps_per_cycle(&e->frame->levels);
     until = (until + stride - 1) / stride * stride;
     memory_free(e->report->record); /* each call of engine_run allocates its own */
     e->report->record = NULL;
@@ -87,7 +87,7 @@ void bench_engine_start(struct run *e, bench_field *field, const void *context)
     }
     for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) {
         if (!(e->frame->mesh.inverse_mass[I] > 0)) continue;
-        const int64_t at = mesh_base(&e->frame->mesh, I);
+        const int64_t at = mesh_regular_node_of(&e->frame->mesh, I);
         for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
         field(context, X, v);
         for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
@@ -127,7 +127,7 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
 
 void bench_figures_take(const struct run *e, struct bench_figure *figure, int n)
 {
-    const struct observed seen = run_observed(e);
+    const struct observed_run seen = observed_run_of(e);
     probes_visit_results(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
 }
 
@@ -138,7 +138,7 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
     for (int k = 0; k < n; k++) figure[k].value = NAN;
     TRY(bench_engine_make(&e, &s, path, text, bench_overrides_ready(o), o->n));
     status ran = engine_run(&e);
-    if (ran == OK) ran = engine_run_baseline(&e);
+    if (ran == OK) ran = engine_run_mpm_baseline(&e);
     if (ran == OK) bench_figures_take(&e, figure, n);
     bench_engine_free(&e, &s);
     return ran;
@@ -183,7 +183,7 @@ status bench_child_start(struct bench_child *c, const char *path, const struct s
     TRY(bench_folder_make());
     strcpy(c->folder, BENCH_FOLDER "/run-XXXXXX");
     if (!mkdtemp(c->folder)) {
-        status s = file_fault(c->folder, errno);
+        status s = file_report_write_failure(c->folder, errno);
         c->folder[0] = 0;
         return s;
     }

@@ -76,7 +76,7 @@ static status plain_make(struct plain *b, const struct strip *s, struct plane_ro
         b->v[d] = NEW("bench.plain", e.part.n, real);
         array_copy(b->v[d], e.part.v[d], e.part.n, sizeof(real));
     }
-    if (ran == OK) b->energy_change = run_observed(&e).energy_change;
+    if (ran == OK) b->energy_change = observed_run_of(&e).energy_change;
     bench_engine_free(&e, &scene);
     return ran;
 }
@@ -131,7 +131,8 @@ static void coupling_plane_compare(struct plane_row *r, const struct strip *s, c
         else if (far < -AWAY || 1e3 * p->X[0][i] < passed)
             back = fmax(back, hypot(p->v[0][i] - b->v[0][i], p->v[1][i] - b->v[1][i]));
     }
-    r->result = (struct pulse_result){back / incident, on / incident, run_observed(e).energy_change - b->energy_change};
+    r->result =
+        (struct pulse_result){back / incident, on / incident, observed_run_of(e).energy_change - b->energy_change};
     r->wave = largest_block(s, p, b) / incident;
 }
 

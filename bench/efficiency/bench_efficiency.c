@@ -121,7 +121,7 @@ static void compare_tips(struct result *x, int variant, int dim)
     x->tip_distance[variant] = x->angle_difference[variant] = x->angle[0] = x->angle[variant] = NAN;
     x->start_difference[variant] = adaptive->start - pd->start;
     if (pd->longest < 0) return;
-    const struct tip *a = &pd->tip[pd->longest], *b = crack_partner(adaptive, a);
+    const struct crack_tip *a = &pd->tip[pd->longest], *b = crack_partner(adaptive, a);
     x->angle[0] = tip_angle(a, dim);
     if (!b) return;
     x->angle[variant] = tip_angle(b, dim);

@@ -75,7 +75,7 @@ static status sensitivity_run_all(struct scatter *x, double dt)
             *end = (struct end){.dt = dt * factor_of(r, x->runs), .angle = NAN, .place = {NAN, NAN, NAN}};
             ran = sensitivity_run_once(x, m, end->dt, own);
             if (ran != OK || ends[0].longest < 0) continue;
-            const struct tip *tip = crack_partner(own, &ends[0].tip[ends[0].longest]);
+            const struct crack_tip *tip = crack_partner(own, &ends[0].tip[ends[0].longest]);
             end->start = own->start;
             if (!tip) continue;
             end->angle = tip_angle(tip, x->dim);

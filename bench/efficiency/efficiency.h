@@ -63,7 +63,7 @@ void efficiency_tic(FILE *to, const struct scene_case *scene);
 
 /* Crack tips at the end of a run. */
 struct crack_ends {
-    struct tip tip[TIPS_MAX];
+    struct crack_tip tip[TIPS_MAX];
     int tips, longest; /* number of tips; index of the longest crack, -1: none grew */
     double start;      /* time of the first broken bond [s] */
 };
@@ -73,7 +73,7 @@ void crack_ends_keep(struct crack_ends *c, const struct run *e);
 
 /* Returns the crack tip of another run that ended nearest to the end of `tip`; NULL if no crack grew there. (The
  * nearest start may belong to a crack of one spacing that arrested beside the one that ran.) */
-const struct tip *crack_partner(const struct crack_ends *other, const struct tip *tip);
+const struct crack_tip *crack_partner(const struct crack_ends *other, const struct crack_tip *tip);
 
 /* Returns the distance of two positions [m]. */
 double place_distance(const real *a, const real *b);

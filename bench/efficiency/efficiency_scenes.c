@@ -108,7 +108,7 @@ void efficiency_tic(FILE *to, const struct scene_case *scene)
 /* Stores the crack tips of a run and the start of its first crack. */
 void crack_ends_keep(struct crack_ends *c, const struct run *e)
 {
-    const struct tip *longest = tips_longest(&e->fracture->tips);
+    const struct crack_tip *longest = tips_longest(&e->fracture->tips);
     memcpy(c->tip, e->fracture->tips.tip, sizeof c->tip);
     c->tips = e->fracture->tips.n;
     c->longest = longest ? (int)(longest - e->fracture->tips.tip) : -1;
@@ -122,9 +122,9 @@ double place_distance(const real *a, const real *b)
     return sqrt(sum);
 }
 
-const struct tip *crack_partner(const struct crack_ends *other, const struct tip *tip)
+const struct crack_tip *crack_partner(const struct crack_ends *other, const struct crack_tip *tip)
 {
-    const struct tip *best = NULL;
+    const struct crack_tip *best = NULL;
     for (int k = 0; k < other->tips; k++)
         if (other->tip[k].growth > 0 &&
             (!best || place_distance(other->tip[k].place, tip->place) < place_distance(best->place, tip->place)))

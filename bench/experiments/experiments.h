@@ -106,7 +106,7 @@ struct branching {
 };
 
 /* Finds the branching in a frame. spacing: of the particles [m]. */
-struct branching branching_find(const struct frame *f, double spacing);
+struct branching branching_find(const struct output_frame *f, double spacing);
 
 /* Returns the position x of the branching in the last frame of a run [m]. */
 double branching_place(const char *folder, double spacing);
@@ -118,7 +118,7 @@ double branching_angle(const char *folder, double spacing);
 double branching_count(const char *folder, double spacing);
 
 /* Reads the last frame of a run. Release with frame_free. */
-status experiment_last_frame(struct frame *f, const char *folder);
+status experiment_last_frame(struct output_frame *f, const char *folder);
 enum { EXPERIMENT_DAMAGED = 35 }; /* damage that counts as crack, as for crack tips [%] */
 
 /* ---- the experiments --------------------------------------------------------------------------------------------- */

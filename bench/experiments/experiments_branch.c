@@ -32,7 +32,7 @@ static int by_y(const void *a, const void *b)
 }
 
 /* Returns the columns, one spacing wide, from x = 0; allocated. */
-static struct branch_column *columns_of(const struct frame *f, double spacing, int *columns)
+static struct branch_column *columns_of(const struct output_frame *f, double spacing, int *columns)
 {
     struct branch_point *point = NEW("bench.branch", f->n, struct branch_point);
     double longest = 0;
@@ -81,7 +81,7 @@ static double opening_slope(const struct branch_column *c, int first, int end, d
     return n > 5 ? (n * xy - x * y) / (n * xx - x * x) : NAN;
 }
 
-struct branching branching_find(const struct frame *f, double spacing)
+struct branching branching_find(const struct output_frame *f, double spacing)
 {
     struct branching b = {NAN, NAN, 0};
     int columns;
@@ -100,7 +100,7 @@ struct branching branching_find(const struct frame *f, double spacing)
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
 /* Reads the last frame of a run. Release with frame_free. */
-status experiment_last_frame(struct frame *f, const char *folder)
+status experiment_last_frame(struct output_frame *f, const char *folder)
 {
     int n;
     struct listed_frame *list;
@@ -113,7 +113,7 @@ status experiment_last_frame(struct frame *f, const char *folder)
 
 static struct branching branching_in(const char *folder, double spacing)
 {
-    struct frame f = {0};
+    struct output_frame f = {0};
     struct branching b = {NAN, NAN, 0};
     if (experiment_last_frame(&f, folder) == OK) b = branching_find(&f, spacing);
     frame_free(&f);

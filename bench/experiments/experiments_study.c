@@ -36,7 +36,7 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
 {
     double value = NAN;
     const enum case_state state = s->study.at[k].state;
-    const struct path folder = study_folder(&s->study, &s->study.at[k]);
+    const struct path folder = study_case_folder(&s->study, &s->study.at[k]);
     if (state != CASE_DONE && state != CASE_DONE_BEFORE) return NAN;
     if (f->measure)
         value = f->measure(folder.text, s->point[k].spacing);
@@ -109,9 +109,9 @@ static void paths_take(struct experiments *x, const struct experiment_case *c, c
     snprintf(p->title, sizeof p->title, "%s, %s", c->experiment, c->variant);
     for (int l = 0; l < p->levels; l++) p->spacing[l] = 1e3 * s->spacings.at[l][0];
     for (int k = 0; k < s->study.n; k++) {
-        struct frame f = {0};
+        struct output_frame f = {0};
         if (s->point[k].level < 0) continue;
-        if (experiment_last_frame(&f, study_folder(&s->study, &s->study.at[k]).text) == OK)
+        if (experiment_last_frame(&f, study_case_folder(&s->study, &s->study.at[k]).text) == OK)
             for (int64_t i = 0; i < f.n; i++)
                 if (f.damage[i] > 0.01 * EXPERIMENT_DAMAGED) path_add(p, f.X[0][i], f.X[1][i], s->point[k].level);
         frame_free(&f);

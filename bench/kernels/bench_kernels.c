@@ -61,7 +61,7 @@ static status kernels_body_make(struct run *e, struct scene *s, int dim, const c
 static void faces_press(struct run *e)
 {
     real low, high;
-    particles_extent(&e->part, e->part.n, 0, &low, &high);
+    particles_coordinate_range(&e->part, e->part.n, 0, &low, &high);
     for (int64_t i = 0; i < e->part.n; i++)
         if (e->part.X[0][i] < 0.5 * (low + high)) e->part.x[0][i] += 0.02 * e->scene->spacing;
 }
@@ -122,15 +122,15 @@ static void points_stress(struct run *e)
 {
     const real yield = e->tables.elastic[0].yield;
     for (int64_t i = 0; i < e->part.n; i++) e->part.plastic_strain[i] = 0;
-    for (int c = 0; c < symmetric_count(e->part.dim); c++)
+    for (int c = 0; c < symmetric_component_count(e->part.dim); c++)
         for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
 }
 
 /* Updates the pairs in contact; changed: 1 as after particles have changed, which requires a search, else 0. */
 static void faces_update(struct run *e, int changed)
 {
-    contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
-                   e->contact->changed + changed);
+    contact_update_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
+                        e->contact->changed + changed);
 }
 
 static void job_call(const struct job *j, struct ground *g)
@@ -171,7 +171,7 @@ static void job_call(const struct job *j, struct ground *g)
         grid_clear(&e->grid->field[0].grid);
         break;
     case GRID_MOVE:
-        grid_move(&e->grid->field[0].grid, TRANSFER_FLIP, 1e-12, e->grid->smallest_mass, impulse, &work);
+        grid_move_nodes(&e->grid->field[0].grid, TRANSFER_FLIP, 1e-12, e->grid->smallest_mass, impulse, &work);
         break;
     case MESH_CLEAR:
         mesh_clear(&m->frame->mesh);
@@ -258,7 +258,7 @@ static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
     const struct run *e = &g->engine[POINTS], *pd = bonds_of(j, g);
-    const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
+    const double r = sizeof(real), dim = j->dim, symmetric = symmetric_component_count(j->dim);
     const double node = r * (double)e->grid->field[0].grid.n / (double)e->part.n;
     const double stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
     /* State-based: two sweeps; yielding: two numbers read and written, and the pair of materials. */

@@ -62,7 +62,7 @@ static status field_scene_write(const struct field_bench *b, bool part)
     const double high = part ? NEAR : HALF, wide = part ? WIDE : HALF;
     TRY(bench_folder_make());
     FILE *to = fopen(SCENE, "w");
-    if (!to) return file_fault(SCENE, errno);
+    if (!to) return file_report_write_failure(SCENE, errno);
     fprintf(to, "space: plane strain\nthickness: 1 mm\nduration: %.9g\nmethod: adaptive\n",
             1e-3 * high / b->speed + SEEN * b->pulse);
     fprintf(to, "material: {young: %g, poisson: %g, density: %g}\n", young, poisson, density);
@@ -73,7 +73,7 @@ static status field_scene_write(const struct field_bench *b, bool part)
     fprintf(to, "  - {traction: [0, %g MPa], face: y-, time: {pulse: {until: %.9g}}}\n", part ? -2.0 : -1.0, b->pulse);
     if (part) fputs("  - {absorbing: true, face: y-}\n  - {absorbing: true, face: y+}\n", to);
     fprintf(to, "output: {frames: 0, samples: %d}\nprobes: [sif: {contours: [4 mm]}]\n", FIELD_SAMPLES);
-    return fclose(to) == 0 ? OK : file_fault(SCENE, errno);
+    return fclose(to) == 0 ? OK : file_report_write_failure(SCENE, errno);
 }
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */

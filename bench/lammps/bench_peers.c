@@ -141,7 +141,7 @@ static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclu
     int64_t cut = 0;
     for (int64_t i = 0; i < p->n && e->source.cracks > 0; i++) {
         real X[DIM_MAX];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         const int n = cells_find_near(&e->cells, p, X, e->source.family.cutoff, (int32_t)i, found, COUNT_OF(found));
         for (int k = 0; k < n; k++) {
             const int32_t j = found[k];
@@ -204,7 +204,7 @@ static void write_script(FILE *to, const struct run *e, const struct peer_case *
 static FILE *create(const char *name, status *s)
 {
     FILE *to = fopen(path_join(FOLDER, name).text, "w");
-    if (!to && *s == OK) *s = file_fault(path_join(FOLDER, name).text, errno);
+    if (!to && *s == OK) *s = file_report_write_failure(path_join(FOLDER, name).text, errno);
     return to;
 }
 
@@ -223,8 +223,8 @@ static status write_input(const struct run *e, const struct peer_case *c, int ed
         write_script(script, e, c, exclude);
     }
     if (lines && fclose(lines) != 0 && s == OK) s = status_set(FAILED, "bench peers: out of memory");
-    if (data && fclose(data) != 0 && s == OK) s = file_fault(FOLDER "/particles.data", errno);
-    if (script && fclose(script) != 0 && s == OK) s = file_fault(FOLDER "/in.lammps", errno);
+    if (data && fclose(data) != 0 && s == OK) s = file_report_write_failure(FOLDER "/particles.data", errno);
+    if (script && fclose(script) != 0 && s == OK) s = file_report_write_failure(FOLDER "/in.lammps", errno);
     free(exclude);
     memory_free(type);
     return s;
@@ -400,7 +400,7 @@ static status peers_measure(struct peer_result *result, bool quick)
     struct bench_child folder = {0};
     TRY(bench_folder_make());
     strcpy(folder.folder, FOLDER);
-    status s = mkdir(FOLDER, 0777) == 0 || errno == EEXIST ? OK : file_fault(FOLDER, errno);
+    status s = mkdir(FOLDER, 0777) == 0 || errno == EEXIST ? OK : file_report_write_failure(FOLDER, errno);
     printf("  %-15s %s %8s %9s %10s %6s %8s %8s %7s   %8s\n", "", "law", "reach", "particles", "bonds", "cut",
            "ns/bond", "LAMMPS", "ratio", "|u - u_L|");
     for (int k = 0; k < CASES && s == OK; k++) {

@@ -34,10 +34,10 @@ static struct law steel_kinematic(real modulus, real recall)
 struct law_points laws_points_at_rest(void)
 {
     struct law_points p = {.active = (lanes_mask){0} - 1};
-    for (int c = 0; c < SYM_MAX; c++) p.s[c] = p.before[c] = p.back[c] = lanes_of(0);
-    p.a = p.work = lanes_of(0);
-    p.volume_before = p.volume = lanes_of(1);
-    p.rate = lanes_of(1), p.temperature = lanes_of(294);
+    for (int c = 0; c < SYM_MAX; c++) p.s[c] = p.before[c] = p.back[c] = lanes_broadcast(0);
+    p.a = p.work = lanes_broadcast(0);
+    p.volume_before = p.volume = lanes_broadcast(1);
+    p.rate = lanes_broadcast(1), p.temperature = lanes_broadcast(294);
     return p;
 }
 
@@ -233,7 +233,7 @@ static void point_heat(const struct law *m, real to, real *stress, real *tempera
 {
     const real step = 1e-4, strain[SYM_MAX] = {step, -0.5 * step, -0.5 * step};
     struct law_points p = laws_points_at_rest(), next = p;
-    p.rate = next.rate = lanes_of(1000);
+    p.rate = next.rate = lanes_broadcast(1000);
     while (next.a[0] < to) {
         p = next;
         laws_add_trial_stress(m, &next, strain, SPACE_SOLID);

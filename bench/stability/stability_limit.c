@@ -110,7 +110,7 @@ static double silling_step(const struct run *e)
     double most = 0;
     for (int64_t r = 0; r < b->rows; r++) {
         double sum = 0;
-        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);)
             sum += b->stiffness * it.bond.w * it.bond.inverse_length;
         most = fmax(most, sum / e->part.mass[b->particle[r]]);
     }

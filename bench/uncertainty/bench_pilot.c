@@ -44,7 +44,7 @@ static status chosen_run(const struct pilot *p, const char *scene, const char *f
     study_add(&s, "run", p->override, p->overrides);
     status done = study_check(&s, false);
     if (done == OK) done = study_run(&s, (struct study_options){.quiet = true});
-    if (done == OK) done = summary_number(study_folder(&s, &s.at[0]).text, figure, value);
+    if (done == OK) done = summary_number(study_case_folder(&s, &s.at[0]).text, figure, value);
     study_free(&s);
     return done;
 }
@@ -103,7 +103,7 @@ status bench_pilot(bool quick)
     TRY(bench_folder_make());
     printf("pilot\n");
     bench_print_machine(team_set_threads(0));
-    if (!mkdtemp(folder)) return file_fault(folder, errno);
+    if (!mkdtemp(folder)) return file_report_write_failure(folder, errno);
     printf("  %-22s %-26s %7s %10s  %-14s %11s %9s %9s\n", "scene", "figure", "asked", "error", "chosen", "spacing",
            "pilots", "run");
     bench_table_make(&table, "", "scene,figure,method,asked,exact,value,error,spacing,pilot_seconds,run_seconds");

@@ -62,9 +62,9 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
     TRY(scene_text_write(scene.text, k, variant[1], spacing));
     TRY(convergence_study_run(&s, &wish));
     for (int f = 0; f < KNOWN_FIGURES_MOST && k->figure[f].name; f++) {
-        struct figure_study *figure = NULL;
+        struct scalar_result_study *figure = NULL;
         int n = 0;
-        if (figures_find(&s, &k->figure[f].name, 1, &figure, &n) == OK && rows->n < ROWS_MOST)
+        if (scalar_results_find(&s, &k->figure[f].name, 1, &figure, &n) == OK && rows->n < ROWS_MOST)
             rows->at[rows->n++] =
                 (struct known_row){k, variant[0], spacing, k->figure[f].name, k->figure[f].exact, figure[0].c};
         else
@@ -191,7 +191,7 @@ status bench_uncertainty(bool quick)
     status s = bench_folder_make();
     printf("uncertainty\n");
     bench_print_machine(team_set_threads(0));
-    if (s == OK && !mkdtemp(folder)) s = file_fault(folder, errno);
+    if (s == OK && !mkdtemp(folder)) s = file_report_write_failure(folder, errno);
     printf("  %-18s %-20s %-8s %-28s %9s %9s %6s  %s\n", "scene", "method", "spacing", "figure", "error", "+-",
            "+-/err", "verdict");
     for (int k = 0; k < known_scenes_n && s == OK; k++)

@@ -35,18 +35,18 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 #endif
 
 /* Returns the number of components of a symmetric tensor. */
-static inline int symmetric_count(int dim) { return dim * (dim + 1) / 2; }
+static inline int symmetric_component_count(int dim) { return dim * (dim + 1) / 2; }
 
 /* Computes row and column (0 .. 2) of component s of a symmetric tensor. Order of the components: xx, yy, zz, xy, yz,
  * zx in 3D; xx, yy, xy in 2D. */
-static inline void symmetric_axes(int dim, int s, int *row, int *column)
+static inline void symmetric_component_axes(int dim, int s, int *row, int *column)
 {
     *row = s < dim ? s : s == dim ? 0 : s == dim + 1 ? 1 : 2;
     *column = s < dim ? s : (*row + 1) % DIM_MAX;
 }
 
 /* Returns the hash of z extended by a word, by one step of Splitmix64 (Steele, Lea, Flood 2014). */
-static inline uint64_t splitmix(uint64_t z, uint64_t word)
+static inline uint64_t hash_add_word(uint64_t z, uint64_t word)
 {
     z += (word + 1) * UINT64_C(0x9e3779b97f4a7c15);
     z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);

@@ -4,17 +4,17 @@
 
 #include <stdbool.h>
 
-enum leaving { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
+enum cleanup_kind { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
 
 /* Sets what is cleaned up if SIGINT, SIGTERM or SIGHUP ends this process: first the child `process` (id; 0: none) is
- * killed with all processes that it started, then the file `path` (copied; NULL: none) is removed. which: kind of file;
+ * killed with all processes that it started, then the file `path` (copied; NULL: none) is removed. kind: kind of file;
  * replaces its previous entry. A signal that is ignored or already has a handler is left alone. */
-void interrupt_cleanup_set(enum leaving which, const char *path, int process);
+void interrupt_cleanup_register(enum cleanup_kind kind, const char *path, int process);
 
 /* Blocks SIGINT, SIGTERM and SIGHUP in the calling thread (hold true), or unblocks them (false). Block them while a
- * temporary file or child process exists that has not yet been passed to interrupt_cleanup_set. A child process
+ * temporary file or child process exists that has not yet been passed to interrupt_cleanup_register. A child process
  * inherits the block. */
-void interrupt_cleanup_block(bool hold);
+void interrupt_cleanup_block(bool block);
 
 /* Prepares a child process, between fork and exec: puts it into a process group of its own, so that processes that it
  * starts are killed with it, and unblocks SIGINT, SIGTERM and SIGHUP. */

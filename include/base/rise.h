@@ -17,7 +17,7 @@ enum {
 };
 
 /* The last RISE_VALUES records; record n is at[n % RISE_VALUES]. */
-struct rise {
+struct growth_samples {
     int64_t n;
     struct {
         int64_t step;
@@ -30,12 +30,12 @@ enum growth_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
 /* Records `value` at time step number `step` in r, unless the last record is less than RISE_CLOSEST steps old. The last
  * RISE_VALUES records are kept. */
-void growth_rate_add_sample(struct rise *r, int64_t step, real value);
+void growth_rate_add_sample(struct growth_samples *r, int64_t step, real value);
 
 /* Returns how fast the quantity recorded in r has grown to `value` > 0 at time step number `step`: RISE_FAST if it
  * increased tenfold within RISE_STEPS steps (growth between two records is taken as exponential), RISE_SLOW if that
- * took longer, RISE_UNSURE if the records do not decide. *steps receives the approximate duration of the last tenfold
- * increase [steps], INFINITY if it is longer than the records. */
-enum growth_rate growth_rate(const struct rise *r, int64_t step, real value, real *steps);
+ * took longer, RISE_UNSURE if the records do not decide. *tenfold_steps receives the approximate duration of the last
+ * tenfold increase [steps], INFINITY if it is longer than the records. */
+enum growth_rate growth_rate_classify(const struct growth_samples *r, int64_t step, real value, real *tenfold_steps);
 
 #endif

@@ -34,7 +34,7 @@ void warnings_print_new(const struct warnings *w, int first);
 
 /* Saves the warnings of the list w to the archive if a->saving, else appends the stored ones to w. Returns FAILED if
  * the archive cannot be read or written or its entries are inconsistent. */
-status warnings_archive(struct warnings *w, struct archive *a);
+status warnings_save_or_load(struct warnings *w, struct archive *a);
 
 /* Releases all texts. */
 void warnings_free(struct warnings *w);

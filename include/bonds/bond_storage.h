@@ -198,9 +198,9 @@ struct bonds {
 
 /* Returns true if row block `row_block` (the stored bonds of eight particles) has eight rows, all of peridynamic
  * particles, which store their complete families. */
-static inline bool row_block_whole(const struct bonds *b, int64_t row_block)
+static inline bool row_block_is_complete(const struct bonds *b, int64_t row_block)
 {
-    return eight_bytes(b->whole + row_block * LANES) == EIGHT_TIMES(1);
+    return load_eight_bytes(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
 
 /* Recomputes the common properties b->common[column] of one column (eight bonds, one of each particle of a row block)
@@ -221,7 +221,7 @@ void row_block_write_columns(struct bonds *b, int64_t row_block);
 /* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond k of the particle in lane `lane` (0 to 7)
  * of a row block, so that the caller may write to it. Expands the row block first if its columns are not written. After
  * a change of w or of the sign of inverse_length the caller calls bonds_update_common_of_bond. */
-static inline int64_t bond_to_write(struct bonds *b, int64_t row_block, int64_t k, int lane)
+static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_write_columns(b, row_block);
     return (b->column[row_block] + k) * LANES + lane;

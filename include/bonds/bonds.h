@@ -16,7 +16,7 @@ struct spring_bound {
 };
 
 /* Adds a spring of stiffness K [N/m] and direction n (unit vector, dim components) to the sums of the bound s. */
-static inline void spring_bound_add(struct spring_bound *s, real K, const real *n, int dim)
+static inline void spring_bound_add_spring(struct spring_bound *s, real K, const real *n, int dim)
 {
     for (int a = 0; a < dim; a++)
         for (int c = 0; c < dim; c++) s->block[a][c] += K * n[a] * n[c];
@@ -25,7 +25,7 @@ static inline void spring_bound_add(struct spring_bound *s, real K, const real *
 
 /* Returns the block-Gershgorin upper bound of the largest eigenvalue of the springs added to s: the maximum row sum of
  * the matrix sum K n n, plus the sum of all K [N/m]. */
-static inline real spring_bound_of(const struct spring_bound *s, int dim)
+static inline real spring_bound_eigenvalue(const struct spring_bound *s, int dim)
 {
     real norm = 0;
     for (int a = 0; a < dim; a++) {
@@ -42,12 +42,12 @@ bool cracks_separate_particles(const struct crack *crack, int cracks, const stru
 
 /* Returns an upper bound of the number of neighbours of any particle within the cutoff, from counts of particles in
  * search cells. Computed once at set-up, because reference positions do not change. s: inputs of the bonds. */
-int bonds_most_neighbours(const struct bond_source *s);
+int bonds_neighbour_count_bound(const struct bond_source *s);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
  * V_j is the volume of neighbour j and beta its fraction within the horizon. volume: [p->n_all] [m^3]; source: inputs
  * of the bonds. */
-void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *source);
+void bonds_compute_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *source);
 
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs `source`. old:
  * NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; parts of its
@@ -57,14 +57,14 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
 
 /* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. source:
  * inputs, of which the list of images is used. */
-void bonds_update_image_kinds(struct particles *p, const struct bond_source *source);
+void mirror_images_copy_kinds(struct particles *p, const struct bond_source *source);
 
 /* Rebuilds the particle lists of p and the bonds b after particles have changed their kind (material point or
  * peridynamic). source: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
 void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Returns an upper bound (spring_bound_of) of the largest eigenvalue of the stiffness matrix of the bonds of one row,
- * i.e. of one particle [N/m]. */
+/* Returns an upper bound (spring_bound_eigenvalue) of the largest eigenvalue of the stiffness matrix of the bonds of
+ * one row, i.e. of one particle [N/m]. */
 real bonds_row_stiffness_bound(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Releases all arrays of b. */
@@ -79,16 +79,16 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *so
  * peridynamic and no bond is broken. */
 real bonds_critical_step_of_existing(const struct bonds *b, const struct particles *p);
 
-/* Copies broken bonds, counts of broken bonds and damage from the bonds `old` of an earlier particle set `was` to the
- * bonds b of the particles p. now: index in p of each particle of `was`, images included; -1: the particle is not in p.
- * In both sets peridynamic particles must have all their neighbours. */
-void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
-                           const int32_t *now);
+/* Copies broken bonds, counts of broken bonds and damage from the bonds `old` of an earlier particle set
+ * `old_particles` to the bonds b of the particles p. new_index: index in p of each particle of `old_particles`, images
+ * included; -1: the particle is not in p. In both sets peridynamic particles must have all their neighbours. */
+void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bonds *old,
+                           const struct particles *old_particles, const int32_t *new_index);
 
 /* Saves (a->saving) or restores which bonds are broken and their plastic state; neighbours and weights are not stored,
  * since bonds_make rebuilds them. A trial archive (a->scope) contains only the plastic state, without the work of
  * broken bonds. Returns FAILED if an entry is missing or its size differs. */
-status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
+status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *a);
 
 /* Returns the weighted volume Q = sum w r^2 of the intact bonds of a row, i.e. of one particle [m^2], summed anew,
  * because subtracting broken bonds from a stored sum would leave round-off when few bonds remain. */
@@ -106,7 +106,7 @@ const char *bonds_find_violation(const struct bonds *b);
 real bonds_fracture_energy(const struct bonds *b);
 
 /* Returns eight bits: bit l is set if the particle in lane l (0 to 7) of row block `row_block` has an intact bond. */
-static inline unsigned bonds_intact(const struct bonds *b, int64_t row_block)
+static inline unsigned row_block_intact_lanes(const struct bonds *b, int64_t row_block)
 {
     const struct stencil *stencil = b->stencil[row_block];
     unsigned bits = 0;
@@ -119,10 +119,10 @@ static inline unsigned bonds_intact(const struct bonds *b, int64_t row_block)
 
 /* Returns true if particle i has an intact bond. (Storage is made for eight particles at once, so a particle may have
  * an empty row.) */
-static inline bool bonds_has(const struct bonds *b, int64_t i)
+static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
 {
     const int64_t row = b->row_of[i];
-    return row >= 0 && bonds_intact(b, row / LANES) >> row % LANES & 1;
+    return row >= 0 && row_block_intact_lanes(b, row / LANES) >> row % LANES & 1;
 }
 
 /* Clears the bits in `marks` (one bit per particle and image) of all particles and images to which the particle of
@@ -130,15 +130,18 @@ static inline bool bonds_has(const struct bonds *b, int64_t i)
 void bonds_clear_neighbour_marks(const struct bonds *b, int64_t row, uint64_t *marks);
 
 /* Returns the number of directed bonds of the eight particles of a row block, broken bonds included. */
-static inline int32_t row_block_bonds(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
+static inline int32_t row_block_bond_count(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 
 /* Returns the number of columns of a row block, which is the largest possible number of bonds of each of its eight
  * particles. */
-static inline int64_t bonds_columns(const struct bonds *b, int64_t row_block) { return b->column_count[row_block]; }
+static inline int64_t row_block_column_count(const struct bonds *b, int64_t row_block)
+{
+    return b->column_count[row_block];
+}
 
 /* Returns the neighbour in lane 0 of column k of a row block (column: the k-th bonds of eight particles), if the eight
  * neighbours of the column are consecutive particles; else -1. */
-static inline int64_t column_first(const struct bonds *b, int64_t row_block, int64_t k)
+static inline int64_t column_first_if_consecutive(const struct bonds *b, int64_t row_block, int64_t k)
 {
     const struct stencil *stencil = b->stencil[row_block];
     return stencil ? b->particle[row_block * LANES] + stencil->column[k].offset : b->first[b->column[row_block] + k];
@@ -177,7 +180,7 @@ static inline struct bond bond_read(const struct bonds *b, int64_t row_block, in
 /* Iterator over the bonds of a row in the order of their columns, including bonds that are broken or cut by pre-cracks.
  * Writes nothing:
  *
- *     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) ... it.bond ... */
+ *     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) ... it.bond ... */
 struct bond_iterator {
     struct bond bond;
     const struct bonds *b;
@@ -187,7 +190,7 @@ struct bond_iterator {
 
 /* Returns an iterator over all bonds of one row, i.e. of one particle, to be advanced by bond_next. row < 0: an
  * iterator without bonds. */
-static inline struct bond_iterator bonds_of_row(const struct bonds *b, int64_t row)
+static inline struct bond_iterator bond_iterator_of_row(const struct bonds *b, int64_t row)
 {
     if (row < 0) return (struct bond_iterator){.b = b};
     return (struct bond_iterator){{0}, b, row / LANES, 0, b->column_count[row / LANES], (int)(row % LANES)};

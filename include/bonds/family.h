@@ -90,7 +90,7 @@ struct bond_source {
     const struct mirror_plane *mirror; /* planes of symmetry, without clamped ones */
     int mirrors;
     const struct image *image; /* images made by loads */
-    int room; /* largest number of neighbours of a particle (bonds_most_neighbours); 0: counted when needed */
+    int room; /* largest number of neighbours of a particle (bonds_neighbour_count_bound); 0: counted when needed */
     const real *neighbour_volume; /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL: other methods */
     const struct surface_weights *surface; /* factors of bonds near faces (bonds/surface.h); NULL: none */
 };
@@ -110,9 +110,9 @@ real family_micro_modulus(const struct family *f, const struct material *m);
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
 /* Returns the work per area of separating a lattice along a plane in the model with particle rotations, divided by the
- * square of the stretch at which its bonds break [N/m] (separation.c). modulus: moduli of the material; local: true if
- * sums are normalised by the present family. */
-real family_separation_work(const struct family *f, const struct state_modulus *modulus, bool local);
+ * square of the stretch at which its bonds break [N/m] (separation.c). modulus: moduli of the material; present_family:
+ * true if sums are normalised by the present family. */
+real family_separation_work(const struct family *f, const struct state_modulus *modulus, bool present_family);
 
 /* Returns the energy per area of all bonds that cross a lattice plane normal to an axis, each at the critical stretch
  * of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */
@@ -120,7 +120,7 @@ real family_crossing_energy(const struct family *f, const struct material *m);
 
 /* Returns true if all bonds of family f have one weight: no partial volumes, influence function 1, and equal weights in
  * all directions. */
-static inline bool family_plain(const struct family *f)
+static inline bool family_has_equal_weights(const struct family *f)
 {
     return f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1];
 }

@@ -33,9 +33,9 @@ bool site_map_make(struct site_map *l, const struct bond_source *source, const s
 /* Releases the arrays of the map l. */
 void site_map_free(struct site_map *l);
 
-/* Returns a site map (from lattice sites to particles) for use by rebuilt bonds: `of` with one more user if it is not
- * NULL, else a new map of p. Release with site_map_release. */
-struct site_map *site_map_share(struct site_map *of, const struct bond_source *source, const struct particles *p);
+/* Returns a site map (from lattice sites to particles) for use by rebuilt bonds: `existing` with one more user if it is
+ * not NULL, else a new map of p. Release with site_map_release. */
+struct site_map *site_map_share(struct site_map *existing, const struct bond_source *source, const struct particles *p);
 
 /* Removes one user of a site map shared by several sets of bonds; the last user releases it. Does nothing if l is
  * NULL. */

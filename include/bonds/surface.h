@@ -45,19 +45,19 @@ status surface_weights_make(struct surface_weights *to, const struct particles *
 void surface_weights_free(struct surface_weights *w);
 
 /* Returns the integer nearest to a number of spacings; quicker than nearbyint. */
-static inline int nearest_step(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
+static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
 
 /* Returns the factor on the weight of the bond of particle i < n with reference vector xi (dim components [m]) [1]; 1
  * if the particle is far from faces or xi is longer than any bond. Both particles of a bond obtain bitwise equal
  * factors. */
-static inline real surface_factor(const struct surface_weights *w, int64_t i, const real *xi)
+static inline real surface_weight_factor(const struct surface_weights *w, int64_t i, const real *xi)
 {
     int at = 0;
     if (w->class_of[i] == 0) return 1;
     for (int d = w->dim - 1; d >= 0; d--) {
         const real place = xi[d] / w->spacing;
         if (!(fabs(place) < w->reach + 0.5)) return 1;
-        const int step = nearest_step(place);
+        const int step = nearest_integer(place);
         at = at * (2 * w->reach + 1) + w->reach + (w->mirrors[i] >> d & 1 ? -step : step);
     }
     return w->offset_at[at] < 0 ? 1 : w->factor[(int64_t)w->class_of[i] * w->offsets + w->offset_at[at]];

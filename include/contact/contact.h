@@ -162,9 +162,9 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
  * have moved farther than the list allows since the last search, if bonds have been broken since that search and it was
  * at least BREAKS_WAIT steps ago, or if a search was requested (c->due). Particles on which contact forces may act are
  * marked as loaded in `loads`, and their bonds as active in b. family: horizon and lattice; step: number of the step;
- * broken: number of directed bonds broken so far; changed: number of conversions and reversions so far. */
-void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
-                    const struct family *family, int64_t step, int64_t broken, int64_t changed);
+ * broken_bonds: number of directed bonds broken so far; changed: number of conversions and reversions so far. */
+void contact_update_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
+                         const struct family *family, int64_t step, int64_t broken_bonds, int64_t changed);
 
 /* Requests a search for pairs before the next step if one of n listed particles is at the surface of a body, i.e.
  * lacks a part of its family. list: indices of particles that have become peridynamic; family: horizon and lattice.
@@ -173,7 +173,7 @@ void contact_request_search(struct contact *c, const struct bonds *b, const stru
                             int64_t n);
 
 /* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds as active in b. Called by
- * contact_update; to be called by the user only after a restart. */
+ * contact_update_list; to be called by the user only after a restart. */
 void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
@@ -200,19 +200,19 @@ real contact_patch_diameter(const struct contact *c, const struct particles *p, 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
 real contact_friction_work(const struct contact *c);
 
-/* Searches for pairs (contact_update) and selects the contacts that act in an equilibrium solution: those that overlap,
- * and those between bodies whose gap is less than `close` [spacings]. Selected contacts act as linear springs, also
- * with a positive gap, until the next selection, so that forces are smooth; an equilibrium satisfies the contact law if
- * exactly the overlapping contacts are selected. Corrections of contact forces from earlier time steps (struct
- * contact_balance) are set to 0. family: horizon and lattice. Returns the number of contacts whose selection
+/* Searches for pairs (contact_update_list) and selects the contacts that act in an equilibrium solution: those that
+ * overlap, and those between bodies whose gap is less than `gap_limit` [spacings]. Selected contacts act as linear
+ * springs, also with a positive gap, until the next selection, so that forces are smooth; an equilibrium satisfies the
+ * contact law if exactly the overlapping contacts are selected. Corrections of contact forces from earlier time steps
+ * (struct contact_balance) are set to 0. family: horizon and lattice. Returns the number of contacts whose selection
  * changed. */
-int64_t contact_search(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
-                       const struct family *family, real close);
+int64_t contact_search_and_select(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
+                                  const struct family *family, real gap_limit);
 
 /* Selects the contacts that act in an equilibrium solution, as contact_search does, from the existing list of pairs. A
- * gap within round-off of 0 does not change the selection. close: gap between bodies below which a contact is selected
- * [spacings]. Returns the number of contacts whose selection changed. */
-int64_t contact_select(struct contact *c, const struct particles *p, real close);
+ * gap within round-off of 0 does not change the selection. gap_limit: gap between bodies below which a contact is
+ * selected [spacings]. Returns the number of contacts whose selection changed. */
+int64_t contact_select(struct contact *c, const struct particles *p, real gap_limit);
 
 /* Selects which contacts act in the next forces: with `use` those selected by contact_select, as linear springs;
  * otherwise those that overlap. */
@@ -229,7 +229,7 @@ bool contact_search_needed(struct contact *c, const struct particles *p);
 
 /* Returns how far any particle may move after a search before a pair that is missing in the list could come into
  * contact [m]. */
-real contact_list_reach(const struct contact *c);
+real contact_list_safe_distance(const struct contact *c);
 
 /* Calls visit(context, term) for each contact selected by contact_select, with the contact as a linear spring; term is
  * valid during the call only. Does nothing if no contacts have been selected. */
@@ -243,6 +243,6 @@ real contact_rigid_force_norm(const struct contact *c, const struct particles *p
 /* Saves the list of pairs with contact distances, friction springs and energies to the archive if a->saving, else
  * restores them. Returns FAILED, with a message, if the archive cannot be read or written, or if a restored list has
  * indices or counts that do not fit the particles. */
-status contact_archive(struct contact *c, const struct particles *p, struct archive *a);
+status contact_save_or_load(struct contact *c, const struct particles *p, struct archive *a);
 
 #endif

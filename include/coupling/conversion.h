@@ -71,6 +71,6 @@ void partial_stress_free(struct partial_stress *partial);
 
 /* Saves the results of conversion and reversion so far to the archive if a->saving, else restores them. Returns FAILED
  * if the archive cannot be read or written or a stored size differs. */
-status conversion_archive(struct conversion *c, struct archive *a);
+status conversion_save_or_load(struct conversion *c, struct archive *a);
 
 #endif

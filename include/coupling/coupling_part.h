@@ -25,23 +25,23 @@ struct coupling_state {
 /* Determines how peridynamic particles and material points of run e are coupled (partial stress, hand-shake and so on;
  * hand-shake unless the method is adaptive), then computes the partial stresses of material points and the interface
  * zone, in which motion is damped, for the present bonds. */
-void coupling_partial_make(struct run *e);
+void coupling_compute_partial_stress(struct run *e);
 
-/* Makes the mesh of the bodies in the reference frame (frame_make) with the present partial stresses and the slits of
- * pre-cracks. still: true if the caller sets displacement and velocity of the nodes afterwards. Returns REFUSED or
- * FAILED, with a message, as frame_make does. */
-status coupling_frame_make(struct run *e, bool still);
+/* Makes the mesh of the bodies in the reference frame (reference_frame_make) with the present partial stresses and the
+ * slits of pre-cracks. motion_set_later: true if the caller sets displacement and velocity of the nodes afterwards.
+ * Returns REFUSED or FAILED, with a message, as reference_frame_make does. */
+status coupling_make_mesh(struct run *e, bool motion_set_later);
 
 /* Rebuilds, after the bonds b have changed, the marks of material points with PD-MPM bonds (c->bonded, only for FLIP)
  * and the interface zone, in which motion is damped (c->zone, only for FLIP with partial stress). */
-void interface_make(struct coupling_state *c, const struct particles *p, const struct bonds *b,
-                    const struct bond_source *source);
+void interface_rebuild(struct coupling_state *c, const struct particles *p, const struct bonds *b,
+                       const struct bond_source *source);
 
 /* Updates p->end_strain, the contribution of a material point to the mean strain of its family, of all points with
  * state-based PD-MPM bonds: in a mesh from the strain of the cell, on the background grid from the stress of the point.
  * Does nothing in bond-based models. material: array of the materials. */
-void bonded_points_update(const struct partial_stress *partial, const struct reference_frame *frame,
-                          struct particles *p, const struct material *material);
+void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
+                                 struct particles *p, const struct material *material);
 
 /* Decides whether each pre-crack becomes a slit of the mesh or cuts bonds along its length, and makes peridynamic the
  * particles that are so from the start: those near the ends of slits, those with bonds cut by a pre-crack, those beside
@@ -49,20 +49,20 @@ void bonded_points_update(const struct partial_stress *partial, const struct ref
  * slits where they are impossible. */
 status precracks_apply(struct run *e);
 
-/* Writes how pre-crack number `crack` is represented, in words, to `text` (capacity `room` bytes): as a slit of the
+/* Writes how pre-crack number `crack` is represented, in words, to `text` (`capacity` bytes): as a slit of the
  * mesh, with the size of the zones of bonds at its ends, or by cut bonds, with the reason. spacing: of the particles
  * [m]. */
-void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t room);
+void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t capacity);
 
 /* Marks (FLAG_NEAR) material points beside slits and narrow voids whose faces approach each other, so that they convert
  * before the faces touch. The faces are examined every APPROACH_STEPS steps, and only if the scene allows contact of a
  * body with itself. Returns true if they were examined in this step, whether or not points were marked. */
-bool slits_flag_approaching(struct run *e);
+bool flag_points_at_closing_slits(struct run *e);
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
- * sides. Particles of a mesh are included only if `uncut` is true: otherwise the mesh has free surfaces at voids. v:
- * voids, NULL: none; uncut: result of mesh_ignores_voids. */
-void voids_convert_beside(struct particles *p, const struct voids *v, bool uncut);
+ * sides. Particles of a mesh are included only if `include_meshed` is true: otherwise the mesh has free surfaces at
+ * voids. v: voids, NULL: none; include_meshed: result of mesh_ignores_voids. */
+void convert_particles_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
 
 /* Returns true if a mesh with the nodes of grid g has no free surfaces at voids: in 1D, and if a mirror plane of scene
  * s does not pass through nodes of g, because doubled nodes are not possible then. */
@@ -83,10 +83,10 @@ void warn_of_joined_bodies(const struct run *e, struct warnings *to);
 bool conversion_prepare(struct run *e);
 
 /* Converts the marked material points to peridynamic particles (convert) and updates all that depends on it: bonds,
- * contact, partial stresses, interface zone and mesh. broken: number of directed bonds broken in this step; marked:
- * result of conversion_prepare; fades: true if bonds of growing cracks lose strength gradually. Returns the number of
- * particles converted. */
-int64_t conversion_apply(struct run *e, int64_t broken, bool marked, bool fades);
+ * contact, partial stresses, interface zone and mesh. broken_bonds: number of directed bonds broken in this step;
+ * faces_examined: result of conversion_prepare; bonds_fade: true if bonds of growing cracks lose strength gradually.
+ * Returns the number of particles converted. */
+int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade);
 
 /* Updates the mesh, and the material points with state-based PD-MPM bonds, after `converted` particles have become
  * peridynamic (0: only partial stresses have changed). Energy lost by removing points from the mesh is added to
@@ -99,8 +99,8 @@ void conversion_update_mesh(struct run *e, int64_t converted);
 status reversion_check(const struct scene *s);
 
 /* Turns peridynamic particles back into material points if their stress has been low for long enough and none of their
- * bonds was ever cut (reversion_choose, reversion_apply). Called before each step, but examines the particles only once
- * in several steps. Does nothing if the scene has no reversion. */
+ * bonds was ever cut (reversion_select_particles, reversion_apply). Called before each step, but examines the particles
+ * only once in several steps. Does nothing if the scene has no reversion. */
 void reversion_apply_due(struct run *e);
 
 #endif

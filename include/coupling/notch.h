@@ -43,10 +43,10 @@ void notches_convert(const struct notches *n, struct particles *p, const struct 
 void notches_free(struct notches *n);
 
 /* Sets FLAG_NEAR of material points beside slits and narrow voids whose opposite faces are about to touch. Tests the
- * distance of particles on opposite faces after the time `ahead` [s], extrapolated from present positions and
+ * distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from present positions and
  * velocities, which must be up to date. At a slit it must be smaller than one spacing by NOTCH_GAP spacings or, for a
  * notch of some width, by that width less NOTCH_GAP spacings; at a void, so small that the faces are close to contact.
  * spacing: of the particles [m]. */
-void notches_flag_approaching(const struct notches *n, struct particles *p, real spacing, real ahead);
+void notches_flag_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
 
 #endif

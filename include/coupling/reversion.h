@@ -20,8 +20,8 @@ struct reversion_rule {
  * it or of a particle within two horizons was ever cut, by load or by a pre-crack; it is inside a ball with the radius
  * of one horizon that will contain material points only. The remaining peridynamic regions thus consist of full
  * families, as conversion makes them, and the regions that revert are at least as wide as a family. */
-int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
-                         int32_t **list);
+int64_t reversion_select_particles(const struct reversion_rule *rule, struct particles *p, const struct bonds *b,
+                                   real t, int32_t **list);
 
 /* Turns n listed peridynamic particles into material points. Their stress follows from the bonds that cross their cells
  * (state-based models: from the virial of the family), their volume from the determinant of the deformation gradient of

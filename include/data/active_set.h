@@ -37,11 +37,11 @@ void active_set_rebuild_list(struct active_set *r);
 /* Saves the activity levels of the blocks to the archive under `name` if a->saving, else restores them. After
  * restoring, computations include all blocks in the next step, because the forces of inactive blocks are not stored.
  * Returns FAILED if the archive cannot be read or written. */
-status active_set_archive(struct active_set *r, const char *name, struct archive *a);
+status active_set_save_or_load(struct active_set *r, const char *name, struct archive *a);
 
 /* Returns the number of inactive blocks over the number of blocks that contain particles [1]; inactive blocks are still
  * at rest and skipped by computations. */
-static inline real inactive_share(const struct active_set *r)
+static inline real active_set_inactive_fraction(const struct active_set *r)
 {
     const int64_t blocks = r->blocks - r->empty;
     return blocks > 0 && r->active < blocks ? 1 - (real)r->active / (real)blocks : 0;

@@ -23,30 +23,30 @@ void cells_make(struct cells *c, const struct particles *p, real edge);
 void cells_free(struct cells *c);
 
 /* Lists the particles and mirror images of p within `radius` [m] (at most c->edge) of the point X (dim components [m])
- * in `found`, ascending, except particle `skip` (-1: no exception). Writes at most `room` indices. Returns the number
- * of particles found, which may exceed `room`. */
+ * in `found`, ascending, except particle `skip` (-1: no exception). Writes at most `capacity` indices. Returns the
+ * number of particles found, which may exceed `capacity`. */
 int cells_find_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-                    int32_t *found, int room);
+                    int32_t *found, int capacity);
 
 /* Returns an upper bound of the number of particles and images within `radius` [m] of any particle, itself included:
  * the largest number of particles in the search cells around any cell. Fast, because no distances are computed. */
-int cells_most_neighbours(const struct cells *c, real radius);
+int cells_neighbour_count_bound(const struct cells *c, real radius);
 
 /* List of near particles that grows as needed; start with {0}, release `at` with memory_free. */
-struct near {
+struct neighbour_list {
     int32_t *at;
     int n, room;
 };
 
 /* Lists the particles and mirror images within `radius` [m] of particle i in near->at, in ascending order, and their
  * number in near->n. itself: true to include particle i. */
-void particles_find_near(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
-                         bool itself);
+void particles_find_near(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
+                         real radius, bool itself);
 
 /* Lists the particles and mirror images within `radius` [m] of particle i in near->at, and their number in near->n, in
  * the order of the search cells: slightly faster than the ascending order of particles_find_near if there are images.
  * itself: true to include particle i. */
-void particles_find_near_unordered(struct near *near, const struct cells *c, const struct particles *p, int64_t i,
-                                   real radius, bool itself);
+void particles_find_near_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
+                                   int64_t i, real radius, bool itself);
 
 #endif

@@ -73,8 +73,8 @@ struct wall {
 /* Enlarges the box of nodes of g, if necessary, so that it covers the positions between the corners `from` and `to` [m]
  * with a margin of three cells. The box grows in steps of several nodes and never shrinks. *changed receives true if
  * the box changed; all nodal values are then 0. Returns FAILED, with a message, if a position is not finite or too far
- * away, or if the box would have more than `most` nodes. */
-status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
+ * away, or if the box would have more than `max_nodes` nodes. */
+status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t max_nodes, bool *changed);
 
 /* Releases all arrays. */
 void grid_free(struct grid *g);
@@ -115,27 +115,27 @@ static inline real grid_position(const struct grid *g, int d, int64_t k)
 /* Returns the coordinate of position x [m] in direction d in units of the node distance, counted from node 0 at
  * g->anchor; its floor is the index of the cell that contains x. All callers use this function, so that they round
  * alike. */
-static inline real grid_place(const struct grid *g, int d, real x) { return (x - g->anchor[d]) * (1 / g->h); }
+static inline real grid_cell_coordinate(const struct grid *g, int d, real x) { return (x - g->anchor[d]) * (1 / g->h); }
 
 /* Returns the index in direction d of the cell that contains position x [m], counted from node 0 at g->anchor: the
- * floor of grid_place, without a library call. */
-static ALWAYS_INLINE int64_t grid_cell(const struct grid *g, int d, real x)
+ * floor of grid_cell_coordinate, without a library call. */
+static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int d, real x)
 {
-    const real place = grid_place(g, d, x);
+    const real place = grid_cell_coordinate(g, d, x);
     const int64_t k = (int64_t)place;
     return k - (place < (real)k);
 }
 
 /* Returns coordinate d of one of the 2^dim particles of cell I, which are at a quarter and three quarters of each edge
  * [m]. corner: corner of the cell nearest to the particle; bit d is set on the upper side in direction d. */
-static inline real grid_quarter(const struct grid *g, int64_t I, int corner, int d)
+static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t I, int corner, int d)
 {
     return grid_position(g, d, I / g->stride[d] % g->count[d]) + (corner >> d & 1 ? 0.75 : 0.25) * g->h;
 }
 
 /* Returns the index in grid `to` of the cell that has index I in grid `from`; -1 if the box of `to` does not contain
  * the cell. Both grids must have the same node positions, but may have different boxes. */
-static inline int64_t grid_same_cell(const struct grid *from, int64_t I, const struct grid *to)
+static inline int64_t grid_cell_in_other_grid(const struct grid *from, int64_t I, const struct grid *to)
 {
     int64_t J = 0;
     for (int d = 0; d < from->dim; d++) {
@@ -148,7 +148,7 @@ static inline int64_t grid_same_cell(const struct grid *from, int64_t I, const s
 
 /* Sets the box of g (first, count, n, stride) to the nodes of all cells that contain positions between the corners
  * `from` and `to` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns false if the box would
- * have more than `most` nodes. */
-bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t most);
+ * have more than `max_nodes` nodes. */
+bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t max_nodes);
 
 #endif

@@ -6,7 +6,7 @@
 #include "data/grid.h"
 
 /* Marks of hollow cells. */
-struct hollow {
+struct cells_without_particles {
     struct grid box; /* its cells, equal to those of the mesh; no nodal arrays */
     uint8_t *whole;  /* [box.n] 1: the particles are dispensable: all are in the body, and no load, probe or pre-crack
                         needs them; NULL: unknown */
@@ -15,16 +15,16 @@ struct hollow {
 };
 
 /* Releases the marks. */
-void hollow_free(struct hollow *h);
+void cells_without_particles_free(struct cells_without_particles *h);
 
 /* Returns true if the particle at the reference position X [m] is not created, because its cell is part of a coarse
  * cell (mesh/levels.h) and needs no particles. h: these cells; NULL: all particles are created. */
-static inline bool hollow_absent(const struct hollow *h, const real *X)
+static inline bool particle_is_left_out(const struct cells_without_particles *h, const real *X)
 {
     int64_t cell = 0;
     if (!h || !h->absent) return false;
     for (int d = 0; d < h->box.dim; d++) {
-        const int64_t k = grid_cell(&h->box, d, X[d]) - h->box.first[d];
+        const int64_t k = grid_cell_index_at(&h->box, d, X[d]) - h->box.first[d];
         if (k < 0 || k >= h->box.count[d]) return false;
         cell += k * h->box.stride[d];
     }

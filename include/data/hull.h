@@ -63,18 +63,18 @@ real hull_winding_number(const struct hull *s, const real *X);
  * normal: NULL, or receives the unit vector that points away from the surface, outwards. */
 real hull_distance(const struct hull *s, const real *X, real *normal);
 
-/* Returns true if hull_distance of the point X is at most `most` [m]; faster, because faces farther away than that are
- * not examined. */
-bool hull_is_within(const struct hull *s, const real *X, real most);
+/* Returns true if hull_distance of the point X is at most `max_distance` [m]; faster, because faces farther away than
+ * that are not examined. */
+bool hull_is_within(const struct hull *s, const real *X, real max_distance);
 
-/* Returns the maximum of the scalar product X . along over the corners X of the hull [m] (support function). along:
- * unit vector. */
-real hull_support(const struct hull *s, const real *along);
+/* Returns the maximum of the scalar product X . direction over the corners X of the hull [m] (support function).
+ * direction: unit vector. */
+real hull_support(const struct hull *s, const real *direction);
 
 /* Returns the share of about 4000 sample points in the bounding box of the surface at which inside and outside cannot
  * be distinguished [1]: the winding number there is farther than 0.3 from any integer, or below -0.3. 0 for a closed
  * surface with outward normals. */
-real hull_ambiguous_share(const struct hull *s);
+real hull_ambiguous_fraction(const struct hull *s);
 
 /* Builds s->node, the search tree over the faces of the surface, and sorts s->face so that the faces of each tree node
  * are consecutive. Corners and faces must be set before. Part of hull_make. */

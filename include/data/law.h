@@ -60,6 +60,6 @@ struct law {
 void law_compute_constants(struct law *law, real yield_stress, real young, real poisson, real shear, real density);
 
 /* Returns true if plastic work heats the material. */
-static inline bool law_heats(const struct law *law) { return law->given && law->specific_heat > 0; }
+static inline bool law_heats_material(const struct law *law) { return law->given && law->specific_heat > 0; }
 
 #endif

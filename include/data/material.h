@@ -64,7 +64,7 @@ static inline bool material_viscous(const struct material *m)
 
 /* Returns the only value of Poisson's ratio that bond-based peridynamics can represent: 1/3 in plane stress, 1/4 in
  * plane strain and in 3D, NAN in 1D, where there is none. */
-real material_bond_poisson(enum space space);
+real bond_based_poisson_ratio(enum space space);
 
 /* Returns the micro-modulus c of bond-based peridynamics, for a family of discrete particles [N/m^6]: 2 k/sigma in 1D,
  * 8 k/sigma in 2D, 18 k/sigma in 3D, with k = m->bulk. Bonds then have the energy of the continuum under uniform
@@ -92,12 +92,12 @@ real material_stress_at(const struct material *m, real strain);
  * speeds, for the given space (1D, plane stress, plane strain, 3D). */
 void material_compute_constants(struct material *m, enum space space);
 
-/* Computes the elastic stiffness as a matrix over symmetric components, symmetric_count(dim) squared, row major [Pa]
- * (tensor shear strain: shear rows contain 2G). */
+/* Computes the elastic stiffness as a matrix over symmetric components, symmetric_component_count(dim) squared, row
+ * major [Pa] (tensor shear strain: shear rows contain 2G). */
 void material_stiffness(const struct material *m, int dim, real *matrix);
 
 /* Computes the inverse of the elastic stiffness of material_stiffness [1/Pa], as a row-major matrix of
- * symmetric_count(dim) squared entries. */
+ * symmetric_component_count(dim) squared entries. */
 void material_compliance(const struct material *m, int dim, real *matrix);
 
 #endif

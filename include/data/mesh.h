@@ -120,7 +120,7 @@ struct mesh {
 
 /* Returns the array of the 2^dim nodes at the corners of cell I if one of them is an extra node (a node that a slit
  * doubles); NULL otherwise: the corners are then the nodes I + mesh->corner[c] of the grid. */
-static inline const int32_t *mesh_own_corners(const struct mesh *mesh, int64_t I)
+static inline const int32_t *mesh_cell_slit_corners(const struct mesh *mesh, int64_t I)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && s->cell[I] >= 0 ? s->corner + ((int64_t)s->cell[I] << mesh->grid.dim) : NULL;
@@ -128,15 +128,15 @@ static inline const int32_t *mesh_own_corners(const struct mesh *mesh, int64_t I
 
 /* Returns the index of the node at corner c of cell I, also if it is an extra node at a slit. c: 0 .. 2^dim - 1, bit d
  * is set on the upper side in direction d. */
-static inline int64_t mesh_node(const struct mesh *mesh, int64_t I, int c)
+static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t I, int c)
 {
-    const int32_t *own = mesh_own_corners(mesh, I);
+    const int32_t *own = mesh_cell_slit_corners(mesh, I);
     return own ? own[c] : I + mesh->corner[c];
 }
 
 /* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of a group of partial cells, if one
  * of them is an extra node at a slit; NULL otherwise: all corners are then nodes of the grid. */
-static inline const int32_t *mesh_group_corners(const struct mesh *mesh, int64_t group, const int dim)
+static inline const int32_t *mesh_group_slit_corners(const struct mesh *mesh, int64_t group, const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
@@ -144,75 +144,81 @@ static inline const int32_t *mesh_group_corners(const struct mesh *mesh, int64_t
 
 /* Returns the node of the regular grid at the position of node I: for an extra node at a slit the node that it doubles,
  * for all other nodes I itself. */
-static inline int64_t mesh_base(const struct mesh *mesh, int64_t I)
+static inline int64_t mesh_regular_node_of(const struct mesh *mesh, int64_t I)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && I >= s->first && s->base[I - s->first] >= 0 ? s->base[I - s->first] : I;
 }
 
 /* Returns the cell of the regular grid whose corner c is at the position of node I; -1 if there is none. Where slits
- * divide this cell, mesh_cell_next lists its further parts, and mesh_node shows which of the parts has node I
+ * divide this cell, mesh_cell_next_part lists its further parts, and mesh_node shows which of the parts has node I
  * itself. */
-static inline int64_t mesh_cell_at(const struct mesh *mesh, int64_t I, int c)
+static inline int64_t mesh_cell_at_node(const struct mesh *mesh, int64_t I, int c)
 {
-    const int64_t cell = mesh_base(mesh, I) - mesh->corner[c];
+    const int64_t cell = mesh_regular_node_of(mesh, I) - mesh->corner[c];
     return cell >= 0 ? cell : -1;
 }
 
 /* Returns the next one of the cells into which slits divide one cell of the regular grid; -1 after the last one, and
  * for a cell that is not divided. */
-static inline int64_t mesh_cell_next(const struct mesh *mesh, int64_t cell)
+static inline int64_t mesh_cell_next_part(const struct mesh *mesh, int64_t cell)
 {
     return mesh->slits.next ? mesh->slits.next[cell] : -1;
 }
 
 /* Returns the number of bending modes of a linear cell, its deformations with zero mean strain that store energy: 0 in
  * 1D, 2 in 2D, 12 in 3D. */
-static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }
+static inline int cell_bending_mode_count(int dim) { return dim * ((1 << dim) - 1 - dim); }
 
 /* Returns the number of deformation modes of a cell that store energy: the components of the mean strain, and the
- * bending modes (mesh_bends). */
-static inline int mesh_modes(int dim) { return symmetric_count(dim) + mesh_bends(dim); }
+ * bending modes (cell_bending_mode_count). */
+static inline int cell_deformation_mode_count(int dim)
+{
+    return symmetric_component_count(dim) + cell_bending_mode_count(dim);
+}
 
 /* Returns the number of groups of LANES (eight) partial cells, which are processed side by side; the last group may be
  * incomplete. */
-static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->partial_cells + LANES - 1) / LANES; }
+static inline int64_t mesh_partial_group_count(const struct mesh *mesh)
+{
+    return (mesh->partial_cells + LANES - 1) / LANES;
+}
 
 /* Returns true if the stress of a point in any cell may have exceeded the limit at which points convert, according to
  * the last computation of forces. */
-static inline bool mesh_stressed(const struct mesh *mesh)
+static inline bool mesh_exceeds_conversion_stress(const struct mesh *mesh)
 {
     bool any = false;
     for (int64_t r = 0; r < mesh->runs; r++) any |= mesh->run[r].stressed;
-    for (int64_t k = 0; k < mesh_groups(mesh) * LANES; k++) any |= mesh->partial_stressed[k];
+    for (int64_t k = 0; k < mesh_partial_group_count(mesh) * LANES; k++) any |= mesh->partial_stressed[k];
     return any;
 }
 
 /* Returns the index of the block that contains node I: eight nodes of a row along x, which are skipped together while
  * they are at rest (active_set.h). */
-static inline int64_t mesh_block(const struct mesh *mesh, int64_t I)
+static inline int64_t mesh_block_of_node(const struct mesh *mesh, int64_t I)
 {
     return I / mesh->grid.count[0] * mesh->segments + I % mesh->grid.count[0] / LANES;
 }
 
 /* Returns a pointer to the activity levels (active_set.h) of the blocks of eight nodes in row number `row`, a row of
  * nodes along x. Level 0: the block is at rest and skipped. */
-static inline const uint8_t *mesh_levels(const struct mesh *mesh, int64_t row)
+static inline const uint8_t *mesh_row_activity_levels(const struct mesh *mesh, int64_t row)
 {
     return mesh->active.level + row * mesh->segments;
 }
 
 /* Returns true if the eight consecutive nodes, or cells, of a row from the k-th one on are at rest, so that they can be
  * skipped. levels: activity levels of the blocks of this row (mesh_levels). */
-static inline bool mesh_inactive(const uint8_t *levels, int64_t k)
+static inline bool mesh_nodes_are_at_rest(const uint8_t *levels, int64_t k)
 {
     return (levels[k / LANES] | levels[(k + LANES - 1) / LANES]) == 0;
 }
 
-/* Returns the value of the linear shape function of a corner node at a quadrature point of its cell [1]. corner, place:
+/* Returns the value of the linear shape function of a corner node at a quadrature point of its cell [1]. corner, point:
  * number of the corner, and of the corner next to the point; bit d is set on the upper side in direction d. The value
  * is a product over the directions: 3/4 where these bits agree, 1/4 elsewhere. */
-static inline real mesh_weight(int dim, int corner, int place)
+static inline real mesh_shape_function_value(int dim, int corner, int point)
 {
     static const real weight[DIM_MAX + 1][CORNERS_MAX] = {
         /* by the number of directions in which corner and place differ */
@@ -220,16 +226,16 @@ static inline real mesh_weight(int dim, int corner, int place)
         {0.75, 0.25},
         {0.5625, 0.1875, 0.1875, 0.0625},
         {0.421875, 0.140625, 0.140625, 0.046875, 0.140625, 0.046875, 0.046875, 0.015625}};
-    return weight[dim][corner ^ place];
+    return weight[dim][corner ^ point];
 }
 
 /* Returns the derivative of the linear shape function of a corner node at a quadrature point of its cell along
- * direction d, in units of 1/h with h the edge of the cell. corner, place: as for mesh_weight. */
-static inline real mesh_slope(int dim, int corner, int place, int d)
+ * direction d, in units of 1/h with h the edge of the cell. corner, point: as for mesh_shape_function_value. */
+static inline real mesh_shape_function_slope(int dim, int corner, int point, int d)
 {
     real slope = corner >> d & 1 ? 1 : -1;
     for (int b = 0; b < dim; b++)
-        if (b != d) slope *= (corner ^ place) >> b & 1 ? 0.25 : 0.75;
+        if (b != d) slope *= (corner ^ point) >> b & 1 ? 0.25 : 0.75;
     return slope;
 }
 

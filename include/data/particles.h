@@ -95,7 +95,7 @@ struct image {
 };
 
 /* Returns the eight bytes from[0] .. from[7] as one number, in the byte order of the machine. */
-static inline uint64_t eight_bytes(const uint8_t *from)
+static inline uint64_t load_eight_bytes(const uint8_t *from)
 {
     uint64_t eight;
     memcpy(&eight, from, sizeof eight);
@@ -106,14 +106,14 @@ static inline uint64_t eight_bytes(const uint8_t *from)
 #define EIGHT_TIMES(byte) ((uint64_t)(byte)*0x0101010101010101)
 
 /* Returns true if the eight bytes from[0] .. from[7] are all equal. */
-static inline bool eight_same(const uint8_t *from) { return eight_bytes(from) == EIGHT_TIMES(from[0]); }
+static inline bool eight_bytes_are_equal(const uint8_t *from) { return load_eight_bytes(from) == EIGHT_TIMES(from[0]); }
 
 /* Returns the index of the first entry of mark[n], from `first` on, that is not 0, or n if there is none. mark must
  * have LANES more entries, all 0, because eight entries are tested at a time. */
-static inline int64_t next_marked(const uint8_t *mark, int64_t first, int64_t n)
+static inline int64_t next_marked_index(const uint8_t *mark, int64_t first, int64_t n)
 {
     while (first < n && !mark[first])
-        if (eight_bytes(mark + first))
+        if (load_eight_bytes(mark + first))
             first++;
         else
             first += LANES;
@@ -130,11 +130,14 @@ static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((u
 static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i / 64] >> i % 64 & 1; }
 
 /* Returns how many of the eight indices from `first` on are below n. */
-static inline int eight_at(int64_t first, int64_t n) { return n - first < LANES ? (int)(n - first) : LANES; }
+static inline int count_of_eight_below(int64_t first, int64_t n)
+{
+    return n - first < LANES ? (int)(n - first) : LANES;
+}
 
 /* Returns the particle of the body of which entry i is a mirror image, possibly through images of images; i itself if
  * it is no image. image: sources of the images, image[0] that of entry p->n. */
-static inline int64_t image_root(const struct particles *p, const struct image *image, int64_t i)
+static inline int64_t image_source_particle(const struct particles *p, const struct image *image, int64_t i)
 {
     while (i >= p->n) i = image[i - p->n].source;
     return i;
@@ -176,10 +179,10 @@ void *particle_field_array(const struct particles *p, const struct particle_fiel
 /* Saves the fields of all particles, mirror images included, to the archive if a->saving, else restores them; only
  * their plastic state unless a->scope is ARCHIVE_ALL. optional: optional arrays of p, sum of WITH_*. Returns FAILED if
  * the archive cannot be read or written or a stored size differs. */
-status particles_archive(struct particles *p, int optional, struct archive *a);
+status particles_save_or_load(struct particles *p, int optional, struct archive *a);
 
 /* Copies the reference position of particle i to X (dim components [m]). */
-static inline void particle_place(const struct particles *p, int64_t i, real *X)
+static inline void particle_reference_position(const struct particles *p, int64_t i, real *X)
 {
     for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
 }
@@ -187,14 +190,14 @@ static inline void particle_place(const struct particles *p, int64_t i, real *X)
 /* Returns the factor on the critical stretch of the bond between particles i and j, the smaller of their strength
  * factors [1]; 1 if strength is uniform. Weibull's distribution is closed under the minimum (weakest link), so bonds,
  * and chains of bonds, have its modulus too. */
-static inline real bond_strength(const struct particles *p, int64_t i, int64_t j)
+static inline real bond_strength_factor(const struct particles *p, int64_t i, int64_t j)
 {
     return p->strength ? (p->strength[i] < p->strength[j] ? p->strength[i] : p->strength[j]) : 1;
 }
 
 /* Returns true if particle i follows the nodes of a grid or mesh: a material point, or a peridynamic particle that is
  * coupled to the grid. */
-static inline bool particle_on_grid(const struct particles *p, int64_t i)
+static inline bool particle_moves_with_nodes(const struct particles *p, int64_t i)
 {
     return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_GRID_COUPLED);
 }
@@ -202,7 +205,7 @@ static inline bool particle_on_grid(const struct particles *p, int64_t i)
 /* Returns the stress sigma_zz of particle i in plane strain [Pa]: nu (sigma_xx + sigma_yy) plus a part due to plastic
  * flow; 0 in all other spaces. In the reference frame it has a relative error of the size of the strain. Bonds have nu
  * = 1/4, as does their material; plastic sigma_zz is kept at conversion, and yielding of bonds adds nothing to it. */
-static inline real particle_stress_across(const struct particles *p, int64_t i)
+static inline real particle_plane_strain_stress(const struct particles *p, int64_t i)
 {
     if (!p->plane_strain) return 0;
     const real flow = p->out_of_plane ? p->out_of_plane[i] : 0;
@@ -220,9 +223,9 @@ void particles_add_images(struct particles *p, int64_t images, int optional);
 /* Releases all arrays. */
 void particles_free(struct particles *p);
 
-/* Copies all fields of the particles of `old` to p, which has other particles. now: [old->n] new index of each particle
- * in p, -1: the particle is not in p. optional: optional arrays of both, sum of WITH_*. */
-void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *now, int optional);
+/* Copies all fields of the particles of `old` to p, which has other particles. new_index: [old->n] new index of each
+ * particle in p, -1: the particle is not in p. optional: optional arrays of both, sum of WITH_*. */
+void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *new_index, int optional);
 
 /* Sorts the particles of the body row by row: by z, then y, then x, where z and y are rounded to rows of thickness
  * `spacing` [m]; equal positions by id. optional: optional arrays of p, sum of WITH_*. Called at set-up, before mirror
@@ -231,7 +234,7 @@ void particles_sort(struct particles *p, real spacing, int optional);
 
 /* Computes the smallest and the largest coordinate d of the reference positions of the first n particles [m]; INFINITY
  * and -INFINITY if n = 0. If n is p->n, particles of the body that were not created (data/hollow.h) are included. */
-void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high);
+void particles_coordinate_range(const struct particles *p, int64_t n, int d, real *low, real *high);
 
 /* Returns the index of the particle whose reference position is nearest to X (dim components [m]), the lowest one of
  * several; mirror images are not considered. */
@@ -252,7 +255,7 @@ static inline real lattice_volume(real section, real spacing, int dim)
 
 /* Returns true if the coordinate X is a whole number of spacings from `origin`, up to LATTICE_NEAR spacings; *site
  * receives the nearest whole number in any case. X, origin, spacing in one unit. */
-static inline bool lattice_site(real X, real origin, real spacing, real *site)
+static inline bool lattice_contains_coordinate(real X, real origin, real spacing, real *site)
 {
     const real k = (X - origin) / spacing;
     *site = nearbyint(k);

@@ -17,7 +17,7 @@ bool region_contains(const struct region *r, const real *X, int dim, real tolera
 
 /* Returns the least tolerance at which region_contains is true for the point X (dim components [m]) [m]: negative
  * inside the region, 0 on its surface, positive outside. */
-real region_level(const struct region *r, const real *X, int dim);
+real region_level_set_value(const struct region *r, const real *X, int dim);
 
 /* Computes a box between the corners `from` and `to` [m] that contains the region. It may be too large, because
  * intersections and differences are ignored. Returns false if the box is infinite. */
@@ -32,9 +32,9 @@ real region_distance(const struct region *r, const real *X, int dim, real *norma
  * defined. */
 bool region_has_endless_box(const struct region *r, int dim);
 
-/* Returns an upper bound of the scalar product X . along over all points X of the region [m]. along: unit vector, dim
- * components. */
-real region_support(const struct region *r, const real *along, int dim);
+/* Returns an upper bound of the scalar product X . direction over all points X of the region [m]. direction: unit
+ * vector, dim components. */
+real region_support_bound(const struct region *r, const real *direction, int dim);
 
 /* Returns the volume of the part of the region within the box between the corners `from` and `to` [m^dim], by
  * quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
@@ -124,8 +124,8 @@ struct crack_list {
 /* Computes the parts of the cracks on the body's side of all planes of symmetry m[mirrors], and their mirror images
  * within `reach` [m] of these planes, so that a bond across a plane and its image are cut alike. tolerance: distance
  * from a plane up to which a point is on it [m]. Release with crack_list_free. */
-void cracks_mirrored(struct crack_list *to, const struct crack *crack, int cracks, const struct mirror_plane *m,
-                     int mirrors, real reach, real tolerance);
+void cracks_make_mirror_images(struct crack_list *to, const struct crack *crack, int cracks,
+                               const struct mirror_plane *m, int mirrors, real reach, real tolerance);
 
 /* Releases the cracks. */
 void crack_list_free(struct crack_list *l);

@@ -103,7 +103,10 @@ struct solid {
 
 /* Returns true if the solid is of the given kind and has not been moved or copied, so that its members from, to, radius
  * and so on give its position. */
-static inline bool solid_is(const struct solid *s, enum solid_kind kind) { return s->kind == kind && s->images == 0; }
+static inline bool solid_is_unmoved_of_kind(const struct solid *s, enum solid_kind kind)
+{
+    return s->kind == kind && s->images == 0;
+}
 
 /* Returns the signed distance of the point X (dim components [m]) from the surface of the solid, negative inside [m];
  * exact outside. normal: receives the outward unit normal of the nearest surface point. */
@@ -113,19 +116,19 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
  * is the signed distance. For boxes and cylinders it is the largest of the signed distances from the planes and the
  * mantle that bound them, so that the points with a level below a tolerance form a larger box or cylinder with sharp
  * edges. X: dim components [m]. */
-real solid_level(const struct solid *s, const real *X, int dim);
+real solid_level_set_value(const struct solid *s, const real *X, int dim);
 
-/* Returns true if solid_level of the point X (dim components [m]) is at most `most` [m]; faster than computing the
- * level. */
-bool solid_is_within(const struct solid *s, const real *X, int dim, real most);
+/* Returns true if solid_level_set_value of the point X (dim components [m]) is at most `max_distance` [m]; faster than
+ * computing the level. */
+bool solid_is_within(const struct solid *s, const real *X, int dim, real max_distance);
 
 /* Computes a box that contains the solid with all its copies, slightly enlarged, as box_tree_make needs it. Sides on
  * which the solid is unbounded are infinite. */
 void solid_bounding_box(const struct solid *s, int dim, struct bounds *box);
 
-/* Returns the maximum of the scalar product X . along over the points X of the solid [m] (support function). along:
- * unit vector, dim components. */
-real solid_support(const struct solid *s, const real *along, int dim);
+/* Returns the maximum of the scalar product X . direction over the points X of the solid [m] (support function).
+ * direction: unit vector, dim components. */
+real solid_support(const struct solid *s, const real *direction, int dim);
 
 /* Returns the radius of a ball, cylinder, tube or ring, or the smallest half axis of an ellipsoid [m]; INFINITY for all
  * other kinds. */
@@ -142,9 +145,9 @@ real solid_least_thickness(const struct solid *s, int dim);
 bool solid_add_motion(struct solid *s, const struct solid_motion *motion, int dim);
 
 /* Returns an upper bound of the distance along any axis between the bounding box of a solid and a point at which
- * solid_level is `level` [m]. Outside the solid a level is at least 1/sqrt(3) of the distance (least beside the corner
- * of a box), so that 1.75 times the level suffices; a negative level is returned as it is. */
-static inline real level_reach(real level) { return level > 0 ? 1.75 * level : level; }
+ * solid_level_set_value is `level` [m]. Outside the solid a level is at least 1/sqrt(3) of the distance (least beside
+ * the corner of a box), so that 1.75 times the level suffices; a negative level is returned as it is. */
+static inline real solid_level_distance_bound(real level) { return level > 0 ? 1.75 * level : level; }
 
 /* Estimates the cost of one query of the solid, in queries of a simple solid such as a ball [1]: adds up all copies,
  * the solids of a group, and the edges of a polygon. */

@@ -16,7 +16,7 @@ enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 enum { ORDER_AHEAD = 64 };
 
 /* Returns the length of a block in direction d [cells]. */
-static ALWAYS_INLINE int64_t block_edge(int d) { return d == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
+static ALWAYS_INLINE int64_t transfer_block_edge_length(int d) { return d == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 
 /* The order. All arrays are owned. */
 struct transfer_order {

@@ -35,7 +35,7 @@ struct turning_group {
 };
 
 /* All groups. All arrays are owned. */
-struct turning_groups {
+struct rotation_groups {
     int32_t groups;              /* number of groups; 0: points do not rotate in groups */
     struct turning_group *group; /* ascending by body and position */
     int32_t *member;             /* [n] particles, within a group by position */
@@ -43,22 +43,23 @@ struct turning_groups {
 };
 
 /* Divides all particles into groups of about 6 by 6 (by 6) neighbours of the reference configuration, which later
- * rotate together; joined bodies share groups, others do not. spacing: of the particles [m]; middle: origin of the
- * division [m]; one: for each body the first body that is joined to it; held: for each body, true if supports act on
- * it, so that its points do not rotate in groups. Replaces previous groups; release with turning_free. */
-void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle, const int *one,
-                  const bool *held);
+ * rotate together; joined bodies share groups, others do not. spacing: of the particles [m]; origin: origin of the
+ * division [m]; joined_to: for each body the first body that is joined to it; supported: for each body, true if
+ * supports act on it, so that its points do not rotate in groups. Replaces previous groups; release with
+ * rotation_groups_free. */
+void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing, const real *origin,
+                          const int *joined_to, const bool *supported);
 
 /* Releases all arrays. */
-void turning_free(struct turning_groups *t);
+void rotation_groups_free(struct rotation_groups *t);
 
 /* Computes mass, centre, inertia and angular velocity (spin) of each group from its points on the grid, before a step,
  * and stores in t->turn, for each point, the angular velocity of its group [1/s]. spacing: of the particles [m]. */
-void turning_compute_spins(struct turning_groups *t, struct particles *p, real spacing);
+void rotation_groups_compute_spins(struct rotation_groups *t, struct particles *p, real spacing);
 
 /* Gives each group the angular momentum that its points have not received from the grid (t->turn [kg m^2/s]), as a
  * rotation about its centre of mass: adds it to the velocities of the points. Then stores in t->turn, for each point,
- * the new angular velocity of its group [1/s]. Positions must be those of turning_compute_spins. */
-void turning_restore_spins(struct turning_groups *t, struct particles *p);
+ * the new angular velocity of its group [1/s]. Positions must be those of rotation_groups_compute_spins. */
+void rotation_groups_restore_spins(struct rotation_groups *t, struct particles *p);
 
 #endif

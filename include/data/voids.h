@@ -35,13 +35,13 @@ bool region_has_voids(const struct region *r);
 /* Computes v->near, which marks the particles that a void separates from others, by testing all pairs of particles at
  * most `reach` apart [m]. The other members of v must be set before. cells: search over reference positions; image:
  * sources of the mirror images. Release with voids_free. */
-void voids_find(struct voids *v, const struct particles *p, const struct cells *cells, const struct image *image,
-                real reach);
+void voids_mark_particles(struct voids *v, const struct particles *p, const struct cells *cells,
+                          const struct image *image, real reach);
 
 /* Returns true if the segment between the points a and b [m] leaves the shape of body number `body`, so that a void is
- * between them. Symmetric in a and b. across: NULL, or receives, if there is a void, whether its two surfaces face each
+ * between them. Symmetric in a and b. facing: NULL, or receives, if there is a void, whether its two surfaces face each
  * other. Gaps of up to 2e-5 spacings are ignored. */
-bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *across);
+bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *facing);
 
 /* Returns true if a void separates the particles i and j of one body. v: NULL if no body has voids; the result is then
  * false. Fast for particles without a void nearby. */
@@ -49,11 +49,11 @@ bool void_separates_particles(const struct voids *v, const struct particles *p, 
 
 /* Returns a lower bound of the distance of particle i, inside the shape of its body, from the surface of the shape
  * [m]. */
-real voids_particle_depth(const struct voids *v, const struct particles *p, int64_t i);
+real voids_surface_distance_bound(const struct voids *v, const struct particles *p, int64_t i);
 
-/* Returns true if a void separates particle i from at least one particle within the reach of voids_find. v: NULL if no
- * body has voids; the result is then false. */
-static inline bool voids_near(const struct voids *v, int64_t i) { return v && v->near[i]; }
+/* Returns true if a void separates particle i from at least one particle within the reach of voids_mark_particles. v:
+ * NULL if no body has voids; the result is then false. */
+static inline bool particle_is_beside_void(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
 /* Releases all arrays. */
 void voids_free(struct voids *v);

@@ -18,7 +18,7 @@ void engine_free(struct run *e);
 
 /* Writes a line on standard error if the bodies of a scene have so many lattice positions that its set-up takes longer
  * than some seconds: their number, which follows from volume and spacing, and the time. */
-void engine_say_size(const struct scene *s);
+void engine_announce_long_set_up(const struct scene *s);
 
 /* Estimates the peak memory of a run of a scene whose bodies are lattices [byte]. p: particles of these bodies;
  * source: materials and bond families. Bonds and grids need not exist yet. */
@@ -39,17 +39,17 @@ status engine_step(struct run *e);
 /* Saves the complete state of a run between two steps to the archive if a->saving is set, else restores it from the
  * archive. run: a struct run. Returns FAILED if the file cannot be written, or if the stored state does not fit the
  * run or is inconsistent. */
-status engine_archive(void *run, struct archive *a);
+status engine_save_or_load(void *run, struct archive *a);
 
 /* Restores the state of a run from a checkpoint. run: a struct run of the same scene that engine_make has created.
  * Reports on standard error if the checkpoint was written with another instruction set. Returns FAILED if the
  * checkpoint belongs to another body or is inconsistent. */
-status engine_restore(void *run, struct archive *a);
+status engine_load_checkpoint(void *run, struct archive *a);
 
 /* Runs the scene once more with material points alone, if it has a PULSE probe, and stores the final velocities and
  * the energy change with which the probe compares the run. Call it after the run. Returns the status of the second
  * run. */
-status engine_run_baseline(struct run *e);
+status engine_run_mpm_baseline(struct run *e);
 
 /* Checks the scene for input that is allowed but probably unintended, and adds warnings to e->warnings. Call it once,
  * before the first step. */

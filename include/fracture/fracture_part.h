@@ -9,13 +9,13 @@
 /* Cracks of a run: positions of their tips, and cracks whose growth is prescribed or controlled by stress-intensity
  * factors. */
 struct fracture_state {
-    struct tips tips;
+    struct crack_tips tips;
     int growths;
-    struct growth *growth; /* [growths] */
+    struct growing_crack *growth; /* [growths] */
 };
 
 /* Returns true if the run has a growing crack whose bonds lose their strength gradually over a length of crack growth,
  * instead of at once. */
-bool cracks_fade_bonds(const struct fracture_state *f);
+bool cracks_have_fading_bonds(const struct fracture_state *f);
 
 #endif

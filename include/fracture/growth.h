@@ -42,7 +42,7 @@
 
 /* Stress-intensity factors that drive a crack, with their time, and the direction of the tip in whose frame they were
  * computed: the crack turns relative to this direction until new factors are available. */
-struct control {
+struct growth_control {
     struct sif factors;
     real along[2];
     real time;                  /* of the factors [s] */
@@ -57,7 +57,7 @@ struct fading {
     real length;
 };
 
-struct growth {
+struct growing_crack {
     const struct growth_rule *rule; /* kept by reference */
     /* present position of the tip [m], direction of the factors' frame, speed of the last step, 0 at rest [m/s] */
     real place[2], along[2], speed;
@@ -74,26 +74,26 @@ struct growth {
 
 /* Initialises a growing crack at its start position, without growth. rule: start, direction, speed or toughness of the
  * crack; kept by reference and must outlive g. */
-void growth_make(struct growth *g, const struct growth_rule *rule);
+void growing_crack_make(struct growing_crack *g, const struct growth_rule *rule);
 
 /* Frees the list of fading bonds of g and sets all its members to 0. */
-void growth_free(struct growth *g);
+void growing_crack_free(struct growing_crack *g);
 
 /* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
  * the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. source: bond law and
  * neighbour search. control: present stress-intensity factors, which turn the tip to the direction of the largest hoop
  * stress and may set its speed; NULL if they are not known. Returns the number of directed bonds (bond i-j counts
  * twice) whose weight became 0. */
-int64_t growth_extend_crack(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
-                            const struct control *control, real t, real dt);
+int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct particles *p,
+                              const struct bond_source *source, const struct growth_control *control, real t, real dt);
 
 /* Returns the angle between the initial direction of a growing crack and the straight line from its start to its tip,
  * 0 to 180 [degree], or NAN if the crack has not grown. */
-real growth_angle(const struct growth *g);
+real growing_crack_angle(const struct growing_crack *g);
 
 /* Saves the state of a growing crack and its fading bonds to the archive if a->saving, else restores them. which:
  * number of the crack, which names its entries. Returns FAILED if the archive cannot be read or written or a stored
  * size differs. */
-status growth_archive(struct growth *g, int which, struct archive *a);
+status growing_crack_save_or_load(struct growing_crack *g, int which, struct archive *a);
 
 #endif

@@ -18,7 +18,7 @@ struct place {
  * of the mean, the one nearest to it (dim components [m]). Of several groups, that of the last position by x, then y,
  * then z is used. Returns the number of groups, or 0, without a result, if all positions have `beside`. At most the
  * first 16384 positions are examined. */
-int64_t positions_group_middle(const struct place *place, int64_t n, int dim, real reach, const real *along,
-                               real *middle);
+int64_t positions_cluster_centre(const struct place *place, int64_t n, int dim, real reach, const real *along,
+                                 real *middle);
 
 #endif

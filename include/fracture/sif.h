@@ -97,7 +97,7 @@ struct sif {
 /* Computes the weight q of the interaction integral at distance r from the crack tip [m]: *q receives the weight, 1
  * inside contour->inner and 0 outside contour->outer; *slope receives dq/dr [1/m]. form: function that decreases
  * between the two radii. */
-void sif_weight(enum sif_weight form, const struct contour *contour, real r, real *q, real *slope);
+void sif_weight_function(enum sif_weight form, const struct contour *contour, real r, real *q, real *slope);
 
 /* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
  * frame of the crack tip, x[0] ahead of the tip [m]; contour: contour with the weight q; actual, auxiliary: the two

@@ -42,19 +42,21 @@ void crack_hooke_stress(const struct crack_medium *m, real gradient[2][2], real 
 /* Computes the field at x round the tip of a crack at rest with K = 1 Pa m^(1/2) in one mode (Williams 1957). x:
  * position in the frame of the tip, x[0] ahead of the tip [m]; on the crack faces the sign of x[1], also of a zero,
  * selects the face. f: receives displacement, its gradient and stress; velocities and accelerations are 0. */
-void crack_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2], struct crack_field *f);
+void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2],
+                             struct crack_field *f);
 
 /* Computes the field at x round the tip of a crack that moves at constant speed v with K = 1 Pa m^(1/2) in one mode
  * (Freund 1990, chapter 4). v: 0 < v < c_R, the Rayleigh speed [m/s]; the formulas are ill-conditioned as v -> 0. x:
  * position in the frame of the tip, x[0] ahead of the tip [m]. f: receives displacement and motion. */
-void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
-                        struct crack_field *f);
+void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
+                            struct crack_field *f);
 
 /* Computes the field at x round a crack tip of speed v with K = 1 Pa m^(1/2) in one mode, for 0 <= v < c_R, the
- * Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at rest is used (crack_field_at_rest),
- * which differs there by 1e-4, else that of a moving crack. x: position in the frame of the tip [m]; f: receives the
- * field. */
-void crack_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2], struct crack_field *f);
+ * Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at rest is used
+ * (crack_tip_field_at_rest), which differs there by 1e-4, else that of a moving crack. x: position in the frame of the
+ * tip [m]; f: receives the field. */
+void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
+                     struct crack_field *f);
 
 /* Returns the universal function A_I(v) or A_II(v) of the energy release rate G = (A_I K_I^2 + A_II K_II^2)/E* (Freund
  * 1990, chapter 5) [1]; 1 at v = 0. v: speed of the tip [m/s]. A_II contains the factor 1 - a_s^2, as A_I does; with 1
@@ -70,8 +72,8 @@ enum speed_factor { SPEED_EXACT, SPEED_ROSE, SPEED_APPROXIMATE };
 real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real v);
 
 /* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_speed_factor) equals `factor`
- * [m/s], limited to `most` [m/s], which must be below the Rayleigh speed. Returns 0 if factor >= 1. */
-real crack_speed_of_factor(const struct crack_medium *m, real factor, real most);
+ * [m/s], limited to `max_speed` [m/s], which must be below the Rayleigh speed. Returns 0 if factor >= 1. */
+real crack_speed_from_factor(const struct crack_medium *m, real factor, real max_speed);
 
 /* Returns K_I of a semi-infinite crack at rest in plane strain after the arrival of a plane wave [Pa m^(1/2)] (Freund
  * 1990). stress: normal stress of the wave on the plane of the crack [Pa]; age: time since its arrival [s].

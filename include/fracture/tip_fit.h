@@ -34,6 +34,6 @@ struct tip_view {
  * particles round the tip. view: tip position, frame, range of particles and cracks that hide particles; K: receives
  * the factors in the frame of the view [Pa m^(1/2)]. Returns false, with K = 0, if too few particles are visible from
  * the tip. */
-bool tip_fit_factors(const struct tip_view *view, const struct particles *p, real K[MODES]);
+bool crack_tip_fit_sif(const struct tip_view *view, const struct particles *p, real K[MODES]);
 
 #endif

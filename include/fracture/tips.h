@@ -22,7 +22,7 @@
 #define TIP_DAMAGE 0.35
 enum { TIPS_MAX = 64 };
 
-struct tip {
+struct crack_tip {
     bool from_crack; /* starts at the end of a pre-crack */
     int body;
     real origin[DIM_MAX]; /* start [m] */
@@ -40,9 +40,9 @@ struct tip {
     int64_t ends;      /* separate groups of particles that are equally far within a spacing */
 };
 
-struct tips {
+struct crack_tips {
     int dim, n;
-    struct tip tip[TIPS_MAX];
+    struct crack_tip tip[TIPS_MAX];
     real spacing, window; /* spacing of the particles [m], window of the speed [s] */
     int64_t count;        /* number of particles */
     uint8_t *label;       /* [particles] tip + 1; 0: no crack, 255: damaged by a pre-crack */
@@ -54,36 +54,37 @@ struct tips {
 /* Excludes particles that pre-cracks have damaged from all cracks, so that crack tips do not grow through them. For
  * pre-cracks represented as slits of the mesh. lost: for each particle, the share of its bonds that pre-cracks cut
  * once the particle has bonds [1]. */
-void tips_exclude_precracks(struct tips *t, const real *lost);
+void tips_exclude_precracks(struct crack_tips *t, const real *lost);
 
 /* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already
  * include the pre-cracks; c: neighbour search over the reference positions; crack: `cracks` pre-cracks; spacing: of
  * the particles [m]; window: time interval over which tip speeds are averaged [s]. Release with tips_free. */
-void tips_make(struct tips *t, const struct particles *p, const struct cells *c, const struct crack *crack, int cracks,
-               real spacing, real window);
+void tips_make(struct crack_tips *t, const struct particles *p, const struct cells *c, const struct crack *crack,
+               int cracks, real spacing, real window);
 
 /* Assigns newly damaged particles to cracks and updates position, growth and speed of all tips; new tips may be added.
  * time: present time [s]; p: particles with their present damage; c: neighbour search over the reference positions. */
-void tips_update(struct tips *t, const struct particles *p, const struct cells *c, real time);
+void tips_update(struct crack_tips *t, const struct particles *p, const struct cells *c, real time);
 
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
  * tip, 0 to 180 [degree], or NAN if the crack has not grown. dim: space dimension. */
-real tip_angle(const struct tip *tip, int dim);
+real tip_angle(const struct crack_tip *tip, int dim);
 
 /* Returns the speed of tip number `tip` [m/s]: the regression slope of its growth over the last t->window seconds, or 0
  * if fewer than two samples have been taken. */
-real tips_speed(const struct tips *t, int tip);
+real tips_average_speed(const struct crack_tips *t, int tip);
 
 /* Returns the tip with the largest growth, a pointer into t, or NULL if no tip has grown. */
-const struct tip *tips_longest(const struct tips *t);
+const struct crack_tip *tips_longest(const struct crack_tips *t);
 
 /* Returns the number of crack ends, over all tips, whose growth is within one spacing of the largest growth; 0 if no
  * tip has grown. */
-int64_t tips_count_tied(const struct tips *t);
+int64_t tips_count_longest(const struct crack_tips *t);
 
 /* Returns true if a crack grows along a plane of symmetry, so that the modelled body has only one face of the crack.
  * mirror: `mirrors` planes of symmetry. */
-bool tip_is_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors);
+bool tip_is_on_mirror(const struct crack_tips *t, const struct crack_tip *tip, const struct mirror_plane *mirror,
+                      int mirrors);
 
 /* Quantities besides tips on which areas of cracks depend. */
 struct tip_surroundings {
@@ -97,13 +98,13 @@ struct tip_surroundings {
  * in strips one spacing wide along its front, without branches; with half of that if it lies in a plane of symmetry,
  * since half of its energy is in the modelled body. Any other crack counts with half the number of its particles times
  * the area of a particle. s: planes of symmetry and thickness. */
-real tips_crack_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s);
+real tips_crack_area(const struct crack_tips *t, const struct particles *p, const struct tip_surroundings *s);
 
 /* Frees the arrays of t. */
-void tips_free(struct tips *t);
+void tips_free(struct crack_tips *t);
 
 /* Saves the tips, the crack of each particle and the recorded samples to the archive if a->saving, else restores them.
  * Returns FAILED if the archive cannot be read or written or a stored size differs. */
-status tips_archive(struct tips *t, struct archive *a);
+status tips_save_or_load(struct crack_tips *t, struct archive *a);
 
 #endif

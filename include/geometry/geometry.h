@@ -24,11 +24,11 @@ struct geometry {
 };
 
 /* Reads a body and its named parts from a .stl, .msh or .inp file into g; the extension selects the format. scale:
- * metres per unit of the file. dim 2: elements are triangles and quadrilaterals of equal z. fine: largest distance
- * between a curved edge of a second-order element and its chords [m]; NAN: 1/256 of the largest sagitta. Returns
- * REFUSED, with a message, for a wrong format, a file without a body, or a surface so open that inside and outside
- * cannot be distinguished; then nothing need be freed. Release with geometry_free. */
-status geometry_read(struct geometry *g, const char *path, int dim, real scale, real fine);
+ * metres per unit of the file. dim 2: elements are triangles and quadrilaterals of equal z. chord_tolerance: largest
+ * distance between a curved edge of a second-order element and its chords [m]; NAN: 1/256 of the largest sagitta.
+ * Returns REFUSED, with a message, for a wrong format, a file without a body, or a surface so open that inside and
+ * outside cannot be distinguished; then nothing need be freed. Release with geometry_free. */
+status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance);
 
 /* Returns the named part of g called `name`, ignoring case, or NULL if there is none. */
 const struct geometry_set *geometry_find_set(const struct geometry *g, const char *name);

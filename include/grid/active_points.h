@@ -21,15 +21,16 @@ struct active_points {
 
 enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches */
 
-/* Finds the material points whose cells motion can reach in the next steps, so that transfers can skip all others. all:
- * cell order of all points; now: order used up to this step; grid: background grid with the walls of the previous step;
- * loads: boundary conditions; shape, transfer: shape functions and transfer scheme (FLIP or APIC), which determine how
- * far motion spreads in a step. Returns the order of the active points, which r owns, or `all` if all points are
- * active. */
-const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *all,
-                                                  const struct transfer_order *now, const struct particles *p,
-                                                  const struct grid *grid, const struct bonds *b,
-                                                  const struct loads *loads, enum shape shape, enum transfer transfer);
+/* Finds the material points whose cells motion can reach in the next steps, so that transfers can skip all others.
+ * full_order: cell order of all points; previous_order: order used up to this step; grid: background grid with the
+ * walls of the previous step; loads: boundary conditions; shape, transfer: shape functions and transfer scheme (FLIP or
+ * APIC), which determine how far motion spreads in a step. Returns the order of the active points, which r owns, or
+ * `full_order` if all points are active. */
+const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *full_order,
+                                                  const struct transfer_order *previous_order,
+                                                  const struct particles *p, const struct grid *grid,
+                                                  const struct bonds *b, const struct loads *loads, enum shape shape,
+                                                  enum transfer transfer);
 
 /* Frees the arrays of r and sets all members to 0. */
 void active_points_free(struct active_points *r);

@@ -9,7 +9,7 @@
 #include "data/particles.h"
 
 /* The grid of a body, its points, and the range of nodes that the points reach, counted from the anchor of the grid. */
-struct grid_side {
+struct grid_contact_side {
     struct grid *grid;
     const struct transfer_order *order;
     int64_t from[DIM_MAX], to[DIM_MAX];
@@ -47,22 +47,23 @@ void grid_contact_make(struct grid_contact *c, int sides);
 
 /* Initialises *a with the background grid g of one body, the cell order of its points, and the range of nodes that the
  * points reach. g and order are kept by reference. */
-void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_order *order, const struct particles *p);
+void grid_contact_side_make(struct grid_contact_side *a, struct grid *g, const struct transfer_order *order,
+                            const struct particles *p);
 
 /* Lists the nodes that material points of two bodies reach, with the normal from one body to the other and the
  * positions of the outermost points along it. side: grid and points of each body, c->sides elements. */
-void grid_contact_find_nodes(struct grid_contact *c, const struct grid_side *side, const struct particles *p);
+void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_side *side, const struct particles *p);
 
 /* Exchanges momentum between two bodies at each node of grid_contact_find_nodes where they touch and approach: normal
  * momentum without rebound, tangential momentum by friction. Changes the nodal velocities, and the velocity increments
  * stored in the forces, of the grids of `side`, c->sides elements. Returns the energy dissipated [J]. */
-real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_side *side);
+real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_contact_side *side);
 
 /* Returns the energy that contact dissipates in this step in addition to grid_contact_exchange_momentum with the FLIP
  * transfer [J], and adds it to c->dissipated: half the contact impulse of each node times the difference between the
  * relative velocity of the bodies after a second mapping of the moved points to the nodes, which strains the points,
  * and that just after the impulse. side: grids of the bodies, c->sides elements. */
-real grid_contact_remap_loss(struct grid_contact *c, const struct grid_side *side);
+real grid_contact_remap_loss(struct grid_contact *c, const struct grid_contact_side *side);
 
 /* Sets the last time of contact, and the first one if there is none yet, to t [s], if bodies touched at nodes in the
  * last step. */
@@ -70,7 +71,7 @@ void grid_contact_update_times(struct grid_contact *c, real t);
 
 /* Saves energies and times of contact to the archive if a->saving, else restores them. Returns FAILED if the archive
  * cannot be read or written or a stored size differs. */
-status grid_contact_archive(struct grid_contact *c, struct archive *a);
+status grid_contact_save_or_load(struct grid_contact *c, struct archive *a);
 
 /* Frees the arrays of c. */
 void grid_contact_free(struct grid_contact *c);

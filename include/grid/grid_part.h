@@ -24,10 +24,10 @@ struct grid_field {
 struct grid_method {
     int fields; /* number of grids: 1, or one for each body */
     struct grid_field *field;
-    struct grid_contact contact;   /* between the bodies of different grids */
-    struct active_points active;   /* points that transfers include */
-    struct grid_coupled coupled;   /* peridynamic particles that the grid moves (coupling pm .. pgg) */
-    struct turning_groups turning; /* groups of points with a common rotation (FLIP) */
+    struct grid_contact contact;    /* between the bodies of different grids */
+    struct active_points active;    /* points that transfers include */
+    struct grid_coupled coupled;    /* peridynamic particles that the grid moves (coupling pm .. pgg) */
+    struct rotation_groups turning; /* groups of points with a common rotation (FLIP) */
     struct transfer_data transfer;
     bool sort_needed;   /* points have left their cells or have converted */
     real smallest_mass; /* of a node that moves [kg] */
@@ -38,13 +38,13 @@ struct grid_method {
  * contact. Sets cell size and position of the nodes; nodes are allocated later (grid_sort_points). A second call moves
  * the nodes. s: scene; meshed: true if bodies are in the reference frame, whose particles must be midway between nodes.
  */
-void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed);
+void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed);
 
 /* Makes groups of material points that share a rotation (data/turning.h), so that FLIP conserves angular momentum.
  * Does nothing if no body is free to rotate, in 1D, and for transfers other than FLIP. loads: boundary conditions; s:
  * scene. */
-void grid_turning_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
-                       const struct scene *s, enum coupling coupling);
+void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
+                               const struct scene *s, enum coupling coupling);
 
 /* Computes the position of one node of the background grid, from which all others follow, into `anchor`, dim
  * components [m]. from: lower corner of the first body [m]; site: position of one particle of its lattice [m]; meshed:
@@ -53,7 +53,7 @@ void grid_choose_anchor(const struct scene *s, const real *from, const real *sit
 
 /* Returns the number in the scene of body `number` = 0, 1, ..., where bodies joined to each other count once, under the
  * first of them. Returns -1 if there are no more than `number` bodies. */
-int unjoined_body_index(const struct scene *s, int number);
+int joined_group_first_body(const struct scene *s, int number);
 
 /* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits and voids then
  * cannot divide a mesh on these nodes, because the doubled nodes have no mirror nodes. */
@@ -70,13 +70,13 @@ void grid_map_points(struct grid_method *mpm, struct particles *p, const struct 
                      struct timers *timers);
 
 /* Advances the material points on the background grids by one time step: moves the nodes under their forces, with
- * contact and boundary conditions, then updates positions, velocities, strain and stress of the points. middle: time
+ * contact and boundary conditions, then updates positions, velocities, strain and stress of the points. t_middle: time
  * in the middle of the step [s]. */
-void grid_step(struct run *e, real middle);
+void grid_step(struct run *e, real t_middle);
 
 /* Returns the power of all forces on the material points on the background grids, the sum of v . f over the nodes at
- * the present positions [W], without moving anything. middle: present time plus half a time step [s]. Changes the
+ * the present positions [W], without moving anything. t_middle: present time plus half a time step [s]. Changes the
  * recorded reactions and work of the loads. Returns 0 if no particles are on a grid. */
-real grid_power(struct run *e, real middle);
+real grid_power(struct run *e, real t_middle);
 
 #endif

@@ -95,7 +95,7 @@ struct load {
 };
 
 /* Returns true if a formula of boundary b contains the time t. */
-static inline bool boundary_in_time(const struct boundary *b)
+static inline bool boundary_uses_time(const struct boundary *b)
 {
     bool in_time = false;
     for (int d = 0; d < DIM_MAX; d++) in_time |= b->formula[d].in_time;
@@ -104,19 +104,19 @@ static inline bool boundary_in_time(const struct boundary *b)
 
 /* Returns the time at which the formulas of boundary b are evaluated at time t [s]: b->frozen_at in static problems,
  * else t, but not beyond b->end. */
-static inline real boundary_time(const struct boundary *b, real t)
+static inline real boundary_evaluation_time(const struct boundary *b, real t)
 {
     return b->frozen ? b->frozen_at : b->end > 0 ? real_min(t, b->end) : t;
 }
 
 /* Returns true if boundary b applies forces: a traction, a body force or a pressure. */
-static inline bool boundary_is_force(const struct boundary *b)
+static inline bool boundary_applies_force(const struct boundary *b)
 {
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
 }
 
 /* Returns true if boundary b holds its components at rest. */
-static inline bool boundary_holds(const struct boundary *b, int dim)
+static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
 }
@@ -162,14 +162,14 @@ struct loads {
 enum { LOADED = 1, MOVES_LATER = 2, TOUCHES = 4 };
 
 /* Returns true if applied loads or contact may act on particle i. */
-static inline bool is_loaded(const struct loads *l, int64_t i)
+static inline bool particle_is_loaded(const struct loads *l, int64_t i)
 {
     return l->loaded && l->loaded[i] & (LOADED | TOUCHES);
 }
 
 /* Returns true if boundary b is a mirror that also prevents motion along its plane; false in 1D (dim = 1), where such a
  * mirror is a plane of symmetry. */
-static inline bool is_clamp(const struct boundary *b, int dim)
+static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
 }
@@ -183,7 +183,8 @@ status load_find_particles(struct load *l, const struct boundary *b, struct part
 /* Sets selected[i] = 1 for the particles in the region and body of boundary b, 0 for all others; selected: [p->n].
  * spacing: lattice spacing, to which the tolerance of the region refers [m]. Returns false if no particle is
  * selected. */
-bool load_mark_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected);
+bool load_mark_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
+                                   uint8_t *selected);
 
 /* Sets the particle list of load l to the particles i with taken[i] > 0, ascending, and allocates their shares if the
  * load applies forces. Sets FLAG_DRIVEN on these particles if the load prescribes motion. taken: [p->n]. */
@@ -191,18 +192,18 @@ void load_set_particles(struct load *l, const uint8_t *taken, struct particles *
 
 /* Exposed face for a traction (loads_columns.c): areas of particles. Of each column along the normal, the first
  * particle that no other one hides gets its area; for tangential components together with the next one if `two`. */
-struct face {
+struct exposed_face {
     real *normal, *along; /* [particles] area for the normal component, and for the tangential ones [m^2] */
 };
 
 /* Computes the areas of the particles on the exposed face of boundary b, among those with selected[i] = 1, into f.
- * selected: [p->n]; spacing: lattice spacing [m]. two: extrapolate tangential tractions to the face from the first two
- * particles of each column, instead of the first one. Release with face_free. */
-void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
-               real spacing, bool two);
+ * selected: [p->n]; spacing: lattice spacing [m]. extrapolate: extrapolate tangential tractions to the face from the
+ * first two particles of each column, instead of the first one. Release with exposed_face_free. */
+void exposed_face_make(struct exposed_face *f, const struct boundary *b, const struct particles *p,
+                       const uint8_t *selected, real spacing, bool extrapolate);
 
 /* Releases both arrays of areas of a face. */
-void face_free(struct face *f);
+void exposed_face_free(struct exposed_face *f);
 
 /* Sets taken[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and leaves
  * other entries unchanged; a gap in a column of particles normal to the face ends the layer there. selected, taken:
@@ -210,15 +211,15 @@ void face_free(struct face *f);
 void face_mark_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                      uint8_t *taken);
 
-/* Function that face_visit_columns calls for each free end of a column of particles normal to a face. particle: index
- * of the particle at that end; area: cross-section of the column [m^2]; context: data of the caller. */
-typedef void face_found_fn(void *context, int32_t particle, real area);
+/* Function that face_visit_surface_particles calls for each free end of a column of particles normal to a face.
+ * particle: index of the particle at that end; area: cross-section of the column [m^2]; context: data of the caller. */
+typedef void face_particle_fn(void *context, int32_t particle, real area);
 
 /* Calls found(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
  * particles along its normal; walls of holes are free ends too. selected: [p->n] 1: selected; spacing: lattice spacing
  * [m]. */
-void face_visit_columns(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                        face_found_fn *found, void *context);
+void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
+                                  real spacing, face_particle_fn *found, void *context);
 
 /* Finds the particles with a free face on which the pressure boundary[which] acts, and stores them in l with the areas
  * of these faces. boundary: all n boundaries of the scene, because other boundaries may cover a face. spacing: lattice
@@ -263,7 +264,7 @@ void load_force_at(const struct load *l, const struct particles *p, int64_t numb
 /* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
  * its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean displacement is
  * the work; it is not weighted if the forces sum to zero. */
-void load_sum_applied(struct load *l, const struct particles *p, real t);
+void load_sum_force_and_motion(struct load *l, const struct particles *p, real t);
 
 /* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its particle
  * number `number` at time t [s], without areas and without the profile. value: dim components, unit as boundary.value.
@@ -292,10 +293,10 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 void loads_merge_equal_lists(struct loads *l, int dim);
 
 /* Releases the shares (areas, volumes, masses) of all loads, also those that several loads have in common. */
-void loads_applied_free(struct loads *l);
+void loads_shares_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
- * of the velocity update [s], to l->impulse. Part of loads_complete_forces. */
+ * of the velocity update [s], to l->impulse. Part of loads_finish_particle_forces. */
 void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
 
 /* Adds the work of the applied forces over the displacements of the step of size dt about t [s] to l->work. Part of
@@ -306,28 +307,28 @@ void loads_add_work(struct loads *l, struct particles *p, real t, real dt);
 
 /* Checks the absorbing boundaries. Returns REFUSED, with a message, if two of them act on one part of a face, or if one
  * lies in a mirror plane. */
-status loads_absorbing_check(const struct loads *l, const struct particles *p);
+status absorbing_boundaries_check(const struct loads *l, const struct particles *p);
 
 /* Creates the dashpots on the particles of all absorbing faces; call after loads_make. impedance[m]: wave impedances of
  * the materials, [materials], for the method m that moves a particle (enum moved_by); borrowed. Release with
- * loads_absorbing_free. */
-void loads_absorbing_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
+ * absorbing_dashpots_free. */
+void absorbing_dashpots_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
 
 /* Releases the dashpots of all absorbing faces. */
-void loads_absorbing_free(struct loads *l);
+void absorbing_dashpots_free(struct loads *l);
 
 /* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
- * dt_velocity: duration of the velocity update [s]. Part of loads_complete_forces. */
+ * dt_velocity: duration of the velocity update [s]. Part of loads_finish_particle_forces. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
 /* Appends the absorbing dashpots of grid nodes to g, after the prescribed velocities of nodes are set; part of
- * loads_set_grid_walls. The rates of particles are distributed to the nodes by the kernel kernels->spread. half_width:
- * half the reference edge of a particle, l_p [m]. */
+ * loads_prescribe_grid_velocities. The rates of particles are distributed to the nodes by the kernel kernels->spread.
+ * half_width: half the reference edge of a particle, l_p [m]. */
 void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
                              real half_width);
 
 /* Appends the absorbing dashpots of mesh nodes to mesh->grid, distributed from the particles of absorbing faces; part
- * of loads_find_mesh_nodes. */
+ * of loads_find_driven_mesh_nodes. */
 void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
 /* Adds the energy and impulse in `by`, the effect of the dashpots of one grid or mesh in a step, to the sums of the run
@@ -386,7 +387,7 @@ real prescribed_velocity_at(const struct prescribed_motion *s, const real *X, in
 
 /* Returns true if the motion that boundary b prescribes differs between positions: it rotates, or a formula contains x,
  * y or z. */
-static inline bool drives_by_place(const struct boundary *b)
+static inline bool boundary_motion_varies_in_space(const struct boundary *b)
 {
     return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
 }
@@ -441,32 +442,34 @@ void loads_clear_forces(struct loads *l, struct particles *p);
  * l->impulse, adds applied forces and dashpots, and replaces f of driven peridynamic particles by the force that
  * produces the prescribed velocity. t: time at which the velocity update of duration dt_velocity ends, the middle of
  * the step of size dt [s]. */
-void loads_complete_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
+void loads_finish_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
 /* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]: nodes in a driven
  * region, nodes on a mirror plane, and nodes at least half of whose mass belongs to driven points. Nodes beyond a
  * mirror plane move as mirror images if the plane is on a node or midway between two, else they are constrained like
  * nodes on the plane. held: constrained nodes of this grid, kept between calls, zeroed at first. half_width: half the
  * reference edge of a particle [m]. Call after the first particle-to-grid map. */
-void loads_set_grid_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
-                          const struct kernels *kernels, real half_width, real t, real dt);
+void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *held, struct grid *g,
+                                     const struct particles *p, const struct kernels *kernels, real half_width, real t,
+                                     real dt);
 
 /* Finds the nodes of the mesh whose motion boundaries or mirrors prescribe, and the absorbing dashpots of its nodes.
  * Call once at set-up, and again whenever the mesh has lost points to conversion. */
-void loads_find_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
+void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the mesh nodes found by loads_find_mesh_nodes, for the step of size dt
- * about t [s]. */
-void loads_set_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
+/* Sets the prescribed velocities (walls) of the mesh nodes found by loads_find_driven_mesh_nodes, for the step of size
+ * dt about t [s]. */
+void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt);
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion is prescribed, by their positions: nodes in
  * driven regions and on mirror planes. Stores them in `held`. */
-void loads_find_level_nodes(const struct loads *l, struct constrained_set *held, struct grid *g,
-                            const struct particles *p);
+void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set *held, struct grid *g,
+                                   const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the nodes in `held`, found by loads_find_level_nodes, on grid g of a mesh
- * of coarse cells, for the step of size dt about t [s]. */
-void loads_set_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt);
+/* Sets the prescribed velocities (walls) of the nodes in `held`, found by loads_find_driven_level_nodes, on grid g of a
+ * mesh of coarse cells, for the step of size dt about t [s]. */
+void loads_prescribe_level_velocities(const struct loads *l, const struct constrained_set *held, struct grid *g, real t,
+                                      real dt);
 
 /* Sets the velocity of driven material points and the position of particles with prescribed displacement exactly, after
  * the grid-to-particle transfer of the step of size dt about t [s], and adds the work of applied forces to l->work.
@@ -475,7 +478,7 @@ bool loads_impose_motion(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
  * reactions of their loads. dt_velocity: duration of the velocity update [s]. */
-void loads_add_reactions(struct loads *l, const struct grid *g, real dt_velocity);
+void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity);
 
 /* Returns true if the plane of mirror b is on a node of grid g or midway between two nodes. spacing: lattice spacing,
  * to which the tolerance refers [m]. */
@@ -485,14 +488,15 @@ bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spaci
 
 /* Converts n boundary conditions `from` to those of a static problem in pseudo-time, copied into `to`: forces have
  * their value at time `duration` [s], prescribed motion its displacement until then. Both grow linearly from 0 at
- * pseudo-time 0 to full size at `ramp` [s] and stay constant. */
-void loads_make_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp);
+ * pseudo-time 0 to full size at `ramp_time` [s] and stay constant. */
+void loads_make_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration,
+                                  real ramp_time);
 
-/* Computes the displacement of every driven component at full load (pseudo-time `ramp` [s]). displacement: [dim][p->n]
- * [m]; held: [p->n], bit d: component d is driven. Where loads overlap, the later load in the scene is used, as in a
- * dynamic run. */
-void loads_static_displacements(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
-                                uint8_t *held);
+/* Computes the displacement of every driven component at full load (pseudo-time `ramp_time` [s]). displacement:
+ * [dim][p->n] [m]; held: [p->n], bit d: component d is driven. Where loads overlap, the later load in the scene is
+ * used, as in a dynamic run. */
+void static_displacements_compute(struct loads *l, const struct particles *p, real ramp_time, real *const *displacement,
+                                  uint8_t *held);
 
 /* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
  * loads with a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns that moment
@@ -513,7 +517,7 @@ void loads_compute_static_work(struct loads *l, const struct particles *p);
 
 /* Saves (a->saving) or restores the impulse and work of the loads since the start, and displacement and reaction of
  * each load. Returns FAILED if an entry is missing or its size differs. */
-status loads_archive(struct loads *l, struct archive *a);
+status loads_save_or_load(struct loads *l, struct archive *a);
 
 /* largest number: indices are stored as bytes in struct held and struct image; scene_keys.c */
 enum { BOUNDARIES_MAX = 255 };

@@ -83,14 +83,14 @@ static inline struct mesh *level_mesh(struct mesh_levels *l, int level)
 
 /* Returns the mesh of a refinement level for reading only: level 0 the mesh with material points, higher levels coarse
  * cells. The mesh belongs to l. */
-static inline const struct mesh *level_mesh_of(const struct mesh_levels *l, int level)
+static inline const struct mesh *level_mesh_read_only(const struct mesh_levels *l, int level)
 {
     return level > 0 ? &l->at[level].mesh : l->fine;
 }
 
 /* Returns the number of steps between instants at which all refinement levels have reached the same time, 2^n for n
  * coarse levels. */
-static inline int levels_stride(const struct mesh_levels *l) { return 1 << l->n; }
+static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1 << l->n; }
 
 /* Makes n coarse refinement levels over the mesh `fine`; at first they have no cells. fine: finest mesh with material
  * points, kept by reference; source: material constants, slits and voids; density: mass density of each material
@@ -103,9 +103,9 @@ status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct
 void levels_free(struct mesh_levels *l);
 
 /* Sets two distances between a material point that converts and a coarse cell, in cells of level 0 (the finest):
- * `safe`, below which conversion is postponed, as forces of the point would reach the coarse cell; `roomy`, below
- * which finer cells are requested, as points near breaking bonds convert next. */
-void levels_set_distances(struct mesh_levels *l, int safe, int roomy);
+ * `postpone_distance`, below which conversion is postponed, as forces of the point would reach the coarse cell;
+ * `refine_distance`, below which finer cells are requested, as points near breaking bonds convert next. */
+void levels_set_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
 
 /* Sets the inertia of coarse cells, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that waves
  * in them have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that would have
@@ -122,15 +122,15 @@ void levels_coarsest_admissible(const struct mesh_levels *l, const struct partic
 
 /* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
  * present, the motion of the nodes inside is compared with the interpolation from its corners; if the energy of the
- * difference exceeds `most` [J/kg], `limit` is set to one level less there. level, limit: a byte for each cell of level
- * 0, the finest. The motion of the nodes of level 0 must be up to date (levels_prolong). Returns true if a limit was
- * lowered. */
-bool levels_limit_rough(const struct mesh_levels *l, const uint8_t *level, real most, uint8_t *limit);
+ * difference exceeds `max_energy` [J/kg], `limit` is set to one level less there. level, limit: a byte for each cell of
+ * level 0, the finest. The motion of the nodes of level 0 must be up to date (levels_prolong_motion). Returns true if a
+ * limit was lowered. */
+bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level, real max_energy, uint8_t *limit);
 
 /* Extends marks to complete coarse cells: if one cell of level 0 (the finest) in a coarse cell is marked, all cells of
  * level 0 in it become marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each
  * cell of level 0. */
-void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
+void levels_extend_marks_to_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
 
 /* Marks all cells of level 0 (the finest) within `reach` cells of a marked one, in all directions including diagonals.
  * mark: a byte for each cell of level 0, not 0 if marked. */
@@ -141,8 +141,8 @@ void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach);
  * merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is distributed
  * among the corners, so that momentum is conserved. All levels must be at the same time. Nodal forces become 0. source:
  * material constants. */
-void levels_change(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                   const uint8_t *level);
+void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                              const uint8_t *level);
 
 /* Changes the velocities of all nodes by the forces of half a step, to bring velocities and displacements of all levels
  * to the same time (dt > 0) or back again (dt < 0): velocities of level L are half a step of 2^L dt behind. elastic:
@@ -156,14 +156,14 @@ void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, c
 void levels_copy_to_ghosts(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
-void levels_prolong(struct mesh_levels *l);
+void levels_prolong_motion(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to the nodes of level 0 (the finest) inside them that have
  * particles in an adjacent cell. */
-void levels_prolong_points(struct mesh_levels *l);
+void levels_prolong_motion_to_points(struct mesh_levels *l);
 
 /* Returns the highest refinement level whose forces act in step number `step`; level L acts every 2^L steps. */
-int levels_highest_due(const struct mesh_levels *l, int64_t step);
+int levels_highest_acting(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `due` on their nodes and on nodes of finer levels at the
  * interfaces. The forces of level 0 (the finest) must be complete before. elastic: array of the elastic constants of
@@ -187,7 +187,7 @@ real levels_strain_energy(struct mesh_levels *l, const struct particles *p, cons
 /* Returns the difference between two kinetic energies of the nodes of all coarse levels in a leap-frog velocity update
  * [J]: the mean of 1/2 m v^2 before and after it, minus 1/2 m v_old . v_new, which leap-frog conserves. dt: time step
  * of level 0 [s]. */
-real levels_kick_energy(const struct mesh_levels *l, real dt);
+real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt);
 
 /* Returns the power of the forces on the nodes of all coarse levels, the sum of v . f times 2^L, the number of steps
  * for which forces of level L act [W]. */
@@ -208,7 +208,7 @@ void levels_reconnect_finest(struct mesh_levels *l, const struct particles *p, c
 /* Saves the refinement levels, the motion of their nodes and the data for the next change of levels to the archive if
  * a->saving, else restores them. The finest mesh must be restored before. source: material constants. Returns FAILED,
  * with a message, if the archive cannot be read or written or if the restored levels are inconsistent. */
-status levels_archive(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                      struct archive *a);
+status levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                           struct archive *a);
 
 #endif

@@ -20,28 +20,31 @@ struct mesh_source {
     int materials;
     const struct partial_stress *partial; /* partial stresses of the points; NULL: none */
     bool still;                           /* the caller sets the motion of the nodes */
-    const struct hollow *hollow;          /* cells whose particles are not made; kept by reference, NULL: none */
-    const struct crack *slit;             /* [slits] free surfaces between cells; kept by reference */
+    const struct cells_without_particles
+        *hollow;              /* cells whose particles are not made; kept by reference, NULL: none */
+    const struct crack *slit; /* [slits] free surfaces between cells; kept by reference */
     int slits;
     const struct voids *voids;         /* voids of the bodies, also free surfaces; kept by reference, NULL: none */
     const struct mirror_plane *mirror; /* [mirrors] kept by reference */
     int mirrors;
 };
 
-/* Makes a mesh of all particles with FLAG_MESHED. like: grid whose anchor and cell size define the nodes; source:
+/* Makes a mesh of all particles with FLAG_MESHED. node_grid: grid whose anchor and cell size define the nodes; source:
  * material constants, partial stresses, slits and voids. Unless source->still, displacement and velocity of the nodes
  * are fitted to those of the particles by least squares. Returns REFUSED, with a message, if the particles are not two
  * per cell and direction, all of one volume, or if two bodies share a node and would move as one; FAILED if there are
  * too many nodes. Release with mesh_free. */
-status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source);
+status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node_grid,
+                 const struct mesh_source *source);
 
 /* Frees the arrays of a mesh. */
 void mesh_free(struct mesh *mesh);
 
-/* Returns the number of parts of a mesh of all particles that share no node with each other. like: grid whose anchor
- * and cell size define the nodes; hollow: cells whose particles are not made. Returns 0 if the particles are not two
- * per cell and direction, so that no mesh is possible. */
-int64_t mesh_count_parts(const struct particles *p, const struct grid *like, const struct hollow *hollow);
+/* Returns the number of parts of a mesh of all particles that share no node with each other. node_grid: grid whose
+ * anchor and cell size define the nodes; hollow: cells whose particles are not made. Returns 0 if the particles are not
+ * two per cell and direction, so that no mesh is possible. */
+int64_t mesh_count_parts(const struct particles *p, const struct grid *node_grid,
+                         const struct cells_without_particles *hollow);
 
 /* Updates the mesh after n particles `changed` (NULL: unknown ones) have become peridynamic or have changed their
  * partial stress: removes peridynamic particles from their cells and recomputes the cells. Nodal velocities are kept;
@@ -91,9 +94,9 @@ int64_t mesh_find_inverted_point(const struct mesh *mesh, const struct particles
 enum { CELLS_ACROSS = 6 };
 
 /* Computes for each cell the highest refinement level that the thickness of the body around it allows, into
- * room[mesh->grid.n]. mirror: `mirrors` planes of symmetry, beyond which the body continues. Returns the largest of
+ * highest[mesh->grid.n]. mirror: `mirrors` planes of symmetry, beyond which the body continues. Returns the largest of
  * these levels. */
-int mesh_level_limits(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *room);
+int mesh_level_limits(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *highest);
 
 /* Marks all cells of grid g within `reach` cells of a marked one, in all directions including diagonals. mark: g->n
  * bytes, not 0 if marked. */
@@ -101,6 +104,6 @@ void grid_dilate_marks(const struct grid *g, uint8_t *mark, int reach);
 
 /* Saves displacement and velocity of the nodes of a mesh to the archive if a->saving, else restores them. Returns
  * FAILED if the archive cannot be read or written or a stored size differs. */
-status mesh_archive(struct mesh *mesh, struct archive *a);
+status mesh_save_or_load(struct mesh *mesh, struct archive *a);
 
 #endif

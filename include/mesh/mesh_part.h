@@ -19,7 +19,7 @@ struct frame_ring {
 };
 
 /* Points in coarse cells without particles, for the last frame. */
-struct hollow_points {
+struct coarse_cell_points {
     struct particles part;
     real *spacing;                     /* spacing of the points [m] */
     real *gradient[DIM_MAX * DIM_MAX]; /* gradient of the displacement, if a frame contains strains [1] */
@@ -40,13 +40,13 @@ struct reference_frame {
     struct mesh_levels levels; /* coarse cells */
     uint8_t *room;             /* [mesh.grid.n] largest level by the thickness of the body; NULL: not computed */
     int room_most;             /* largest value of `room` */
-    struct hollow hollow;      /* cells whose particles are not made */
-    bool lacks;                /* particles needed at the start are missing: the run must be set up again */
-    struct elastic *coarse;    /* [materials] constants of coarse cells, with a smaller conversion stress */
+    struct cells_without_particles hollow; /* cells whose particles are not made */
+    bool lacks;                            /* particles needed at the start are missing: the run must be set up again */
+    struct elastic *coarse;                /* [materials] constants of coarse cells, with a smaller conversion stress */
     int rings;
     /* [scene->probes] discs in which cells stay the smallest at present; the first `rings` */
     struct frame_ring *ring;
-    struct hollow_points shown;
+    struct coarse_cell_points shown;
     real speed; /* largest component of a nodal velocity [m/s] */
 };
 
@@ -54,24 +54,26 @@ struct reference_frame {
  * the background grid (current frame), with a reason in r->choice; sets FLAG_MESHED of the particles in the reference
  * frame, and makes the background grids mpm for this choice. Returns REFUSED, with a message, if the scene requires
  * the reference frame for a body that cannot use it. */
-status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p, const struct scene *s);
+status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
+                          const struct scene *s);
 
 /* Returns true if at least one body is in the reference frame. */
-bool frame_in_use(const struct reference_frame *r);
+bool reference_frame_in_use(const struct reference_frame *r);
 
 /* Returns true if the particles can be in the reference frame: they form one connected mesh on a lattice that fits the
  * cells of the background grid. */
-bool frame_allowed(const struct reference_frame *r, const struct particles *p, const struct grid_method *mpm);
+bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p,
+                                 const struct grid_method *mpm);
 
 /* Makes the mesh of the bodies in the reference frame, and finds exposed points and loaded nodes. cuts: partial
- * stresses and slits of this mesh, its other members are ignored; still: true if the caller sets displacement and
- * velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
-status frame_make(struct run *e, const struct mesh_source *cuts, bool still);
+ * stresses and slits of this mesh, its other members are ignored; motion_set_later: true if the caller sets
+ * displacement and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
+status reference_frame_make(struct run *e, const struct mesh_source *cuts, bool motion_set_later);
 
 /* Returns the critical time step of the cells of the reference frame [s], INFINITY if there are none. With the
  * adaptive method and without partial stress (coupling), cells that have lost any of their points by conversion are
  * included. */
-real frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
+real reference_frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
 /* Finds again the points of the mesh that have bonds, loads or mirror images (exposed points), and the nodes on which
  * the boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
@@ -89,9 +91,9 @@ void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_
 
 /* Integrates the motion of the nodes under the forces of frame_compute_forces, then updates the points of the mesh that
  * have bonds, loads or mirror images. loads: prescribed velocities, whose work and reactions are added up there;
- * middle: time in the middle of the step [s]; dt_velocity: interval over which velocities are advanced [s]. */
+ * t_middle: time in the middle of the step [s]; dt_velocity: interval over which velocities are advanced [s]. */
 void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
-                      const struct run_clock *clock, real middle, real dt_velocity);
+                      const struct run_clock *clock, real t_middle, real dt_velocity);
 
 /* Updates positions, velocities and stresses of all material points of the mesh from the nodes, then those of the
  * mirror images of particles, which `loads` lists. */
@@ -107,14 +109,15 @@ void frame_update_listed_points(struct reference_frame *r, struct particles *p, 
                                 const int32_t *list, int64_t n);
 
 /* Updates the mesh after `converted` particles have become peridynamic and the partial stresses of the points
- * partial->touched have changed. Adds the energy lost to *damped [J]. Returns false if only the stiffness of cells has
- * changed, true if points have left the mesh; call frame_find_exposed_points then. */
+ * partial->touched have changed. Adds the energy lost to *energy_lost [J]. Returns false if only the stiffness of cells
+ * has changed, true if points have left the mesh; call frame_find_exposed_points then. */
 bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
-                                   const struct partial_stress *partial, real *damped);
+                                   const struct partial_stress *partial, real *energy_lost);
 
 /* Adds n listed particles, which have become material points again, to the mesh (mesh_insert_points). Adds the energy
- * lost to *damped [J]. */
-void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped);
+ * lost to *energy_lost [J]. */
+void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
+                         real *energy_lost);
 
 /* Returns the kinetic energy of all nodes of the reference frame, of all refinement levels [J]. */
 real frame_kinetic_energy(const struct reference_frame *reference);
@@ -165,14 +168,14 @@ void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, 
 struct levels_choice frame_levels_choice(const struct reference_frame *r, const struct particles *p,
                                          const struct scene *s, real dt_critical);
 
-/* Writes the number of refinement levels and its reason in words to `text` (capacity `room` bytes). c: result of
+/* Writes the number of refinement levels and its reason in words to `text` (`capacity` bytes). c: result of
  * frame_levels_choice. */
-void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t room);
+void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity);
 
 /* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
- * the reason to `text` (capacity `room` bytes). c: result of frame_levels_choice. */
+ * the reason to `text` (`capacity` bytes). c: result of frame_levels_choice. */
 bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
-                               const struct scene *s, char *text, size_t room);
+                               const struct scene *s, char *text, size_t capacity);
 
 /* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels; restored: true if
  * the levels follow from a checkpoint instead. Returns FAILED, with a message, if a level would have too many nodes. */
@@ -189,7 +192,7 @@ uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct partic
                                   int64_t step, real mass);
 
 /* Changes the refinement levels of run e to level[mesh.grid.n], a result of frame_levels_choose_next. Cells that become
- * level 0 (the finest) must have particles (frame_hollow_lacks_particles). The change of energy is added to e->damped.
+ * level 0 (the finest) must have particles (levels_need_more_particles). The change of energy is added to e->damped.
  */
 void frame_levels_apply(struct run *e, const uint8_t *level);
 
@@ -199,38 +202,39 @@ void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p
 
 /* Updates, after refinement levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
  * of points of the mesh with bonds, loads or mirror images, and of nodes on which loads act. */
-void frame_levels_find_nodes(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                             struct loads *loads);
+void frame_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                                    struct loads *loads);
 
 /* Returns the reason in words why all particles of scene s must be made, or NULL if particles inside coarse cells may
  * be left out. */
-const char *frame_hollow_why_not(const struct scene *s);
+const char *why_all_particles_are_needed(const struct scene *s);
 
 /* Decides which cells need no particles because they will be inside coarse cells, before particles are made: away from
  * pre-cracks, loads and probes. h: receives these cells; no change if all particles must be made or too few can be
  * left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too many cells. */
-status frame_hollow_choose_cells(struct hollow *h, const struct scene *s, const struct bond_source *source);
+status cells_without_particles_choose(struct cells_without_particles *h, const struct scene *s,
+                                      const struct bond_source *source);
 
 /* Checks that all cells of level 0 (the finest) have particles under the initial refinement levels. level: level of
  * each cell, NULL if there are no coarse cells. Returns true if so. Returns false if particles are missing or levels
  * follow from a checkpoint; r->hollow is then corrected and the run must be set up again. */
-bool frame_hollow_check_start(struct reference_frame *r, const uint8_t *level);
+bool initial_levels_have_particles(struct reference_frame *r, const uint8_t *level);
 
 /* Returns true if a cell that has level 0 (the finest) by level[mesh->grid.n] has no particles, so that the run must be
  * set up again with more particles. */
-bool frame_hollow_lacks_particles(const struct mesh *mesh, const uint8_t *level);
+bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level);
 
 /* Chooses the cells without particles for the refinement levels level[mesh.grid.n] and stores them in r->hollow.
  * Particles change when the run is set up again. */
-void frame_hollow_update_cells(struct reference_frame *r, const uint8_t *level);
+void cells_without_particles_update(struct reference_frame *r, const uint8_t *level);
 
 /* Makes the material points of coarse cells without particles for output in a frame, into r->shown, with values
  * interpolated from the nodes. body: particles of the run; m: array of the materials; gradients: true to compute
  * displacement gradients, too. Returns false if there are no such cells. */
-bool frame_hollow_make_points(struct reference_frame *r, const struct particles *body, const struct material *m,
-                              bool gradients);
+bool coarse_cell_points_make(struct reference_frame *r, const struct particles *body, const struct material *m,
+                             bool gradients);
 
-/* Frees the points that frame_hollow_make_points has made. */
-void frame_hollow_points_free(struct hollow_points *h);
+/* Frees the points that coarse_cell_points_make has made. */
+void coarse_cell_points_free(struct coarse_cell_points *h);
 
 #endif

@@ -19,11 +19,11 @@ bool file_has_footer(const char *path);
 
 /* Checks the footer of the file `path`. Returns NULL if the file is whole, else a phrase that completes "PATH ..." in
  * a message, for example "is cut short" (a static text). A file that cannot be read counts as faulty. */
-const char *file_damage(const char *path);
+const char *file_describe_damage(const char *path);
 
-/* Checks the footer of the file `path` as file_damage does, but returns NULL also if the file cannot be read, so that
- * only damage that is certain is reported. */
-const char *file_certain_damage(const char *path);
+/* Checks the footer of the file `path` as file_describe_damage does, but returns NULL also if the file cannot be read,
+ * so that only damage that is certain is reported. */
+const char *file_describe_certain_damage(const char *path);
 
 /* Returns a hash of `length` bytes from `bytes` on. start: a number that the hash also depends on, as the hash of what
  * precedes these bytes. */

@@ -20,7 +20,7 @@ enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE }; /* treatment
 
 enum { SERIES_MOST = 16 }; /* number of regions with frames of their own, in addition to the frames of the whole body */
 
-/* Mark of a frame that is lost (output_frames_check), beside the fields of struct frame_entry. */
+/* Mark of a frame that is lost (output_index_drop_lost_frames), beside the fields of struct frame_entry. */
 #define FRAME_LOST (1u << 31)
 
 /* A frame that has been written. */
@@ -72,7 +72,7 @@ struct output {
 /* Configures HDF5 and signals: no exit handler of HDF5, no error messages of HDF5 on the terminal. SIGXFSZ and SIGPIPE
  * are ignored, so that a full disk causes an error code instead of the end of the process. Call this function once per
  * process, before any other call of HDF5. */
-void output_start(void);
+void output_configure_hdf5(void);
 
 /* Opens the output of a run: creates `folder` and its subfolder frames, locks the folder for this process and writes
  * scene.yaml. Removes temporary files of runs and, unless `mode` is OUTPUT_RESUME, the files of an older run. With
@@ -100,11 +100,11 @@ status output_add_series(struct output *o, const char *name, const struct region
 
 /* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their
  * checksums, not by their paths. */
-bool scene_text_same(const char *a, const char *b);
+bool scene_texts_are_equal(const char *a, const char *b);
 
-/* Returns true if the file `path` holds the text of the same scene as scene_text (see scene_text_same), false also if
- * the file cannot be read. */
-bool scene_file_same(const char *path, const char *scene_text);
+/* Returns true if the file `path` holds the text of the same scene as scene_text (see scene_texts_are_equal), false
+ * also if the file cannot be read. */
+bool scene_file_has_text(const char *path, const char *scene_text);
 
 /* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
 bool scene_text_is_echo(const char *text);
@@ -115,9 +115,9 @@ status output_write_text(const struct output *o, const char *name, const char *t
 
 /* Writes the index files of all series anew, without frames that are missing or incomplete; a frame that was lost at an
  * earlier restart and is there again is listed again. Call it after a restart. lost: receives the number of lost
- * frames. text: receives a message about the first of them and holds `room` bytes.
+ * frames. text: receives a message about the first of them and holds `capacity` bytes.
  * Returns FAILED if an index file cannot be written. */
-status output_frames_check(struct output *o, int *lost, char *text, size_t room);
+status output_index_drop_lost_frames(struct output *o, int *lost, char *text, size_t capacity);
 
 /* Names of the fields, as in the table of output_fields.c. The ASK_ bits select the fields that are written only if the
  * scene requests them; plots and comparisons read the other fields. */
@@ -158,9 +158,10 @@ status output_write_frame(struct output *o, const struct particles *p, real t, i
 
 /* Starts to write the next frame of a series (0: the whole body; 1 .. n_series: regions) at time t [s] after `step`
  * time steps, in a separate thread. The fields of p and *extra (NULL: none) are copied before the function returns;
- * scene_text must stay valid until output_wait. Contact forces are left out if they are 0 everywhere. Only one frame is
- * written at a time: the next frame, checkpoints and output_close wait for it. Returns FAILED if the frame in progress,
- * for which it waits, could not be written; a failure of this frame is returned by the call that waits for it. */
+ * scene_text must stay valid until output_wait_for_frame. Contact forces are left out if they are 0 everywhere. Only
+ * one frame is written at a time: the next frame, checkpoints and output_close wait for it. Returns FAILED if the frame
+ * in progress, for which it waits, could not be written; a failure of this frame is returned by the call that waits for
+ * it. */
 status output_frame_begin(struct output *o, int series, const struct particles *p, const struct frame_extra *extra,
                           real t, int64_t step, const char *scene_text);
 
@@ -174,15 +175,15 @@ status output_write_temporal(struct output *o, const char *scene_text);
 void output_temporal_remove(const struct output *o);
 
 /* Discards the stored order in which particles are written. Call this function when the number of particles or their
- * ids have changed, after output_wait. */
-void output_particles_changed(struct output *o);
+ * ids have changed, after output_wait_for_frame. */
+void output_discard_particle_order(struct output *o);
 
 /* Waits until the thread that writes a frame has finished. Returns FAILED if the frame could not be written; OK if it
  * was written or there was no frame in progress. */
-status output_wait(struct output *o);
+status output_wait_for_frame(struct output *o);
 
 /* Opens history.csv and writes its header `name [unit],...` from column[columns], of which the first two are time and
- * step. If `resume` is true, opens the existing file instead and cuts it to the length that output_archive has
+ * step. If `resume` is true, opens the existing file instead and cuts it to the length that output_save_or_load has
  * restored. Returns FAILED if the file cannot be opened or written. */
 status output_history_open(struct output *o, const struct column *column, int columns, bool resume);
 
@@ -191,7 +192,7 @@ status output_history_open(struct output *o, const struct column *column, int co
 status output_write_history(struct output *o, const real *value);
 
 /* Fields read from a frame, in the order of ascending id. Every array has n entries and belongs to the frame. */
-struct frame {
+struct output_frame {
     int64_t n;
     int dim;
     real t; /* time [s] */
@@ -207,21 +208,21 @@ struct frame {
 
 /* Returns the number of stress components stored in a frame of dimension `dim`: 1 in 1D, 4 in 2D (zz included), 6 in
  * 3D. */
-static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
+static inline int frame_stress_component_count(int dim) { return symmetric_component_count(dim) + (dim == 2); }
 
 /* Reads the frame in the file `path` into *f, particles in the order of ascending id. Returns FAILED, with no memory
  * to release, if the file, or the particles file that it links to, cannot be read or is damaged. Release with
  * frame_free. */
-status frame_read(struct frame *f, const char *path);
+status frame_read(struct output_frame *f, const char *path);
 
 /* Releases the arrays of the frame *f. */
-void frame_free(struct frame *f);
+void frame_free(struct output_frame *f);
 
 /* Reads the field called `name` at the particles of the frame f, which was read from the file `path`: a field stored
  * in the file, one computed from fields of f (data/derived_fields.h), or contact forces that the frame leaves out
  * because they are 0. Stores the number of its components in *columns and an allocated array [n][columns] in *value,
  * which the caller releases with memory_free. Returns FAILED if the frame has no such field. */
-status frame_field_read(const struct frame *f, const char *path, const char *name, int *columns, float **value);
+status frame_field_read(const struct output_frame *f, const char *path, const char *name, int *columns, float **value);
 
 /* Entry of frames.hdf.series. Numbers have gaps where files were lost. */
 struct listed_frame {
@@ -256,6 +257,6 @@ bool checkpoint_exists(const char *folder);
 /* Saves the state of the output (number and times of frames, length and hash of history.csv) to the archive if
  * a->saving is set, else restores it from the archive. Returns FAILED if an entry is missing or does not fit the files
  * of the run. */
-status output_archive(struct output *o, struct archive *a);
+status output_save_or_load(struct output *o, struct archive *a);
 
 #endif

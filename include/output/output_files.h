@@ -49,7 +49,7 @@ bool path_is_folder(const char *path);
 
 /* Sets the message `cannot write PATH: cause; remedy` and returns FAILED. cause: value of errno after the failed call;
  * 0 if unknown. */
-status file_fault(const char *path, int cause);
+status file_report_write_failure(const char *path, int cause);
 
 /* Checks that the file `path` may be replaced or removed. Returns REFUSED if it is an input of this command, or a
  * pipe, socket or device; OK otherwise, also if there is no such file. */

@@ -57,9 +57,9 @@ void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_
 void hdf_create_link(struct hdf *f, const char *name, const char *file);
 
 /* Returns true if `name` is an external link, and stores the path of the file that it leads to in `file`, which holds
- * `room` bytes; an empty text if the path is too long. A failure, also that there is no such name, is stored in
+ * `capacity` bytes; an empty text if the path is too long. A failure, also that there is no such name, is stored in
  * f->failed. */
-bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t room);
+bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t capacity);
 
 /* Part of a virtual dataset: `rows` rows of a dataset in another file, whose path is relative to the folder of the
  * virtual file; NULL: there is no such dataset, and the rows are 0. */
@@ -70,10 +70,10 @@ struct hdf_source {
 
 /* Creates the virtual dataset `name`, which refers to data in other files instead of copying them: the rows of the
  * dataset of the same name in the files source[sources], one after another. type, columns: type of the numbers and
- * numbers per row, equal in all files. Each file contributes its number of rows, source[k].rows, plus `more` rows. A
- * failure is stored in f->failed. */
+ * numbers per row, equal in all files. Each file contributes its number of rows, source[k].rows, plus `extra_rows`
+ * rows. A failure is stored in f->failed. */
 void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns,
-                       const struct hdf_source *source, int sources, int more);
+                       const struct hdf_source *source, int sources, int extra_rows);
 
 /* Writes the string `text` as the dataset `name`, with fixed length. A failure is stored in f->failed. */
 void hdf_write_text(struct hdf *f, const char *name, const char *text);

@@ -4,7 +4,7 @@
 
 /* Returns the present name of a column or figure by which an earlier version called it, or NULL if `name` is no earlier
  * name. Figures within an object have dotted names: conversion.returned. */
-const char *result_present_name(const char *name);
+const char *result_current_name(const char *name);
 
 /* Returns the other of the two names of a renamed column or figure: the present name of an earlier one, the earlier
  * name of a present one; NULL if `name` is neither. Files of either version can thus be read by both names. */

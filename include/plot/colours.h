@@ -11,20 +11,20 @@ struct colour {
 };
 
 /* Returns a colour of the sequential scale, which goes from dark at 0 to light at 1 with uniformly increasing
- * lightness. at: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
-struct colour colour_sequential(double at);
+ * lightness. position: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
+struct colour colour_sequential(double position);
 
-/* Returns a colour of the diverging scale for signed quantities: blue at 0, grey at 0.5, red at 1. at: position on the
- * scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
-struct colour colour_diverging(double at);
+/* Returns a colour of the diverging scale for signed quantities: blue at 0, grey at 0.5, red at 1. position: position
+ * on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
+struct colour colour_diverging(double position);
 
-/* Returns a colour of the scale for damage: grey at 0, then orange, dark red at 1. at: position on the scale, 0 .. 1;
- * values outside are clamped, NaN and infinity count as 1. */
-struct colour colour_damage(double at);
+/* Returns a colour of the scale for damage: grey at 0, then orange, dark red at 1. position: position on the scale, 0
+ * .. 1; values outside are clamped, NaN and infinity count as 1. */
+struct colour colour_damage(double position);
 
 /* Returns the colour of a peridynamic particle in maps of the particle kind, which darkens from light to dark blue
- * with its damage. at: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
-struct colour colour_bonds(double at);
+ * with its damage. position: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
+struct colour colour_bonds(double position);
 
 /* Returns the colour of material points in maps of the particle kind. */
 struct colour colour_points(void);

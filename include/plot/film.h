@@ -12,6 +12,6 @@ status film_check_encoder(void);
  * title, map, view: as for maps_draw. The pictures are drawn in a temporary folder beside the film, which is removed.
  * Returns FAILED if gnuplot or ffmpeg fails, REFUSED if sheet.path must not be replaced (file_check_replaceable). */
 status film_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
-                 const struct cloud *cloud, int clouds);
+                 const struct plotted_particles *cloud, int clouds);
 
 #endif

@@ -11,7 +11,7 @@
 extern const char *const picture_ending[PICTURE_FORMATS];
 
 /* Returns true for the formats of films (plot/film.h), whose single pictures are PNG files. */
-static inline bool picture_moves(enum picture_format format) { return format >= PICTURE_MP4; }
+static inline bool picture_is_film(enum picture_format format) { return format >= PICTURE_MP4; }
 
 /* A running gnuplot. */
 struct gnuplot {

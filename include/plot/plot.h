@@ -78,7 +78,7 @@ struct path run_frame_path(const char *folder, int number);
 
 /* Reads frame `number` in the folder of a run into *f. Returns FAILED, with no memory to release, if the file cannot
  * be read or is damaged. Release with frame_free. */
-status run_read_frame(struct frame *f, const char *folder, int number);
+status run_read_frame(struct output_frame *f, const char *folder, int number);
 
 /* The frames of a run and the selected ones. */
 struct run_frames {
@@ -91,17 +91,17 @@ struct run_frames {
 /* Lists the frames of the run in r->folder, and selects those that the request r asks for by number or time. Stores
  * both in *f. Returns REFUSED if a requested time is outside the range of the frames, FAILED if there is no readable
  * list of frames. Release with run_frames_free. */
-status run_frames_choose(struct run_frames *f, const struct plot_request *r);
+status run_frames_select(struct run_frames *f, const struct plot_request *r);
 
 /* Releases the lists of frames in *f. */
 void run_frames_free(struct run_frames *f);
 
 /* Reads all selected frames of a run into an allocated array *f, [frames->shown]. folder: folder of the run. Returns
  * FAILED, with no memory to release, if a frame cannot be read. Release with frames_free. */
-status frames_read(struct frame **f, const char *folder, const struct run_frames *frames);
+status frames_read(struct output_frame **f, const char *folder, const struct run_frames *frames);
 
 /* Releases the n frames f[n] and their array. */
-void frames_free(struct frame *f, int n);
+void frames_free(struct output_frame *f, int n);
 
 /* Creates the folder for pictures, `path`, unless it exists. Returns REFUSED if a link has this name or the folder
  * holds a file with the name of a picture that Cleave did not draw; FAILED if the folder cannot be created. */
@@ -114,15 +114,15 @@ status picture_destination(struct path *path, const char *out, const char *name,
 
 /* Prints that the picture `path` is not drawn, with the reason `why`, and removes an older picture of that name if
  * Cleave drew it. Returns FAILED if standard output cannot be written. */
-status nothing_to_draw(const char *path, const char *why);
+status report_nothing_to_draw(const char *path, const char *why);
 
 enum { TITLE_LENGTH = 256 };
-struct cloud;
+struct plotted_particles;
 
 /* Composes the title `name, method: what` of a picture in title[TITLE_LENGTH]. Name and method are read from the run
  * in `folder`; unknown parts are left out. c: particles of the picture, whose time and position of the slice are
  * added; may be NULL. */
-void compose_title(char *title, const char *folder, const char *what, const struct cloud *c);
+void picture_compose_title(char *title, const char *folder, const char *what, const struct plotted_particles *c);
 
 /* Unit for display: displayed value = SI value / factor. */
 struct unit {
@@ -131,8 +131,8 @@ struct unit {
 };
 
 /* Returns the unit with the SI prefix in which the value `largest` (in SI units) has one to three digits before the
- * decimal point. name: unit without prefix; unit_for(2e-5, "s") is microseconds. */
-struct unit unit_for(double largest, const char *name);
+ * decimal point. name: unit without prefix; unit_for_largest_value(2e-5, "s") is microseconds. */
+struct unit unit_for_largest_value(double largest, const char *name);
 
 /* Returns a unit of length suitable for values up to `largest` [m]: millimetres between 0.5 mm and 10 m, else metres
  * with an SI prefix. */
@@ -159,13 +159,13 @@ status plot_field_find(const struct plot_field **field, const char *name, int di
 
 /* Reads the values of a field at the particles of the frame f, which was read from the file `path`, into an allocated
  * array *value, [f->n], which the caller releases with memory_free. Returns FAILED if the frame lacks the field. */
-status plot_field_read(float **value, const struct plot_field *field, const struct frame *f, const char *path);
+status plot_field_read(float **value, const struct plot_field *field, const struct output_frame *f, const char *path);
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
 /* Particles of one frame that are drawn: all particles in 2D; in 3D a slice, or all in an outside view. Arrays are
  * [n]. */
-struct cloud {
+struct plotted_particles {
     int64_t n;
     float *position[DIM_MAX]; /* current position along the axes of the map [m]; position[2], towards the viewer, is
                                * NULL for a flat map */
@@ -190,20 +190,21 @@ struct cloud {
 };
 
 /* Copies the particles of the frame f that a picture shows into *c. projection: slice or outside view of a body in
- * three dimensions; NULL for the slice with the largest damage. Release with cloud_free. */
-void cloud_make(struct cloud *c, const struct frame *f, const struct projection *projection);
+ * three dimensions; NULL for the slice with the largest damage. Release with plotted_particles_free. */
+void plotted_particles_make(struct plotted_particles *c, const struct output_frame *f,
+                            const struct projection *projection);
 
 /* Releases the arrays of *c. */
-void cloud_free(struct cloud *c);
+void plotted_particles_free(struct plotted_particles *c);
 
 /* Completes a slice through a body in three dimensions from the particles of the frame f: sets normal and position of
  * the slice if they are not set, else moves the given position to the nearest particles. Does nothing for outside
  * views and lower dimensions. Returns REFUSED if no particle is within one spacing of the given position. */
-status projection_complete(struct projection *projection, const struct frame *f);
+status projection_complete_slice(struct projection *projection, const struct output_frame *f);
 
 /* Returns the particle spacing of a frame [m]: the smallest one if the frame stores spacings, else the median distance
  * of nearest neighbours in the reference positions of a sample of particles; 0 if it is unknown. */
-double frame_spacing(const struct frame *f);
+double frame_spacing(const struct output_frame *f);
 
 /* Quantity that a map shows. */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
@@ -225,7 +226,7 @@ struct categories {
 /* Lists the named values (of bodies, materials and so on) of a field that occur in cloud[clouds], and stores them in
  * *k. folder: folder of the run, from whose scene the names of bodies and materials are read. */
 void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
-                     const struct cloud *cloud, int clouds);
+                     const struct plotted_particles *cloud, int clouds);
 
 /* Returns the colour in which a named value (body, material and so on) of the field is drawn. value: index of the
  * body, material and so on. */
@@ -249,14 +250,14 @@ struct view {
 
 /* Returns the rectangle in which all particle sets cloud[clouds] are shown: the bounding box of the body with a
  * margin. A few particles that are far from all others may lie outside. */
-struct view view_around(const struct cloud *cloud, int clouds);
+struct view view_around(const struct plotted_particles *cloud, int clouds);
 
 /* Sets the field that the view v shows and the values at the ends of its colour scale, by field->scale and the values
  * in cloud[clouds]. Extreme values of a few particles are ignored. */
-void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds);
+void view_set_field(struct view *v, const struct plot_field *field, const struct plotted_particles *cloud, int clouds);
 
 /* Returns the colour of particle i of c in a map of the kind `map`. v: view with the range of the colour scale. */
-struct colour particle_colour(const struct view *v, const struct cloud *c, int64_t i, enum map map);
+struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);
 
 /* Returns the colour at position a, 0 .. 1, of the colour scale of a map of the kind `map`. v: view, whose field
  * determines the scale of MAP_FIELD. */
@@ -265,16 +266,16 @@ struct colour map_colour(const struct view *v, enum map map, double position);
 /* Paints the particles of c, seen in the rectangle of `view`, into pixel[height][width], row 0 at the bottom. map:
  * quantity that the colours show. Each particle covers its own square, or a disc where the lattice is rotated; each
  * pixel shows the nearest particle. Pixels without a particle are white and transparent. Outside views are painted by
- * boxes_paint. */
-void raster_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
-                  enum map map);
+ * cubes_paint_particles. */
+void raster_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
+                            const struct plotted_particles *c, enum map map);
 
 /* Paints the particles of c in an outside view into pixel[height][width], row 0 at the bottom. map: quantity that the
  * colours show; view: visible rectangle and range of the colours. Each particle is drawn as a cube; each pixel shows
  * the cube nearest to the viewer. In MAP_CRACKS the cubes of cracks are painted in front of the body in faded colours.
  */
-void boxes_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
-                 enum map map);
+void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
+                           const struct plotted_particles *c, enum map map);
 
 /* Output file of a picture. */
 struct sheet {
@@ -286,7 +287,7 @@ struct sheet {
  * `title` above. map: quantity that the colours show; view: common rectangle and range of the colours. Returns FAILED
  * if gnuplot fails. */
 status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
-                 const struct cloud *cloud, int clouds);
+                 const struct plotted_particles *cloud, int clouds);
 
 /* ---- curves ------------------------------------------------------------------------------------------------------ */
 
@@ -321,7 +322,7 @@ status sif_curves_draw(const char *folder, const char *title, const struct serie
 /* Draws the paths of crack tips from growth probes as the picture `path` of the run in `folder`, with the angle
  * measured in an experiment if the scene states one. title: heading of the picture; s: history of the run. Returns OK
  * without a picture if the run has no growth probe, FAILED if gnuplot fails. */
-status paths_draw(const char *folder, const char *title, const struct series *s);
+status crack_paths_draw(const char *folder, const char *title, const struct series *s);
 
 /* Returns true if the run in `folder` consists of load steps. */
 bool run_has_load_steps(const char *folder);
@@ -339,26 +340,26 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
 /* Draws all pictures of history.csv of the run in `folder`: crack, energy, sif and path, for load steps also
  * load_displacement and r_curve (names in output/pictures.h). title: heading of each picture; format: a format of
  * still pictures. Returns FAILED if history.csv cannot be read or gnuplot fails. */
-status curves_draw(const char *folder, const char *title, enum picture_format format);
+status history_curves_draw(const char *folder, const char *title, enum picture_format format);
 
 /* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
  * frame[frames], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */
-status profiles_draw(struct sheet sheet, const char *title, const struct frame *frame, int frames);
+status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frames);
 
 /* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frames], to the file
  * `sheet`. title: heading of the picture; value[k]: values of the field at the particles of frame k. Returns FAILED if
  * gnuplot fails. */
 status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
-                           const struct frame *frame, int frames);
+                           const struct output_frame *frame, int frames);
 
 /* Finds an EXACT probe, which compares a bar with a closed-form solution, by the profiles in the folder of a run and
  * stores its name in `name`. Returns false if there is none. */
-bool bar_find_probe(const char *folder, char name[NAME_MAX_LENGTH]);
+bool exact_probe_find(const char *folder, char name[NAME_MAX_LENGTH]);
 
 /* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe`, with
  * the closed-form solution, to the file `sheet`. title: heading of the picture; show[frames]: frames of the run in
  * `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
-status bar_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
-                const struct listed_frame *show, int frames);
+status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
+                                   const struct listed_frame *show, int frames);
 
 #endif

@@ -70,10 +70,11 @@ real diagnostics_energy_change(const struct diagnostics *w);
 int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle);
 
 /* Adds the bonds that broke in the step at time t [s] to the number of broken bonds, and stores time and position of
- * the first break of the run. broken: number of directed bonds that broke in the step. horizon: length of the longest
- * bond [m]. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for the first
- * time in the run. */
-bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t);
+ * the first break of the run. broken_bonds: number of directed bonds that broke in the step. horizon: length of the
+ * longest bond [m]. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for the
+ * first time in the run. */
+bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken_bonds,
+                               real t);
 
 /* Returns the largest speed of the particles list[n] [m/s], 0 for an empty list. */
 real diagnostics_largest_speed(const struct particles *p, const int32_t *list, int64_t n);
@@ -88,6 +89,6 @@ status diagnostics_divergence(const struct particles *p, bool peridynamic, bool 
 
 /* Saves the diagnostics to the archive if a->saving is set, else restores them from it. Returns FAILED if an entry is
  * missing or has another size. */
-status diagnostics_archive(struct diagnostics *w, struct archive *a);
+status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
 
 #endif

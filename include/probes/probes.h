@@ -26,31 +26,31 @@
  *   end_displacement        of the outermost particle at the loaded end, half a spacing from the end [m]
  *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, at the time of the velocities */
 
-/* Final state of the run on material points alone with which PULSE probes are compared (engine_run_baseline). */
+/* Final state of the run on material points alone with which PULSE probes are compared (engine_run_mpm_baseline). */
 struct baseline {
     real *v[DIM_MAX];   /* [n] velocities [m/s] */
     real energy_change; /* relative energy change since the start [1] */
 };
 
-/* Read-only view of a run that probes measure (run_observed); all pointers are borrowed. */
-struct observed {
+/* Read-only view of a run that probes measure (observed_run_of); all pointers are borrowed. */
+struct observed_run {
     const struct particles *part;
     const struct cells *cells; /* search over reference positions */
     const struct bonds *bonds;
     const struct loads *loads;
     const struct grid *grid;
-    const struct tips *tips;
+    const struct crack_tips *tips;
     const struct material *material;
     const struct partial_stress *partial;
-    real spacing;                /* of particles [m] */
-    real thickness;              /* section of a bar [m^2], thickness in the plane [m], 1 in space */
-    real strain_stress;          /* for PATCH: largest |component| of the initial stress [Pa] */
-    real residual_step0;         /* for PATCH: largest force on a node or peridynamic particle in the first step [N] */
-    real t;                      /* time of positions [s] */
-    bool in_steps;               /* the run makes load steps, whose applied forces are known with their reactions */
-    int64_t load_step;           /* load steps done, including the current one; 0 without load steps */
-    real energy_change;          /* (E - E_0 - work)/E_0 at the last sample; NAN if E_0 is 0 [1] */
-    const struct growth *growth; /* [growths] cracks with prescribed or SIF-controlled growth */
+    real spacing;        /* of particles [m] */
+    real thickness;      /* section of a bar [m^2], thickness in the plane [m], 1 in space */
+    real strain_stress;  /* for PATCH: largest |component| of the initial stress [Pa] */
+    real residual_step0; /* for PATCH: largest force on a node or peridynamic particle in the first step [N] */
+    real t;              /* time of positions [s] */
+    bool in_steps;       /* the run makes load steps, whose applied forces are known with their reactions */
+    int64_t load_step;   /* load steps done, including the current one; 0 without load steps */
+    real energy_change;  /* (E - E_0 - work)/E_0 at the last sample; NAN if E_0 is 0 [1] */
+    const struct growing_crack *growth; /* [growths] cracks with prescribed or SIF-controlled growth */
     int growths;
     const struct baseline *baseline; /* for PULSE; NULL if there is none */
     real t_velocity;                 /* time of velocities: half a step before t [s] */
@@ -83,7 +83,7 @@ struct velocity_time {
  * left to free, if a point is outside the bodies, a region holds no particle, a named boundary does not exist or has
  * no reaction, a bar differs from what its closed-form solution describes, or a SIF probe has no crack tip or
  * unsuitable contours. */
-status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
+status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed_run *o);
 
 /* Frees the arrays of all probes and clears *s. Does nothing to a cleared *s. */
 void probes_free(struct probes *s);
@@ -91,30 +91,30 @@ void probes_free(struct probes *s);
 /* Computes the values of a sample of history.csv at the present positions, time o->t, and stores them in s->value.
  * Values that depend on velocities at the time of the sample or on the forces of the time step are replaced by
  * probes_sample_end. */
-void probes_sample(struct probes *s, const struct observed *o);
+void probes_sample_begin(struct probes *s, const struct observed_run *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
  * *s, before the time step. probes_sample_end interpolates between them and the velocities after the step. */
-void probes_store_motion(struct probes *s, const struct observed *o);
+void probes_store_motion(struct probes *s, const struct observed_run *o);
 
 /* Computes the values of a sample that depend on velocities or on the forces of the time step, after that step, and
  * stores them in s->value. The values are those at the time of the preceding call of probes_store_motion: velocities
  * are interpolated to that time, and reactions are those of the forces in the step. now: time of the present
  * velocities. If probes_store_motion was not called before, the body is assumed to be in equilibrium. */
-void probes_sample_end(struct probes *s, const struct observed *o, const struct velocity_time *now);
+void probes_sample_end(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
 
 /* Updates the probes that observe every time step: BREAK and SPALL probes search for bonds that broke in the step
  * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared
  * forces. Call this function before the flags of the step are cleared. */
-void probes_update_step(struct probes *s, const struct observed *o);
+void probes_update_every_step(struct probes *s, const struct observed_run *o);
 
 /* Updates the BREAK and SPALL probes, which search for bonds that just broke, and no other probes. Load steps call
  * this function each time bonds have broken. */
-void probes_update_breaks(struct probes *s, const struct observed *o);
+void probes_update_broken_bonds(struct probes *s, const struct observed_run *o);
 
 /* Calls emit(context, probe name, quantity name, value) for every result of every probe that summary.json reports, in
  * SI units. Values that are NAN are skipped. */
-void probes_visit_results(const struct probes *s, const struct observed *o,
+void probes_visit_results(const struct probes *s, const struct observed_run *o,
                           void (*emit)(void *context, const char *probe, const char *quantity, real value),
                           void *context);
 
@@ -125,7 +125,7 @@ typedef status probe_file_fn(void *context, const char *name, const char *text, 
 /* Prints the profile of each LINE and EXACT probe as CSV text, and calls put(context, `<probe>_<frame>.csv`, text,
  * length) for each. frame: number of the frame in these names. Returns FAILED if memory is exhausted, or the status of
  * `put` if it is not OK. */
-status probes_write_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context,
+status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *put, void *context,
                              int frame);
 
 /* Returns the number of profiles (of LINE and EXACT probes) that are written with each frame. */
@@ -140,14 +140,15 @@ bool probes_profile_name(const struct probes *s, int profile, int frame, char *n
 
 /* Copies the stress-intensity factors of the SIF probe called `name` at its last sample, and the direction of its
  * crack tip, to *found. Returns false if the probe has no values yet. */
-bool probes_sif_values(const struct probes *s, const char *name, struct control *found);
+bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *found);
 
 /* Computes the present position of the crack tip of the probe, two components [m], and the outer radius of its
  * contours, *radius [m]. Returns false if the probe is not a SIF probe. */
-bool probes_sif_contour(const struct probes *s, int probe, const struct observed *o, real position[2], real *radius);
+bool probes_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real position[2],
+                        real *radius);
 
 /* Saves the state of the probes to the archive if a->saving is set, else restores it from the archive. Returns FAILED
  * if an entry is missing or its size does not fit the probes. */
-status probes_archive(struct probes *s, struct archive *a);
+status probes_save_or_load(struct probes *s, struct archive *a);
 
 #endif

@@ -19,21 +19,22 @@ status engine_run_load_steps(struct run *e);
 /* Initialises the solver for one static equilibrium (e->solver) with the loads at the end of the scene's duration, for
  * engine_solve_static. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried by
  * supports. */
-status engine_solver_make(struct run *e);
+status engine_static_solver_make(struct run *e);
 
 /* Checks that load steps support the bodies, loads and supports of a scene. Returns REFUSED, with the reason, if they
  * do not. */
-status statics_check(const struct run *e);
+status statics_check_scene(const struct run *e);
 
 /* Finds the equilibrium at load time t [s] for an estimate of the cost of a run (`cleave check`). The run cannot be
  * continued with load steps afterwards. Returns FAILED if no equilibrium is found. */
-status engine_equilibrium_try(struct run *e, real t);
+status engine_find_trial_equilibrium(struct run *e, real t);
 
 /* Computes the largest ratio of bond stretch to critical stretch that the whole run would reach if no bond broke.
- * Stores the ratio in *ratio [1] and its load time in *at [s]. Where all loads grow in proportion, the stretches of
- * the present equilibrium are scaled; where loads reverse or further loads begin, equilibria are computed. first: load
- * time of the preceding engine_equilibrium_try [s]. Returns FAILED if an equilibrium is not found. */
-status engine_stretch_ratio_worst(struct run *e, real first, real *at, real *ratio);
+ * Stores the ratio in *ratio [1] and its load time in *load_time [s]. Where all loads grow in proportion, the stretches
+ * of the present equilibrium are scaled; where loads reverse or further loads begin, equilibria are computed.
+ * first_load_time: load time of the preceding engine_find_trial_equilibrium [s]. Returns FAILED if an equilibrium is
+ * not found. */
+status engine_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio);
 
 /* Returns the load size at pseudo-time t [s], a measure proportional to the loads: the root of the sum of squares of
  * all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all applied forces [N].
@@ -43,16 +44,16 @@ real statics_load_size(const struct run *e, real t);
 /* Returns the reason why the growth direction of cracks cannot be determined from their stress-intensity factors (key
  * `steps.path` of the scene), a static text, or NULL if it can. If it can and `plane` is not NULL, stores the plane in
  * which the crack tips move in *plane. */
-const char *sif_why_not(const struct run *e, struct sif_plane *plane);
+const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *plane);
 
 /* Checks a three-dimensional scene with SIF-driven cracks (`steps.path: hoop`). Returns REFUSED, with the reason, if
- * their growth direction cannot be determined (sif_why_not). */
-status sif_check(const struct run *e);
+ * their growth direction cannot be determined (sif_growth_why_impossible). */
+status sif_growth_check(const struct run *e);
 
 /* Saves the state between two load steps to the archive if a->saving is set, else restores it from the archive. If
  * a->scope is ARCHIVE_TRIAL, only the equilibrium is saved or restored. Returns FAILED if an entry is missing or has
  * another size. */
-status statics_archive(struct run *e, struct archive *a);
+status statics_save_or_load(struct run *e, struct archive *a);
 
 /* Frees the storage of the equilibrium solver. SIF-driven cracks keep their state; sif_cracks_free frees them. */
 void statics_free(struct statics *s);

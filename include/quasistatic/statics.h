@@ -139,7 +139,7 @@ struct statics {
     real *weight;            /* [nodes] 1/2 for each plane of symmetry on which a particle lies */
     const struct mesh *mesh; /* whose nodes are unknowns; borrowed from the reference frame */
     int16_t *load;           /* [nodes DIM_MAX] boundary that prescribes a component, -1: none or a mirror */
-    struct equilibrium balance;
+    struct newton_solver balance;
     struct field increment; /* [nodes] displacement increment to the next equilibrium: prescribed, else predicted [m] */
     real *applied[DIM_MAX]; /* [particles of the body] present applied forces [N] */
     int64_t fragments;      /* number of unconstrained fragments */

@@ -74,23 +74,23 @@ void rigid_driven_velocity(const struct rigid_body *r, real t, real *v);
 
 /* Computes the displacement u that is prescribed for a driven rigid body between the times 0 and t [s] (dim components
  * [m]); 0 for other bodies. Returns its length [m]. */
-real rigid_displacement(const struct rigid_body *r, real t, real *u);
+real rigid_driven_displacement(const struct rigid_body *r, real t, real *u);
 
 /* Moves a driven body to its prescribed position at time t [s], and adds the displacement to r->increment, from which
  * rigid_add_work computes the work of the drive. Does nothing for other bodies. */
 void rigid_set_position(struct rigid_body *r, real t);
 
 /* Advances a rigid body by one leap-frog step: a free body under r->force, r->moment and its weight, a driven one with
- * its prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. middle: time in the middle of the
+ * its prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. t_middle: time in the middle of the
  * step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
-void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity);
+void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
 /* Adds the work that the drive of a driven body has done since the last call to r->work: its displacement times the
  * mean of the contact forces then and now, with opposite sign. */
 void rigid_add_work(struct rigid_body *r);
 
 /* Updates r->force_most, the largest contact force on the body so far [N], by the present force. */
-void rigid_note(struct rigid_body *r);
+void rigid_update_largest_force(struct rigid_body *r);
 
 /* Returns the work done on the body since t = 0 by its drive and by its weight, up to the present position and force
  * [J]. */
@@ -101,11 +101,11 @@ real rigid_kinetic_energy(const struct rigid_body *r);
 
 /* Returns the change of the kinetic energy of a free body, to first order, by half a time step dt [s] under the present
  * force, weight and moment [J]; 0 for other bodies. */
-real rigid_kick_energy(const struct rigid_body *r, real dt);
+real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt);
 
 /* Saves the motion of a rigid body to the archive if a->saving, else restores it. number: number of the body in the
  * scene, by which its entries are named. Returns FAILED if the archive cannot be read or written or a stored size
  * differs. */
-status rigid_archive(struct rigid_body *r, int number, struct archive *a);
+status rigid_save_or_load(struct rigid_body *r, int number, struct archive *a);
 
 #endif

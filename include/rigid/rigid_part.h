@@ -30,10 +30,10 @@ status rigids_check(const struct rigid_set *rigid, const struct scene *s, const 
  * the particles (dim components [N s]). */
 void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX]);
 
-/* Advances all rigid bodies by one leap-frog step under their forces or prescribed velocities (rigid_move). middle:
+/* Advances all rigid bodies by one leap-frog step under their forces or prescribed velocities (rigid_move). t_middle:
  * time in the middle of the step; dt: time by which positions advance; dt_velocity: time by which velocities advance
  * [s]. */
-void rigids_move(struct rigid_set *rigid, real middle, real dt, real dt_velocity);
+void rigids_move(struct rigid_set *rigid, real t_middle, real dt, real dt_velocity);
 
 /* Returns FAILED if a body moves more than half a spacing in a step, so that particles would be inside it before
  * contact acts. */

@@ -6,7 +6,7 @@
 #include "loads/loads.h"
 
 /* A body of n particles with bonds, as a linear operator on vectors [dim][n]. */
-struct bond_body {
+struct bond_operator {
     struct bonds *b; /* rows of all particles of the body */
     struct particles *p;
     bond_force_fn *force;
@@ -14,22 +14,22 @@ struct bond_body {
     real spacing, *root;       /* of particles [m]; [n] square roots of the masses [kg^1/2] */
 };
 
-/* Makes a linear operator from the bonds b of particles p, for bond_body_stiffness. force: kernel that computes the
+/* Makes a linear operator from the bonds b of particles p, for bond_operator_apply. force: kernel that computes the
  * bond forces; loads: boundary conditions whose mirror images of particles move with the body, NULL for none; spacing:
  * of the particles [m]. All pointers are kept by reference and must outlive the operator. Release it with
- * bond_body_free. */
-struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
-                                real spacing);
+ * bond_operator_free. */
+struct bond_operator bond_operator_make(struct bonds *b, struct particles *p, bond_force_fn *force,
+                                        const struct loads *loads, real spacing);
 
-/* Frees the square roots of the masses that bond_body_make allocated; the bonds, particles and loads stay with the
+/* Frees the square roots of the masses that bond_operator_make allocated; the bonds, particles and loads stay with the
  * caller. */
-void bond_body_free(struct bond_body *body);
+void bond_operator_free(struct bond_operator *body);
 
 /* Computes y = M^-1/2 K M^-1/2 u [1/s^2] with the mass matrix M and the tangent stiffness K of a body of bonds. K d is
  * the difference of the bond forces at the reference positions X + s d, divided by s; s is chosen such that strains
- * are about 1e-7. bond_body: a struct bond_body; u, y: dim x n values, component by component. Overwrites the
+ * are about 1e-7. bond_body: a struct bond_operator; u, y: dim x n values, component by component. Overwrites the
  * positions p->x and the forces p->f of the particles. */
-void bond_body_stiffness(void *bond_body, const real *u, real *y);
+void bond_operator_apply(void *bond_body, const real *u, real *y);
 
 /* Returns the critical time step 2/omega_max of the particles p with the bonds b [s], INFINITY if they have no
  * stiffness. b must hold the bonds of all particles of the body. omega_max^2 is the largest eigenvalue of M^-1 K,

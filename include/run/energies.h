@@ -7,7 +7,7 @@
 /* Returns the share of its strain energy density that material point i keeps while bonds across its cell carry the
  * rest [1]: 1 - tr M/n, with M the matrix of its partial stress and n the number of components of a symmetric tensor;
  * exact if M is a multiple of the identity, as in 1D. partial: partial stresses of all points; NULL returns 1. */
-real point_mpm_share(const struct partial_stress *partial, int dim, int64_t i);
+real point_mpm_fraction(const struct partial_stress *partial, int dim, int64_t i);
 
 /* Returns the kinetic energy 1/2 sum m v^2 of all particles [J], except material points of a mesh in the reference
  * frame, whose kinetic energy is that of the mesh nodes (frame_kinetic_energy). */
@@ -32,10 +32,10 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
 
 /* Returns the difference between two kinetic energies of a leap-frog velocity update [J]: the mean of 1/2 m v^2 at the
  * old and the new velocity, minus 1/2 m v_old . v_new, which leap-frog conserves. It equals 1/4 sum m (v - v_old)^2;
- * driven particles and material points of a mesh in the reference frame are excluded. before: velocities v_old before
- * the update [m/s], dim arrays of n; NULL, allowed if no particles are on the background grid, takes v - v_old = dt f/m
- * from the forces p->f. dt: time step [s]. */
-real particles_kick_energy(const struct particles *p, real *const *before, real dt);
+ * driven particles and material points of a mesh in the reference frame are excluded. old_velocity: velocities v_old
+ * before the update [m/s], dim arrays of n; NULL, allowed if no particles are on the background grid, takes v - v_old =
+ * dt f/m from the forces p->f. dt: time step [s]. */
+real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt);
 
 /* Computes the linear momentum of all particles and mesh nodes. nodes: `grids` pointers to the grids of the meshes;
  * momentum: receives dim components [kg m/s]. Returns the sum of the magnitudes |m v| of all contributions [kg m/s],
@@ -45,7 +45,7 @@ real particles_linear_momentum(const struct particles *p, const struct grid *con
 /* Computes the weighted volume and the dilatation of the family of each particle of bonds b at the present positions,
  * as ordinary state-based peridynamics needs them before forces or energies. Does nothing for bond-based models
  * (s->modulus is NULL). s: bond law. */
-static inline void states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)
+static inline void family_states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);
 }

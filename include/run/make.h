@@ -7,7 +7,7 @@
 /* Lowers the conversion stress (`trigger`) of each material to the smallest one of its particles, if the strength of
  * particles is random (p->strength). Does nothing if strength is uniform. elastic: array of the constants of all
  * materials, changed in place. */
-void conversion_stress_lower(struct elastic *elastic, const struct particles *p);
+void lower_conversion_stress(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials] that the caller frees: for
  * each material and each method that moves its particles (bonds, grid or mesh). Returns NULL if the scene has no
@@ -21,23 +21,23 @@ bool run_voids_list(struct material_tables *tables, const struct scene *s, const
 
 /* Returns the largest distance across which particles interact [m], through bonds shorter than `cutoff` [m] or through
  * common cells of the mesh; voids narrower than this distance must be handled explicitly. */
-real voids_reach(const struct scene *s, real cutoff);
+real voids_interaction_distance(const struct scene *s, real cutoff);
 
 /* Returns true if the surface of a body and of all bodies joined to it is given by solids: none of them is made from a
  * particle list or an image. body: number of the first of the joined bodies. */
-bool surface_is_exact(const struct scene *s, int body);
+bool body_surface_is_exact(const struct scene *s, int body);
 
 /* Computes factors on the weights of bonds near free surfaces (pd.surface: moments) into w and sets source->surface =
  * w; w must therefore outlive `source`. Returns REFUSED, with a message, if particles that can have bonds, mirror
  * images included, are not on one lattice. loads: boundary conditions, so that the message can name the boundary whose
  * mirror plane does not fit the lattice. */
-status run_surface_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
-                        const struct loads *loads, const struct scene *s);
+status run_surface_weights_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
+                                const struct loads *loads, const struct scene *s);
 
 /* Checks that bodies which the scene joins by an interface are close enough for bonds. cells: neighbour search over
  * the particles; cutoff: largest length of a bond [m]. Returns REFUSED, with a message, if no particle of one body is
  * within `cutoff` of a particle of the other. */
-status joined_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff);
+status joined_bodies_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff);
 
 /* Checks prescribed velocities and displacements of the boundaries. Returns REFUSED, with a message, if a value
  * depends on the reference position of particles on the grid of the current frame, which does not store it; if, with

@@ -67,7 +67,7 @@ struct run {
     struct contact *contact;         /* contact/contact.h */
     struct coupling_state *coupling; /* coupling/coupling_part.h */
     struct fracture_state *fracture; /* cracks: fracture/fracture_part.h */
-    struct solver *solver;           /* solver/solver.h */
+    struct static_solver *solver;    /* solver/solver.h */
     struct diagnostics *diagnostics; /* balance of energy and momentum: probes/diagnostics.h */
     struct probing *probing;         /* probes/probes_part.h */
     struct viscosity *viscosity;     /* of shocks: step/viscosity.h */

@@ -15,7 +15,8 @@
  * ids of their particles stay unused. Returns REFUSED, with a message and with p empty, for an empty body, an
  * unreadable list, a list in another length unit than the spacing, or two particles at one position. Release with
  * particles_free. */
-status fill_particles(struct particles *p, const struct scene *s, const struct hollow *hollow, int optional);
+status fill_particles(struct particles *p, const struct scene *s, const struct cells_without_particles *hollow,
+                      int optional);
 
 /* Computes the position of one site of the lattice that fills body number `body` into X (dim components [m]). The body
  * must not come from a particle list. Returns REFUSED, with a message, if the body has no lattice, for example because
@@ -24,12 +25,12 @@ status fill_lattice_site(const struct scene *s, int body, real *X);
 
 /* Finds the cells of hollow->box in which all particle positions are inside body number `body`, and marks them in
  * hollow->whole, one byte per cell, which is allocated here and freed by the caller. hollow->box must be set before. */
-void fill_mark_whole_cells(struct hollow *hollow, const struct scene *s, int body);
+void fill_mark_whole_cells(struct cells_without_particles *hollow, const struct scene *s, int body);
 
 /* Checks the particle lists of all bodies against the particle spacing of the scene, by the distances between
  * neighbours in each list. Returns REFUSED, with a message, if they differ so much that the list must be in another
  * length unit, or if there would be more bonds than memory can hold. */
-status fill_check_lists(const struct particles *p, const struct scene *s);
+status fill_check_particle_lists(const struct particles *p, const struct scene *s);
 
 /* Sets the strength factor of each particle [1] (fill_strength.c): random where the strength of its material scatters,
  * else 1. Does nothing if p->strength is NULL. */

@@ -65,7 +65,7 @@ enum coupling {
 static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
 
 /* Returns true if, with coupling c, one grid moves all particles, peridynamic ones and material points. */
-static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
+static inline bool coupling_has_one_grid(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
 
 /* Representation of pre-cracks in the reference frame (notch.h): a slit in the mesh, cut bonds, or a choice by rule. */
 enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
@@ -113,7 +113,7 @@ struct growth_rule {
 
 /* Returns true if the speed of the crack tip is not given but controlled, such that the equivalent stress-intensity
  * factor stays at the toughness. */
-static inline bool growth_follows(const struct growth_rule *rule) { return isnan(rule->speed); }
+static inline bool growth_speed_is_controlled(const struct growth_rule *rule) { return isnan(rule->speed); }
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
 

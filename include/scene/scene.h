@@ -229,16 +229,16 @@ struct scene_override {
 };
 
 /* Returns true if the run integrates in time, false if it solves one equilibrium or load steps. */
-static inline bool scene_moves(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
+static inline bool scene_is_dynamic(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
 
 /* Returns true if the run solves one static equilibrium. */
-static inline bool scene_at_rest(const struct scene *s)
+static inline bool scene_is_single_equilibrium(const struct scene *s)
 {
     return s->solver == SOLVER_RELAXATION || s->solver == SOLVER_CG;
 }
 
 /* Returns true if the run solves a sequence of load steps. */
-static inline bool scene_in_steps(const struct scene *s) { return s->solver == SOLVER_STATIC; }
+static inline bool scene_has_load_steps(const struct scene *s) { return s->solver == SOLVER_STATIC; }
 
 /* Returns true if the bonds of a material or of an interface have a critical stretch. */
 static inline bool scene_bonds_break(const struct scene *s)
@@ -258,7 +258,7 @@ static inline bool scene_viscous(const struct scene *s)
 }
 
 /* Returns true if the strength of a material scatters in space. */
-static inline bool scene_scatters(const struct scene *s)
+static inline bool scene_strength_scatters(const struct scene *s)
 {
     bool scatters = false;
     for (int m = 0; m < s->materials; m++) scatters |= s->material[m].scatter.given;
@@ -266,7 +266,7 @@ static inline bool scene_scatters(const struct scene *s)
 }
 
 /* Returns true if the scene has a probe that evaluates broken bonds (kinds TIP, BREAK, SPALL, GROWTH). */
-static inline bool scene_watches_bonds(const struct scene *s)
+static inline bool scene_probes_broken_bonds(const struct scene *s)
 {
     static const bool watches[PROBES] = {
         [PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
@@ -279,13 +279,13 @@ static inline bool scene_watches_bonds(const struct scene *s)
 static inline bool scene_accepts(const struct scene *s, enum accept which) { return s->accept >> which & 1; }
 
 /* Returns true if new surfaces can form: by pre-cracks, growing cracks, or bonds that break. */
-static inline bool scene_cracks(const struct scene *s)
+static inline bool scene_can_crack(const struct scene *s)
 {
     return s->cracks > 0 || s->growths > 0 || scene_bonds_break(s);
 }
 
 /* Returns true if there are rigid bodies, or several deformable ones that interfaces do not join to one. */
-static inline bool scene_bodies_meet(const struct scene *s)
+static inline bool scene_bodies_can_meet(const struct scene *s)
 {
     bool several = s->rigids > 0;
     for (int b = 0; b < s->bodies; b++) several |= s->body[b].joined > 0;
@@ -294,7 +294,7 @@ static inline bool scene_bodies_meet(const struct scene *s)
 
 /* Returns the factor from the measure of a region to its volume: the cross-section in 1D [m^2], the thickness in 2D
  * [m], 1 in 3D. */
-static inline real scene_section(const struct scene *s)
+static inline real scene_section_factor(const struct scene *s)
 {
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
@@ -317,17 +317,17 @@ status scene_locate(const struct scene *s, status made);
 
 /* Returns the reason why a body cannot be in the reference frame with the method, solver, coupling and materials of the
  * scene; NULL if it can. The text is static. */
-const char *scene_frame_unsupported(const struct scene *s, int body);
+const char *scene_why_frame_unsupported(const struct scene *s, int body);
 
 /* Returns true if the material of a body in the reference frame yields and the run makes explicit steps. */
 bool scene_yields_on_mesh(const struct scene *s);
 
 /* Returns the reason why `mpm.frame: auto` does not choose the reference frame for a body; NULL if it does. The text is
  * static. */
-const char *scene_frame_not_default(const struct scene *s, int body);
+const char *scene_why_frame_not_default(const struct scene *s, int body);
 
 /* Returns the reason why `mpm.frame: reference` is no remedy for a body on the grid of the current frame: that of
- * scene_frame_not_default for the first body that has one, NULL if no body has. The text is static. */
+ * scene_why_frame_not_default for the first body that has one, NULL if no body has. The text is static. */
 const char *scene_frame_obstacle(const struct scene *s);
 
 /* Prints the table of keys of scenes to `out`: all keys (key NULL), the keys below a prefix, or one key. Returns

@@ -5,12 +5,12 @@
 #include "base/base.h"
 
 /* Reads a length with its unit, such as `4mm`, from `text` into *value [m]. Returns false if the text is no length, and
- * writes what is wrong to `what` (capacity `room` bytes), as the rest of a sentence that begins with the text. */
-bool length_read(real *value, const char *text, char *what, size_t room);
+ * writes what is wrong to `message` (`capacity` bytes), as the rest of a sentence that begins with the text. */
+bool length_read(real *value, const char *text, char *message, size_t capacity);
 
 /* Reads a time with its unit, such as `4us`, from `text` into *value [s]. Returns false if the text is no time, and
- * writes what is wrong to `what` (capacity `room` bytes), as the rest of a sentence that begins with the text. */
-bool time_read(real *value, const char *text, char *what, size_t room);
+ * writes what is wrong to `message` (`capacity` bytes), as the rest of a sentence that begins with the text. */
+bool time_read(real *value, const char *text, char *message, size_t capacity);
 
 /* Returns the index of `text` in the words a|b|c, or -1. */
 int word_index(const char *words, const char *text);

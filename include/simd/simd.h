@@ -21,7 +21,7 @@ extern const int simd_set_count;
 
 /* Makes `set` the set of kernels that all kernel calls use from now on. The processor must support it (set->runs()).
  * Must not be called while kernels run. */
-void simd_set_kernels(const struct simd_set *set);
+void simd_use_kernels(const struct simd_set *set);
 
 /* Returns the set of kernels that kernel calls use at present. */
 const struct simd_set *simd_current_kernels(void);
@@ -29,6 +29,6 @@ const struct simd_set *simd_current_kernels(void);
 /* Selects the set of kernels named by the environment variable CLEAVE_SIMD, or, if it is not set, the one with the
  * widest vectors that the processor supports. Returns REFUSED, with a message, if no set has that name, or the
  * processor does not support that set or any other. */
-status simd_start(void);
+status simd_select_kernels(void);
 
 #endif

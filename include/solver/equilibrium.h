@@ -10,7 +10,7 @@
 #include "base/base.h"
 #include "solver/field.h"
 
-struct equilibrium {
+struct newton_solver {
     int dim;
     int64_t n;         /* number of nodes */
     struct field u, f; /* [n] displacement [m]; force [N], of held components on the support */
@@ -38,7 +38,7 @@ struct equilibrium {
     real unit_energy; /* energy of the body at unit strain [J], which scales the steps of force differences */
     bool kinked;      /* the forces have kinks, as where points yield */
 
-    /* Counters, set to 0 by equilibrium_make or by the caller: */
+    /* Counters, set to 0 by newton_solver_make or by the caller: */
     int64_t forces, directions; /* force evaluations; directions of conjugate gradients */
     /* Work of unbalanced forces between equilibria [J]: the energy lost in dynamic motion that is not resolved. Work of
      * supports is taken as the mean of their forces in both equilibria times their increment. */
@@ -54,11 +54,11 @@ struct equilibrium {
 };
 
 /* Allocates all vectors of q for n nodes in dim space dimensions and sets them to 0. Functions and tolerances are set
- * by the caller. Release with equilibrium_free. */
-void equilibrium_make(struct equilibrium *q, int dim, int64_t n);
+ * by the caller. Release with newton_solver_free. */
+void newton_solver_make(struct newton_solver *q, int dim, int64_t n);
 
 /* Frees the vectors of q. */
-void equilibrium_free(struct equilibrium *q);
+void newton_solver_free(struct newton_solver *q);
 
 /* Finds the static equilibrium under the present forces by Newton's method, starting from the displacement q->u +
  * increment. On entry q->u and q->f are displacement and forces of the previous equilibrium, on return of the new one.
@@ -66,6 +66,6 @@ void equilibrium_free(struct equilibrium *q);
  * true if loads or supports have changed since the previous equilibrium, false if only the body has, for example by
  * broken bonds. Returns FAILED, with a message, if the residual stays above the tolerance; q->u is then the state with
  * the smallest residual found. */
-status equilibrium_find(struct equilibrium *q, const struct field *increment, bool moved);
+status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool moved);
 
 #endif

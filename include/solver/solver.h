@@ -12,7 +12,7 @@
 #include "loads/loads.h"
 #include "solver/field.h"
 
-struct solver {
+struct static_solver {
     int dim;
     int64_t n;           /* number of particles */
     real residual;       /* norm of the residual over `scale` [1] */
@@ -51,35 +51,35 @@ struct static_body {
 
 /* Initialises a static solution: sets the displacements of driven particles and the applied forces to their values
  * after `ramp_time` [s] of the loads, and the velocities of all particles to 0. Relaxation on the background grid
- * needs no more; other iterations also need solver_iteration_make. Returns REFUSED, with a message, if applied forces
- * or moments are neither balanced nor carried by supports. Release with solver_free. */
-status solver_make(struct solver *s, const struct static_body *body, real ramp_time);
+ * needs no more; other iterations also need static_solver_iteration_make. Returns REFUSED, with a message, if applied
+ * forces or moments are neither balanced nor carried by supports. Release with static_solver_free. */
+status static_solver_make(struct static_solver *s, const struct static_body *body, real ramp_time);
 
-/* Allocates and computes the vectors that the iterations of a static solution need, after solver_make: weights of
- * particles on mirror planes, diagonal stiffness, round-off of the forces. conjugate_gradients: true to use cg_step,
+/* Allocates and computes the vectors that the iterations of a static solution need, after static_solver_make: weights
+ * of particles on mirror planes, diagonal stiffness, round-off of the forces. conjugate_gradients: true to use cg_step,
  * false to use relaxation_step afterwards. */
-void solver_iteration_make(struct solver *s, const struct static_body *body, bool conjugate_gradients);
+void static_solver_iteration_make(struct static_solver *s, const struct static_body *body, bool conjugate_gradients);
 
 /* Frees the vectors of s and sets all members to 0. */
-void solver_free(struct solver *s);
+void static_solver_free(struct static_solver *s);
 
 /* Does step number `step` of an iteration for static equilibrium: relaxation_step of dynamic relaxation, cg_step of
  * conjugate gradients. The first step is number 0. body: particles, bonds and loads; *done: receives true if the
  * residual is below body->tolerance. Returns FAILED, with a message, if the iteration stalls or a part of the body
  * moves without resistance. */
-typedef status solver_step_fn(struct solver *s, const struct static_body *body, int64_t step, bool *done);
-solver_step_fn relaxation_step, cg_step;
+typedef status static_solver_step_fn(struct static_solver *s, const struct static_body *body, int64_t step, bool *done);
+static_solver_step_fn relaxation_step, cg_step;
 
 /* Returns the largest magnitude of a component of the vectors v, in their unit. dim: number of components of a vector;
  * n: number of vectors. */
-real solver_largest_component(const struct field *v, int dim, int64_t n);
+real field_largest_component(const struct field *v, int dim, int64_t n);
 
 /* Sets s->residual [1] and s->scale [N] from norms of forces. reaction: norm of the forces on constrained components
- * [N]; left: norm of the forces on free components, which vanish in equilibrium [N]. */
-void solver_set_residual(struct solver *s, real reaction, real left);
+ * [N]; unbalanced: norm of the forces on free components, which vanish in equilibrium [N]. */
+void static_solver_set_residual(struct static_solver *s, real reaction, real unbalanced);
 
 /* Saves the state of a static iteration to the archive if a->saving, else restores it. Returns FAILED if the archive
  * cannot be read or written or a stored size differs. */
-status solver_archive(struct solver *s, struct archive *a);
+status static_solver_save_or_load(struct static_solver *s, struct archive *a);
 
 #endif

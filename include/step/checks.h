@@ -7,7 +7,7 @@
 
 /* Stores the largest speed of the particles at t = 0 in s->start_speed. Messages about unstable runs compare later
  * speeds with it. */
-void stability_make(struct stability *s, const struct particles *p);
+void stability_store_start_speed(struct stability *s, const struct particles *p);
 
 /* Checks a run after each time step. Returns FAILED if a particle is faster than the fastest wave or its position is
  * not finite, a cell of a mesh is inverted, bodies in contact overlap, a rigid body is too fast, or a formula of a
@@ -27,7 +27,7 @@ status energy_check(struct run *e);
 
 /* Returns the energy that breaking bonds have released in excess of the energy that they had stored [J], 0 if there is
  * no excess. Bonds of state-based models can have such an excess. */
-real energy_released(const struct diagnostics *w);
+real energy_released_in_excess(const struct diagnostics *w);
 
 /* Returns true if the energies of the run so far are mere round-off: below 1e-24 of the kinetic energy of the whole
  * body at the wave speed. mass: of the body [kg]; wave_speed: of the fastest wave [m/s]. */
@@ -35,10 +35,11 @@ bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed
 
 enum { REMEDY_LENGTH = 640 };
 
-/* Writes to `text`, which holds `room` bytes, what the user should change in the scene: the loads, if they explain the
- * motion of the body; the time step, if `value` has grown as fast as in a run whose time step exceeds the stability
+/* Writes to `text`, which holds `capacity` bytes, what the user should change in the scene: the loads, if they explain
+ * the motion of the body; the time step, if `value` has grown as fast as in a run whose time step exceeds the stability
  * limit (base/rise.h); else the method or model. value: present value of the quantity that grows (square of a speed,
  * or an energy); rise: its earlier values. */
-void stability_remedy(const struct run *e, const struct rise *rise, real value, char *text, size_t room);
+void stability_describe_remedy(const struct run *e, const struct growth_samples *rise, real value, char *text,
+                               size_t capacity);
 
 #endif

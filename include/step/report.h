@@ -70,7 +70,7 @@ int64_t report_count_frames(const struct scene *s, const struct run_clock *clock
 
 /* Returns the number of the time step after which frame number `frame` of the whole body is written; frame 0 is written
  * at t = 0. clock: time step and number of steps of the run. */
-int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t frame);
+int64_t report_step_of_frame(const struct scene *s, const struct run_clock *clock, int64_t frame);
 
 /* Returns the wall-clock times of the run so far, in this process and those before a restart. timers: sections of the
  * loop in this process. */
@@ -79,12 +79,12 @@ struct run_seconds report_seconds(const struct run_report *r, const struct timer
 /* Returns the set of frame series that must be written after `step` time steps or load steps, one bit per series: bit
  * 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). A run that
  * finds a single equilibrium (`solver: cg, relaxation`) writes frames at its start and its end only. */
-unsigned report_frames_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
-                           int64_t step);
+unsigned report_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
+                                 int64_t step);
 
 /* Returns true if a sample (a line of history.csv) is taken in the next time step. Samples are spread evenly over the
  * run. For a scene without time steps, returns true before the first step only; its equilibria are sampled by
- * sample_equilibrium. */
+ * sample_take_in_equilibrium. */
 bool report_sample_due(const struct scene *s, const struct run_clock *clock);
 
 /* Starts the reports of a run before the first time step of this process: opens history.csv and, unless the run is
@@ -104,29 +104,29 @@ status report_end(struct run *e);
 
 /* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]:
  * peridynamic particles by the bonds b, material points by the mesh. */
-real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
+real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 
 /* Warns at the end of a run if energy or angular momentum is not conserved, if interface damping took much energy, or
  * if bonds broke in a collision that is too fast for the particle spacing. */
 void warn_of_imbalance(struct run *e);
 
-struct tips;
+struct crack_tips;
 
 /* Warns of the fastest crack tip of t whose largest speed is above the Rayleigh speed of every material of the scene:
  * the energy release rate of an opening crack is 0 there (Freund 1990, section 5.3). Call it at the end of the run. The
  * warning is added to *to and printed. */
-void warn_of_fast_tips(const struct tips *t, const struct scene *s, struct warnings *to);
+void warn_of_fast_tips(const struct crack_tips *t, const struct scene *s, struct warnings *to);
 
 /* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law. The
  * warning is added to *to and printed; *r stores that it has been given, so that later calls do nothing. */
 void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);
 
 /* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores
- * pointers to them in *extra, from which the frame is written. asked: set of these fields, as bits ASK_...
+ * pointers to them in *extra, from which the frame is written. requested: set of these fields, as bits ASK_...
  * (output/output.h). Before the call, the positions and stresses of all particles must be up to date
  * (run_update_particles), and extra->more, the material points of coarse cells, must be set. Call frame_fields_free
  * once the frame has been copied by output_frame_begin. */
-void frame_fields_compute(struct run *e, unsigned asked, struct frame_extra *extra);
+void frame_fields_compute(struct run *e, unsigned requested, struct frame_extra *extra);
 
 /* Frees the fields that frame_fields_compute has allocated for a frame. */
 void frame_fields_free(struct frame_extra *extra);

@@ -8,7 +8,7 @@
 /* Allocates the record of a sample, opens history.csv, and writes its header: the columns common to all runs, those of
  * the probes, and those of contact, cracks and the other parts of the run. resume: append to the file of an
  * interrupted run instead. Returns FAILED if the file cannot be written. */
-status sample_start(struct run *e, bool resume);
+status sample_open_history(struct run *e, bool resume);
 
 /* Begins a sample, if one is due, before the time step moves particles: computes momentum, crack tips and
  * position-dependent values of probes at time t_n, and stores the velocities, which are those at t_n - dt/2 (at t = 0
@@ -17,7 +17,7 @@ void sample_begin(struct run *e);
 
 /* Computes the energies of a sample, if one is due, at the positions of time t_n, except the kinetic energy. Call it
  * after the forces have been computed and before particles move. */
-void sample_energy(struct run *e);
+void sample_compute_energies(struct run *e);
 
 /* Completes a sample, if one is due, after particles have moved: interpolates velocities to time t_n, computes the
  * kinetic energy and the work up to t_n, and writes the line of history.csv. */
@@ -25,21 +25,21 @@ void sample_end(struct run *e);
 
 /* Takes a complete sample of a body in equilibrium and writes its line of history.csv. Call it at the start of a
  * static run and after each load step. */
-void sample_equilibrium(struct run *e);
+void sample_take_in_equilibrium(struct run *e);
 
 /* Takes the sample after the last time step and writes its line of history.csv. Brings positions, velocities and
  * stresses of all particles up to date, except the stress of peridynamic particles (compute_bond_stress). */
-void sample_final(struct run *e);
+void sample_take_final(struct run *e);
 
 /* Returns the elastic energy of bonds, material points and mesh cells at the present positions [J]. */
 real sample_strain_energy(struct run *e);
 
-/* Updates the probes that observe every step (BREAK, SPALL, REACTION; probes_update_step). In a static run, call it in
- * equilibrium states only. */
+/* Updates the probes that observe every step (BREAK, SPALL, REACTION; probes_update_every_step). In a static run, call
+ * it in equilibrium states only. */
 void sample_update_probes(struct run *e);
 
 /* Records the bonds that broke in this step: updates the first break of the run and the BREAK and SPALL probes, and
- * warns if driven particles lose bonds. broken: number of directed bonds that broke. */
-void sample_record_breaks(struct run *e, int64_t broken);
+ * warns if driven particles lose bonds. broken_bonds: number of directed bonds that broke. */
+void sample_record_breaks(struct run *e, int64_t broken_bonds);
 
 #endif

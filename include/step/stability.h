@@ -6,11 +6,12 @@
 
 /* State of the stability checks (stability.c). */
 struct stability {
-    struct rise speed, excess; /* records of the largest squared speed [m^2/s^2], and of energy without a source [J] */
-    real start_speed;          /* largest speed of particles at t = 0 [m/s] */
-    bool diverged;             /* a peridynamic particle is faster than the fastest wave */
-    bool lost;                 /* an energy of the last sample is not finite */
-    bool stretched;            /* the warning that points are stretched or flow too far has been printed */
+    struct growth_samples speed,
+        excess;       /* records of the largest squared speed [m^2/s^2], and of energy without a source [J] */
+    real start_speed; /* largest speed of particles at t = 0 [m/s] */
+    bool diverged;    /* a peridynamic particle is faster than the fastest wave */
+    bool lost;        /* an energy of the last sample is not finite */
+    bool stretched;   /* the warning that points are stretched or flow too far has been printed */
 };
 
 #endif

@@ -10,9 +10,9 @@
  * points. Returns FAILED if material points have left the background grid because their motion has diverged. */
 status step(struct run *e);
 
-/* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions. broken:
- * number of directed bonds broken since the last call. Returns true if points have been converted. */
-bool step_convert(struct run *e, int64_t broken);
+/* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions.
+ * broken_bonds: number of directed bonds broken since the last call. Returns true if points have been converted. */
+bool step_convert(struct run *e, int64_t broken_bonds);
 
 /* Computes the internal forces at the present positions without moving anything: bond forces into e->part.f, and
  * forces of cells and of bonds to mesh points into the nodal forces of the mesh. Material points of the mesh that have
@@ -26,9 +26,9 @@ void run_update_particles(struct run *e);
 
 /* Computes the critical time step, and sets the time step dt and the number of steps in e->clock. Returns REFUSED if
  * time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */
-status time_step_make(struct run *e);
+status time_step_choose(struct run *e);
 
 /* Returns a read-only view of a run, from which probes read. All its pointers refer to data of the run. */
-struct observed run_observed(const struct run *e);
+struct observed_run observed_run_of(const struct run *e);
 
 #endif

@@ -31,10 +31,10 @@ struct viscosity {
  * the loads. Does nothing if no material is viscous. */
 void viscosity_add_forces(struct run *e);
 
-/* Subtracts the viscous pressure q from the normal stresses of points on the grid if `on` is true, before their
- * stresses are mapped to nodes. If `on` is false, restores the stresses without q. Does nothing if no material is
+/* Subtracts the viscous pressure q from the normal stresses of points on the grid if `subtract` is true, before their
+ * stresses are mapped to nodes. If `subtract` is false, restores the stresses without q. Does nothing if no material is
  * viscous. */
-void viscosity_to_stress(struct viscosity *v, const struct particles *p, bool on);
+void viscosity_apply_to_stress(struct viscosity *v, const struct particles *p, bool subtract);
 
 /* Adds the viscous forces of cells to the nodal forces of the mesh in the reference frame, and the energy that they
  * dissipated since the previous step to viscosity.taken. Does nothing if no material is viscous. */

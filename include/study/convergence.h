@@ -55,10 +55,10 @@ struct convergence {
 bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
                       int levels, const double *resolution);
 
-/* Returns the half-width of the interval centred at `about` that contains the true value of the figure with
- * probability `share` [1], from the means of all spacing levels and their errors (convergence_interval.c). `about` and
- * the result have the unit of the figure. */
-double convergence_half_width(const struct convergence *c, double about, double share);
+/* Returns the half-width of the interval centred at `centre` that contains the true value of the figure with
+ * probability `probability` [1], from the means of all spacing levels and their errors (convergence_interval.c).
+ * `centre` and the result have the unit of the figure. */
+double convergence_half_width(const struct convergence *c, double centre, double probability);
 
 /* Computes order_likely, order_error, extrapolated, uncertainty and discretisation of *c from the means and errors of
  * its levels. */

@@ -46,7 +46,7 @@ struct convergence_study {
 };
 
 /* Convergence of one figure. */
-struct figure_study {
+struct scalar_result_study {
     const char *name;
     char unit[UNIT_ROOM]; /* SI unit; "": none */
     struct convergence c;
@@ -83,24 +83,24 @@ void convergence_study_free(struct convergence_study *s);
  * wanted[wanteds]: names of the only figures to treat, none (0): all. Stores an allocated array in *figure, which the
  * caller releases with memory_free, and its length in *figures. Returns REFUSED if a named figure does not exist,
  * FAILED if no figure has values at all levels. */
-status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
-                    struct figure_study **figure, int *figures);
+status scalar_results_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
+                           struct scalar_result_study **figure, int *figures);
 
 /* Checks that the table and the pictures of a convergence study may be written to `folder`. Returns REFUSED if one of
  * these files exists in the folder of a study and Cleave did not write it. Returns OK for any other folder, which
  * study_lock_folder checks. */
-status figures_check_replaceable(const char *folder);
+status scalar_results_check_replaceable(const char *folder);
 
 /* Writes the table of figure[figures] to the file converge.csv in the folder of the study, and the text of the scene
  * to the file that identifies the study. Returns FAILED if a file cannot be written. */
-status figures_write(const struct convergence_study *s, const struct figure_study *figure, int figures);
+status scalar_results_write(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
 /* Prints to standard output a table of figure[figures], one sentence on each of them, and the parameter of the
  * discretisation to which they are most sensitive. */
-void figures_print(const struct convergence_study *s, const struct figure_study *figure, int figures);
+void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
 /* Draws figure[figures] over the particle spacing as pictures/convergence.png in the folder of the study and, if the
  * runs have cracks, their paths as pictures/path.png. Returns FAILED if a picture cannot be drawn. */
-status figures_draw(const struct convergence_study *s, const struct figure_study *figure, int figures);
+status scalar_results_draw(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
 #endif

@@ -55,7 +55,7 @@ void varied_key_free(struct varied_key *k);
 
 /* Returns the number at the start of the text `value`, NAN if there is none. *unit receives a pointer to the rest of
  * the text after that number and spaces; the whole text if there is no number. */
-double value_number(const char *value, const char **unit);
+double value_read_number(const char *value, const char **unit);
 
 /* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
 
@@ -67,12 +67,12 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
 /* Initialises a study as study_make does, and stores the text of the scene in s->text, without the keys that vary.
  * folder, kind: as for study_make. key[keys]: keys of the study and their values; a key with a single value overrides
  * the scene in all runs. Returns FAILED or REFUSED if the scene cannot be read, as study_make does. */
-status study_make_of(struct study *s, const char *scene, const char *folder, const char *kind,
-                     const struct varied_key *key, int keys);
+status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *kind,
+                            const struct varied_key *key, int keys);
 
 /* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
- * kind, to `to`, which holds `room` bytes. */
-void study_folder_default(char *to, size_t room, const struct scene *scene, const char *kind);
+ * kind, to `to`, which holds `capacity` bytes. */
+void study_folder_default(char *to, size_t capacity, const struct scene *scene, const char *kind);
 
 /* Checks that `folder` is free for a study of the scene with the given text. Returns REFUSED if the folder holds a
  * study of another scene, or files that Cleave did not write. */
@@ -127,10 +127,10 @@ status study_write_file(const struct study *s, const char *name, FILE *to, char 
 
 /* Returns the run whose results stand for those of run c: the run with an equal scene if the state of c is CASE_SAME,
  * else c. */
-const struct study_case *study_representative(const struct study *s, const struct study_case *c);
+const struct study_case *study_case_with_results(const struct study *s, const struct study_case *c);
 
-/* Returns the path of the folder that holds the results of run c, that of study_representative. */
-struct path study_folder(const struct study *s, const struct study_case *c);
+/* Returns the path of the folder that holds the results of run c, that of study_case_with_results. */
+struct path study_case_folder(const struct study *s, const struct study_case *c);
 
 /* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */
 
@@ -176,23 +176,24 @@ status study_table_read(struct study_table *t, const struct study *s);
 void study_table_free(struct study_table *t);
 
 /* Returns the index in t->figure of the figure called `name`, or -1 if there is none. */
-int study_find_figure(const struct study_table *t, const char *name);
+int study_find_result(const struct study_table *t, const char *name);
 
 /* Checks that runs of the scene s can have a figure (a number in summary.json) called `name` (figure_names.c). Returns
  * REFUSED if not, with the most similar name in the message. */
-status figure_name_check(const struct scene *s, const char *name);
+status result_name_check(const struct scene *s, const char *name);
 
 /* Returns true if the figure called `name` describes the computation or the discretisation (time, number of particles)
  * instead of the body. */
-bool study_figure_is_technical(const char *name);
+bool study_result_is_technical(const char *name);
 
-/* Reads the header of the history.csv of the first run that has such a file into `header`, which holds `room` bytes;
- * "" if there is none. study_figure_unit takes units from the header. */
-void study_read_history_header(char *header, size_t room, const struct study *s);
+/* Reads the header of the history.csv of the first run that has such a file into `header`, which holds `capacity`
+ * bytes;
+ * "" if there is none. study_result_unit takes units from the header. */
+void study_read_history_header(char *header, size_t capacity, const struct study *s);
 
-/* Determines the SI unit of the figure called `figure` and writes it to `unit`, which holds `room` bytes; "" if the
+/* Determines the SI unit of the figure called `figure` and writes it to `unit`, which holds `capacity` bytes; "" if the
  * figure has no unit or it is unknown. header: text from study_read_history_header. */
-void study_figure_unit(char *unit, size_t room, const char *header, const char *figure);
+void study_result_unit(char *unit, size_t capacity, const char *header, const char *figure);
 
 /* Prints each distinct warning of the runs of a study to `out`: the number of runs that have it, and the text of the
  * first one. */

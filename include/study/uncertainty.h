@@ -10,8 +10,8 @@
 struct path pilot_folder(const char *folder);
 
 /* Reads the half-widths of the 95 % intervals of figures from an existing convergence study of the scene s: that in
- * NAME_converge beside `folder`, the folder of the run, or else that of its pilot runs. Stores at most `most`
+ * NAME_converge beside `folder`, the folder of the run, or else that of its pilot runs. Stores at most `capacity`
  * half-widths in bar[]. Returns their number; 0 if there is no study of this scene or it cannot be read. */
-int error_bars_read(struct error_bar *bar, int most, const struct scene *s, const char *folder);
+int error_bars_read(struct error_bar *bar, int capacity, const struct scene *s, const char *folder);
 
 #endif

@@ -10,9 +10,9 @@
 /* Returns the factor of rate and temperature on the yield stress [1]. */
 static ALWAYS_INLINE lanes johnson_cook_factor(const struct law *m, lanes rate, lanes T)
 {
-    const lanes ratio = lanes_max(rate * (1 / m->johnson_cook.eps0), lanes_of(1));
+    const lanes ratio = lanes_max(rate * (1 / m->johnson_cook.eps0), lanes_broadcast(1));
     const lanes hot = (T - m->johnson_cook.T_room) * (1 / (m->johnson_cook.T_melt - m->johnson_cook.T_room));
-    const lanes between = lanes_max(lanes_min(hot, lanes_of(1)), lanes_of(0));
+    const lanes between = lanes_max(lanes_min(hot, lanes_broadcast(1)), lanes_broadcast(0));
     const lanes soft = m->johnson_cook.m == 1 ? between : lanes_power(between, m->johnson_cook.m);
     return (1.0 + m->johnson_cook.C * lanes_log(ratio)) * (1.0 - soft);
 }
@@ -34,10 +34,10 @@ static ALWAYS_INLINE lanes work_johnson_cook(const struct law *m, lanes a, lanes
 
 static ALWAYS_INLINE lanes reach_johnson_cook(const struct law *m, lanes q, lanes rate, lanes T)
 {
-    const lanes factor = lanes_max(johnson_cook_factor(m, rate, T), lanes_of(1e-12));
-    if (!(m->johnson_cook.B > 0)) return lanes_of(INFINITY);
+    const lanes factor = lanes_max(johnson_cook_factor(m, rate, T), lanes_broadcast(1e-12));
+    if (!(m->johnson_cook.B > 0)) return lanes_broadcast(INFINITY);
     const lanes ratio = (q / factor - m->johnson_cook.A) / m->johnson_cook.B;
-    return lanes_power(lanes_max(ratio, lanes_of(0)), 1 / m->johnson_cook.n);
+    return lanes_power(lanes_max(ratio, lanes_broadcast(0)), 1 / m->johnson_cook.n);
 }
 
 #endif

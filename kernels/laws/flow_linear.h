@@ -14,7 +14,7 @@
 static ALWAYS_INLINE lanes flow_linear(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
 {
     (void)rate, (void)T;
-    *slope = lanes_of(m->hardening);
+    *slope = lanes_broadcast(m->hardening);
     return m->yield + m->hardening * a;
 }
 
@@ -26,7 +26,7 @@ static ALWAYS_INLINE lanes work_linear(const struct law *m, lanes a, lanes rate,
 
 static ALWAYS_INLINE lanes reach_linear(const struct law *m, lanes q, lanes rate, lanes T)
 {
-    return (void)m, (void)q, (void)rate, (void)T, lanes_of(INFINITY);
+    return (void)m, (void)q, (void)rate, (void)T, lanes_broadcast(INFINITY);
 }
 
 #endif

@@ -9,9 +9,9 @@
 /* Returns B a^n [Pa] and stores its derivative n B a^(n - 1) in *slope, which is large but finite at a = 0. */
 static ALWAYS_INLINE lanes power_of_strain(real B, real n, lanes a, lanes *slope)
 {
-    const lanes least = lanes_max(a, lanes_of(1e-200)), power = B * lanes_power(least, n);
+    const lanes least = lanes_max(a, lanes_broadcast(1e-200)), power = B * lanes_power(least, n);
     *slope = n * power / least;
-    return lanes_choose(lanes_less(a, lanes_of(1e-200)), lanes_of(0), power);
+    return lanes_choose(lanes_less(a, lanes_broadcast(1e-200)), lanes_broadcast(0), power);
 }
 
 static ALWAYS_INLINE lanes flow_power(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
@@ -30,7 +30,7 @@ static ALWAYS_INLINE lanes work_power(const struct law *m, lanes a, lanes rate, 
 static ALWAYS_INLINE lanes reach_power(const struct law *m, lanes q, lanes rate, lanes T)
 {
     (void)rate, (void)T;
-    return lanes_power(lanes_max((q - m->yield) / m->power.coefficient, lanes_of(0)), 1 / m->power.exponent);
+    return lanes_power(lanes_max((q - m->yield) / m->power.coefficient, lanes_broadcast(0)), 1 / m->power.exponent);
 }
 
 #endif

@@ -10,12 +10,12 @@ static ALWAYS_INLINE lanes flow_table(const struct law *m, lanes a, lanes rate, 
 {
     (void)rate, (void)T;
     lanes least = m->table.start[0] + m->table.slope[0] * a;
-    *slope = lanes_of(m->table.slope[0]);
+    *slope = lanes_broadcast(m->table.slope[0]);
     for (int k = 1; k < m->table.points; k++) {
         const lanes line = m->table.start[k] + m->table.slope[k] * a;
         const lanes_mask lower = lanes_less(line, least);
         least = lanes_choose(lower, line, least);
-        *slope = lanes_choose(lower, lanes_of(m->table.slope[k]), *slope);
+        *slope = lanes_choose(lower, lanes_broadcast(m->table.slope[k]), *slope);
     }
     return least;
 }
@@ -23,11 +23,11 @@ static ALWAYS_INLINE lanes flow_table(const struct law *m, lanes a, lanes rate, 
 static ALWAYS_INLINE lanes work_table(const struct law *m, lanes a, lanes rate, lanes T)
 {
     (void)rate, (void)T;
-    lanes work = lanes_of(0);
+    lanes work = lanes_broadcast(0);
     for (int k = 0; k < m->table.points; k++) {
         const bool last = k + 1 == m->table.points;
-        const lanes from = lanes_min(a, lanes_of(m->table.strain[k]));
-        const lanes to = last ? a : lanes_min(a, lanes_of(m->table.strain[k + 1]));
+        const lanes from = lanes_min(a, lanes_broadcast(m->table.strain[k]));
+        const lanes to = last ? a : lanes_min(a, lanes_broadcast(m->table.strain[k + 1]));
         work += (m->table.start[k] + 0.5 * m->table.slope[k] * (from + to)) * (to - from);
     }
     return work;
@@ -35,7 +35,7 @@ static ALWAYS_INLINE lanes work_table(const struct law *m, lanes a, lanes rate, 
 
 static ALWAYS_INLINE lanes reach_table(const struct law *m, lanes q, lanes rate, lanes T)
 {
-    return (void)m, (void)q, (void)rate, (void)T, lanes_of(INFINITY);
+    return (void)m, (void)q, (void)rate, (void)T, lanes_broadcast(INFINITY);
 }
 
 #endif

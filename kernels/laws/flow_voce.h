@@ -22,7 +22,7 @@ static ALWAYS_INLINE lanes work_voce(const struct law *m, lanes a, lanes rate, l
 
 static ALWAYS_INLINE lanes reach_voce(const struct law *m, lanes q, lanes rate, lanes T)
 {
-    return (void)m, (void)q, (void)rate, (void)T, lanes_of(INFINITY);
+    return (void)m, (void)q, (void)rate, (void)T, lanes_broadcast(INFINITY);
 }
 
 #endif

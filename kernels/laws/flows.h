@@ -19,31 +19,31 @@ static ALWAYS_INLINE lanes flow_stress(const struct law *m, lanes a, lanes rate,
     switch (m->flow) {
         FLOWS(FLOW_CASE)
     default:
-        return *slope = lanes_of(0);
+        return *slope = lanes_broadcast(0);
     }
 #undef FLOW_CALL
 }
 
 /* Returns an upper bound of the plastic strain at which the yield stress is q [1]. */
-static ALWAYS_INLINE lanes flow_reach(const struct law *m, lanes q, lanes rate, lanes T)
+static ALWAYS_INLINE lanes flow_strain_bound(const struct law *m, lanes q, lanes rate, lanes T)
 {
 #define FLOW_CALL(name) reach_##name(m, q, rate, T)
     switch (m->flow) {
         FLOWS(FLOW_CASE)
     default:
-        return lanes_of(INFINITY);
+        return lanes_broadcast(INFINITY);
     }
 #undef FLOW_CALL
 }
 
 /* Returns the integral of the yield stress from 0 to a [J/m^3]. */
-static ALWAYS_INLINE lanes flow_work(const struct law *m, lanes a, lanes rate, lanes T)
+static ALWAYS_INLINE lanes flow_stress_integral(const struct law *m, lanes a, lanes rate, lanes T)
 {
 #define FLOW_CALL(name) work_##name(m, a, rate, T)
     switch (m->flow) {
         FLOWS(FLOW_CASE)
     default:
-        return lanes_of(0);
+        return lanes_broadcast(0);
     }
 #undef FLOW_CALL
 }

@@ -18,7 +18,7 @@ static ALWAYS_INLINE lanes lanes_log(lanes a)
     const lanes e = (lanes)(exponent | UINT64_C(0x4330000000000000)) - (0x1p52 + 1023);
     const lanes m = (lanes)((lanes_bits)a - ((exponent - 1023) << 52));
     const lanes f = (m - 1.0) / (m + 1.0), f2 = f * f;
-    lanes sum = lanes_of(2.0 / 21);
+    lanes sum = lanes_broadcast(2.0 / 21);
     for (int k = 19; k >= 3; k -= 2) sum = sum * f2 + 2.0 / k;
     return e * LN2_HIGH + (2.0 * f + (f * f2 * sum + e * LN2_LOW));
 }
@@ -28,13 +28,13 @@ static ALWAYS_INLINE lanes lanes_log(lanes a)
 static ALWAYS_INLINE lanes lanes_exp(lanes a)
 {
     const real round = 0x1.8p52; /* added and subtracted: rounds to a whole number */
-    a = lanes_max(lanes_min(a, lanes_of(709)), lanes_of(-708));
+    a = lanes_max(lanes_min(a, lanes_broadcast(709)), lanes_broadcast(-708));
     const lanes shifted = a * 1.44269504088896340736 + round, k = shifted - round;
     const lanes r = (a - k * LN2_HIGH) - k * LN2_LOW;
     static const real inverse[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
                                    1.0 / 362880,     1.0 / 40320,     1.0 / 5040,     1.0 / 720,
                                    1.0 / 120,        1.0 / 24,        1.0 / 6,        0.5};
-    lanes sum = lanes_of(inverse[0]);
+    lanes sum = lanes_broadcast(inverse[0]);
     for (int p = 1; p < (int)COUNT_OF(inverse); p++) sum = sum * r + inverse[p];
     sum = 1.0 + (r + r * r * sum);
     return (lanes)((lanes_bits)sum + ((lanes_bits)shifted << 52));
@@ -43,8 +43,8 @@ static ALWAYS_INLINE lanes lanes_exp(lanes a)
 /* Returns a^b of numbers a >= 0 and exponents b > 0; 0 where a is below 1e-300. */
 static ALWAYS_INLINE lanes lanes_power(lanes a, real b)
 {
-    const lanes_mask none = lanes_less(a, lanes_of(1e-300));
-    return lanes_choose(none, lanes_of(0), lanes_exp(b * lanes_log(lanes_max(a, lanes_of(1e-300)))));
+    const lanes_mask none = lanes_less(a, lanes_broadcast(1e-300));
+    return lanes_choose(none, lanes_broadcast(0), lanes_exp(b * lanes_log(lanes_max(a, lanes_broadcast(1e-300)))));
 }
 
 #endif

@@ -44,14 +44,14 @@ static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, l
         return;
     }
     const lanes mean = (p->s[0] + p->s[1] + p->s[2]) / 3.0;
-    for (int c = 0; c < components(space); c++) xi[c] = p->s[c] - (c < 3 ? mean : lanes_of(0)) - g * p->back[c];
+    for (int c = 0; c < components(space); c++) xi[c] = p->s[c] - (c < 3 ? mean : lanes_broadcast(0)) - g * p->back[c];
 }
 
 /* Computes the parts `even` and `odd` of the scalar product 3/2 x:y of two relative stresses [Pa^2]. */
 static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes *even, lanes *odd,
                                            const enum space space)
 {
-    *even = *odd = lanes_of(0);
+    *even = *odd = lanes_broadcast(0);
     if (space == SPACE_LINE)
         *even = x[0] * y[0];
     else if (space == SPACE_PLANE_STRESS)
@@ -72,7 +72,7 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     struct flow_equation e;
     relative_stress(p, g, xi, space);
     relative_product(xi, xi, &e.even, &e.odd, space);
-    e.q = lanes_root(lanes_max(e.even + e.odd, lanes_of(1e-200)));
+    e.q = lanes_square_root(lanes_max(e.even + e.odd, lanes_broadcast(1e-200)));
     const real uniaxial = space == SPACE_LINE ? law->young : 0.5 * law->young / (1 - law->poisson);
     e.A = uniaxial + stiffness, e.B = 3 * law->shear + stiffness;
     return e;
@@ -90,7 +90,8 @@ static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes 
     if (space != SPACE_PLANE_STRESS) return e->q / (1.0 + single_rate(e, space) * t);
     const lanes u = 1.0 / (1.0 + e->A * t), v = 1.0 / (1.0 + e->B * t);
     *fall = e->even * e->A * u * u * u + e->odd * e->B * v * v * v;
-    return lanes_root(lanes_max(e->even * u * u + e->odd * v * v, lanes_of(1e-200))); /* points without stress */
+    return lanes_square_root(
+        lanes_max(e->even * u * u + e->odd * v * v, lanes_broadcast(1e-200))); /* points without stress */
 }
 
 /* Returns the solution t of 1 - slope t - bound/q(t) = 0, which is q = bound + slope da; t = 0 where q(0) is below
@@ -98,13 +99,13 @@ static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes 
 static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes bound, lanes slope,
                                           const enum space space)
 {
-    lanes t = lanes_of(0), fall;
+    lanes t = lanes_broadcast(0), fall;
     if (space != SPACE_PLANE_STRESS)
-        return lanes_max((e->q - bound) / (slope * e->q + bound * single_rate(e, space)), lanes_of(0));
+        return lanes_max((e->q - bound) / (slope * e->q + bound * single_rate(e, space)), lanes_broadcast(0));
     for (int k = 0; k < STEPS_PLANE_STRESS; k++) {
         const lanes inverse = 1.0 / equation_stress(e, t, &fall, space);
         const lanes rest = 1.0 - slope * t - bound * inverse;
-        t = lanes_max(t + rest / (slope + bound * fall * inverse * inverse * inverse), lanes_of(0));
+        t = lanes_max(t + rest / (slope + bound * fall * inverse * inverse * inverse), lanes_broadcast(0));
     }
     return t;
 }
@@ -114,11 +115,11 @@ static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes b
 static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct law_points *p, const lanes *xi,
                                              lanes q, const enum space space)
 {
-    struct law_points back = {.s = {lanes_of(0)}};
+    struct law_points back = {.s = {lanes_broadcast(0)}};
     lanes x[SYM_MAX], even, odd;
-    if (!(law->kinematic.recall > 0)) return lanes_of(law->kinematic.modulus);
-    for (int c = 0; c < SYM_MAX; c++) back.s[c] = lanes_of(0), back.back[c] = -p->back[c];
-    relative_stress(&back, lanes_of(1), x, space);
+    if (!(law->kinematic.recall > 0)) return lanes_broadcast(law->kinematic.modulus);
+    for (int c = 0; c < SYM_MAX; c++) back.s[c] = lanes_broadcast(0), back.back[c] = -p->back[c];
+    relative_stress(&back, lanes_broadcast(1), x, space);
     relative_product(xi, x, &even, &odd, space);
     return law->kinematic.modulus - law->kinematic.recall * (even + odd) / q;
 }
@@ -129,9 +130,9 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           lanes *left, const enum space space)
 {
-    const lanes least = lanes_min(slope, lanes_of(law->steepest));
+    const lanes least = lanes_min(slope, lanes_broadcast(law->steepest));
     lanes fall;
-    *left = lanes_of(1);
+    *left = lanes_broadcast(1);
     if (!(law->kinematic.recall > 0)) return equation_solve(trial, bound, least, space);
     struct flow_equation e = *trial;
     const lanes C = effective_modulus(law, p, xi, e.q, space);
@@ -147,15 +148,15 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
                                            const enum space space)
 {
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
-    lanes xi[SYM_MAX], fall, slope, t = lanes_of(0);
-    struct flow_equation e = equation_at(law, p, lanes_of(1), lanes_of(0), xi, space);
-    lanes more = flow_reach(law, e.q, p->rate, p->temperature) - p->a;
+    lanes xi[SYM_MAX], fall, slope, t = lanes_broadcast(0);
+    struct flow_equation e = equation_at(law, p, lanes_broadcast(1), lanes_broadcast(0), xi, space);
+    lanes more = flow_strain_bound(law, e.q, p->rate, p->temperature) - p->a;
     more = lanes_min((e.q - bound) / single_rate(&e, space), more);
-    more = lanes_max(more, lanes_of(0));
-    *left = lanes_of(1);
+    more = lanes_max(more, lanes_broadcast(0));
+    *left = lanes_broadcast(1);
     for (int k = 0; k < (recall > 0 ? PASSES_RECALL : PASSES); k++) {
         const lanes stress = flow_stress(law, p->a + more, p->rate, p->temperature, &slope);
-        const lanes least = lanes_max(stress, lanes_of(LEAST_YIELD * law->young));
+        const lanes least = lanes_max(stress, lanes_broadcast(LEAST_YIELD * law->young));
         *left = 1.0 / (1.0 + recall * more);
         e = equation_at(law, p, *left, C * *left, xi, space);
         t = equation_solve(&e, least - slope * more, slope, space);
@@ -188,7 +189,7 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
 /* Returns the plastic work of a step per reference volume [J/m^3], the trapezoidal rule in stress times volume. */
 static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
 {
-    lanes work = lanes_of(0);
+    lanes work = lanes_broadcast(0);
     const int last = tensor_components(space);
     for (int c = 0; c < last; c++)
         work += (c < 3 ? 0.5 : 1.0) * (p->volume_before * p->before[c] + p->volume * p->s[c]) * strain[c];
@@ -204,16 +205,16 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_poi
                                      const lanes *strain, const enum space space)
 {
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
-    const lanes work =
-        flow_work(law, p->a, p->rate, p->temperature) - flow_work(law, p->a - more, p->rate, p->temperature);
-    lanes along = lanes_of(0);
+    const lanes work = flow_stress_integral(law, p->a, p->rate, p->temperature) -
+                       flow_stress_integral(law, p->a - more, p->rate, p->temperature);
+    lanes along = lanes_broadcast(0);
     if (!(C > 0)) return work;
     for (int c = 0; c < tensor_components(space); c++) along += (c < 3 ? 1.0 : 2.0) * back[c] * strain[c];
     if (space == SPACE_LINE) along *= 1.5; /* the components across */
     if (!(recall > 0)) return work + along + 0.5 * C * more * more;
     const lanes part = lanes_log(1.0 + recall * more) / recall;
-    const lanes ratio =
-        lanes_choose(lanes_less(lanes_of(0), more), part / lanes_max(more, lanes_of(1e-300)), lanes_of(1));
+    const lanes ratio = lanes_choose(lanes_less(lanes_broadcast(0), more),
+                                     part / lanes_max(more, lanes_broadcast(1e-300)), lanes_broadcast(1));
     return work + along * ratio + C / recall * (more - part);
 }
 
@@ -222,20 +223,21 @@ static ALWAYS_INLINE void points_return(const struct law *law, struct law_points
                                         const enum law_mode mode)
 {
     lanes xi[SYM_MAX], strain[SYM_MAX], back[SYM_MAX], slope, fall, left;
-    struct flow_equation e = equation_at(law, p, lanes_of(1), lanes_of(law->kinematic.modulus), xi, space);
+    struct flow_equation e =
+        equation_at(law, p, lanes_broadcast(1), lanes_broadcast(law->kinematic.modulus), xi, space);
     const lanes stress = flow_stress(law, p->a, p->rate, p->temperature, &slope);
-    const lanes bound = lanes_max(stress, lanes_of(LEAST_YIELD * law->young));
+    const lanes bound = lanes_max(stress, lanes_broadcast(LEAST_YIELD * law->young));
     const lanes_mask yields = p->active & lanes_less(bound, e.q);
     if (!lanes_any(yields)) return;
     lanes t = mode == LAW_EXPLICIT ? solve_explicit(law, p, &e, xi, bound, slope, &left, space)
                                    : solve_load_step(law, p, bound, &left, space);
-    t = lanes_choose(yields, t, lanes_of(0));
+    t = lanes_choose(yields, t, lanes_broadcast(0));
     if (law->kinematic.recall > 0) {
-        left = lanes_choose(yields, left, lanes_of(1));
+        left = lanes_choose(yields, left, lanes_broadcast(1));
         e = equation_at(law, p, left, law->kinematic.modulus * left, xi, space);
     }
     const bool first_differs = space == SPACE_PLANE_STRESS || space == SPACE_LINE;
-    const lanes u = first_differs ? 1.0 / (1.0 + e.A * t) : lanes_of(1), v = 1.0 / (1.0 + e.B * t);
+    const lanes u = first_differs ? 1.0 / (1.0 + e.A * t) : lanes_broadcast(1), v = 1.0 / (1.0 + e.B * t);
     for (int c = 0; c < components(space); c++) xi[c] *= c == 0 && first_differs ? u : v;
     const lanes more = t * equation_stress(&e, t, &fall, space);
     p->a += more;

@@ -58,7 +58,7 @@ static void mesh_energy_kick_block(const void *context, int64_t first, int64_t e
         sum[0] += 0.25 * total;
     }
     for (int64_t I = first; I < end && mesh->matched; I++)
-        if (mesh->matched[I] & 1) sum[0] += 0.25 * mesh_matched_form(mesh, I);
+        if (mesh->matched[I] & 1) sum[0] += 0.25 * mesh_blended_mass_form(mesh, I);
 }
 
 real mesh_kick(const struct mesh *mesh, real dt)
@@ -98,14 +98,14 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
     const struct mesh *mesh = s->mesh;
     struct mesh_cell cell;
     lanes u[CORNERS_MAX][3];
-    mesh_partial_load(mesh, group, u, dim);
+    mesh_group_load_displacements(mesh, group, u, dim);
     cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
-    if (mesh_flows(s->p)) {
+    if (mesh_points_can_yield(s->p)) {
         int32_t eight[LANES];
-        group_cells(mesh, group, eight);
-        return cells_flow_energy(mesh, s->p, s->elastic, eight, &cell, dim);
+        mesh_group_cell_indices(mesh, group, eight);
+        return cells_elastic_energy(mesh, s->p, s->elastic, eight, &cell, dim);
     }
-    partial_law(mesh, s->p, group, &cell, dim);
+    partial_compute_stress(mesh, s->p, group, &cell, dim);
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
@@ -115,21 +115,21 @@ static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct me
                                      const bool finite)
 {
     const struct mesh *mesh = s->mesh;
-    const bool flows = mesh_flows(s->p) && elastic_yields(&s->elastic[run->material]);
-    lanes sum = lanes_of(0);
+    const bool flows = mesh_points_can_yield(s->p) && elastic_yields(&s->elastic[run->material]);
+    lanes sum = lanes_broadcast(0);
     real flowed = 0;
     for (int64_t k = 0; k < run->cells; k += LANES) {
         struct mesh_cell cell;
         lanes u[CORNERS_MAX][3];
-        mesh_run_load(mesh, run, k, u, dim);
+        mesh_run_load_displacements(mesh, run, k, u, dim);
         cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
         if (flows) {
             int32_t eight[LANES];
-            run_cells(run, k, eight);
-            flowed += cells_flow_energy(mesh, s->p, s->elastic, eight, &cell, dim);
+            mesh_run_cell_indices(run, k, eight);
+            flowed += cells_elastic_energy(mesh, s->p, s->elastic, eight, &cell, dim);
             continue;
         }
-        cell_law(&s->elastic[run->material], &cell, dim);
+        cell_compute_stress(&s->elastic[run->material], &cell, dim);
         sum += cell_energy(&cell, mesh->volume * (1 << dim), dim);
     }
     return lanes_sum(sum) + flowed;
@@ -160,6 +160,6 @@ real mesh_strain(const struct mesh *mesh, const struct particles *p, const struc
     struct strain_sum s = {mesh, p, m, finite};
     const int dim = mesh->grid.dim;
     if (mesh->points == 0) return 0;
-    return reproducible_sum(mesh_groups(mesh), partial[dim][finite], &s) +
+    return reproducible_sum(mesh_partial_group_count(mesh), partial[dim][finite], &s) +
            reproducible_sum(mesh->runs, run[dim][finite], &s);
 }

@@ -22,43 +22,43 @@
 
 /* Returns true if material points of the mesh can yield, i.e. if p has arrays of the plastic stress correction. p may
  * be NULL: false. */
-static ALWAYS_INLINE bool mesh_flows(const struct particles *p) { return p && p->plastic_correction[0]; }
+static ALWAYS_INLINE bool mesh_points_can_yield(const struct particles *p) { return p && p->plastic_correction[0]; }
 
 /* Applies return mapping to the stress s of material point i: projects the trial stress C : e - r onto the yield
  * surface and updates plastic strain and plastic stress correction r of the point. s: symmetric components [Pa],
  * changed in place; m: constants of its material. */
-static ALWAYS_INLINE void point_flow(const struct particles *p, const struct elastic *m, int64_t i, real *s,
-                                     const int dim)
+static ALWAYS_INLINE void point_return_mapping(const struct particles *p, const struct elastic *m, int64_t i, real *s,
+                                               const int dim)
 {
     real trial[SYM_MAX], zz = p->out_of_plane ? p->out_of_plane[i] : 0;
-    for (int k = 0; k < symmetric_count(dim); k++) trial[k] = s[k];
+    for (int k = 0; k < symmetric_component_count(dim); k++) trial[k] = s[k];
     const real more = plastic_return(m, s, p->plastic_strain[i], &zz);
     if (more == 0) return;
     p->plastic_strain[i] += more;
-    for (int k = 0; k < symmetric_count(dim); k++) p->plastic_correction[k][i] += trial[k] - s[k];
+    for (int k = 0; k < symmetric_component_count(dim); k++) p->plastic_correction[k][i] += trial[k] - s[k];
     if (p->out_of_plane) p->out_of_plane[i] = zz;
 }
 
 /* Computes the stress s of material point i at the strain e. e: dim x dim, row by row, of which the symmetric part
  * counts; s: receives symmetric components [Pa]; m: constants of its material; flows: true to apply return mapping and
  * update the plastic state, false to keep the plastic state. */
-static ALWAYS_INLINE void point_stress(const struct particles *p, const struct elastic *m, int64_t i, const real *e,
-                                       real *s, const int dim, const bool flows)
+static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const struct elastic *m, int64_t i,
+                                               const real *e, real *s, const int dim, const bool flows)
 {
-    mesh_point_stress(m, e, s, dim);
-    for (int k = 0; k < symmetric_count(dim); k++) s[k] -= p->plastic_correction[k][i];
-    if (flows && m->yield > 0) point_flow(p, m, i, s, dim);
+    point_hooke_stress(m, e, s, dim);
+    for (int k = 0; k < symmetric_component_count(dim); k++) s[k] -= p->plastic_correction[k][i];
+    if (flows && m->yield > 0) point_return_mapping(p, m, i, s, dim);
 }
 
 /* Returns the elastic energy per volume of material point i under the stress s [J/m^3]. In plane strain of a material
  * that yields, the energy of the out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy) is included. s: symmetric
  * components [Pa]; m: constants of its material. */
-static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struct elastic *m, int64_t i, const real *s,
-                                          const int dim)
+static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p, const struct elastic *m, int64_t i,
+                                                       const real *s, const int dim)
 {
     real sum = 0, squares = 0, shears = 0;
     for (int k = 0; k < dim; k++) sum += s[k], squares += s[k] * s[k];
-    for (int k = dim; k < symmetric_count(dim); k++) shears += s[k] * s[k];
+    for (int k = dim; k < symmetric_component_count(dim); k++) shears += s[k] * s[k];
     const real mean = m->c12 / (m->c11 + (dim - 1) * m->c12);
     const real across = p->out_of_plane && elastic_yields(m) ? p->out_of_plane[i] : 0;
     return 0.5 * (squares - mean * sum * sum) / (m->c11 - m->c12) + (dim > 1 ? 0.5 * shears / m->shear : 0) +
@@ -92,8 +92,8 @@ static ALWAYS_INLINE bool cells_dilate(const struct mesh *mesh, const struct par
     if (!any) return false;
     for (int q = 0; q < 1 << dim; q++) {
         lanes e[3][3];
-        cells_strain_at(s, q, e, dim);
-        change[q] = lanes_of(0);
+        cells_strain_at_point(s, q, e, dim);
+        change[q] = lanes_broadcast(0);
         for (int d = 0; d < dim; d++) change[q] += e[d][d] * (1.0 / dim);
     }
     cells_differences(mesh, p, m, cell, change, dim);
@@ -105,26 +105,27 @@ static ALWAYS_INLINE bool cells_dilate(const struct mesh *mesh, const struct par
  * nothing; m: elastic constants of all materials; stress: receives symmetric components [Pa], 0 in lanes without a
  * point. If flows is true, applies return mapping (flow laws: in load steps), updates the plastic state of the points
  * and returns 0. If it is false, returns the sum of the elastic energies per volume of the points [J/m^3]. */
-static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                       const int32_t *cell, const struct mesh_cell *s, const lanes *change, const int q,
-                                       lanes *stress, const int dim, const bool flows)
+static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, const struct particles *p,
+                                                     const struct elastic *m, const int32_t *cell,
+                                                     const struct mesh_cell *s, const lanes *change, const int q,
+                                                     lanes *stress, const int dim, const bool flows)
 {
     lanes e[3][3];
     real sum = 0;
     unsigned with_law = 0;
-    cells_strain_at(s, q, e, dim);
+    cells_strain_at_point(s, q, e, dim);
     for (int d = 0; d < dim && change; d++) e[d][d] += *change;
-    for (int k = 0; k < symmetric_count(dim); k++) stress[k] = lanes_of(0);
+    for (int k = 0; k < symmetric_component_count(dim); k++) stress[k] = lanes_broadcast(0);
     for (int l = 0; l < LANES; l++) {
         const int64_t i = place_point(mesh, cell[l], q, dim);
         real own[SYM_MAX], strain[DIM_MAX * DIM_MAX];
         if (i < 0) continue;
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < dim; b++) strain[a * dim + b] = e[a][b][l];
-        point_stress(p, &m[p->material[i]], i, strain, own, dim, flows);
-        for (int k = 0; k < symmetric_count(dim); k++) stress[k][l] = own[k];
+        point_compute_stress(p, &m[p->material[i]], i, strain, own, dim, flows);
+        for (int k = 0; k < symmetric_component_count(dim); k++) stress[k][l] = own[k];
         if (m[p->material[i]].law && m[p->material[i]].mode == LAW_LOAD_STEP) with_law |= 1u << l;
-        if (!flows) sum += point_energy_of(p, &m[p->material[i]], i, own, dim);
+        if (!flows) sum += point_elastic_energy_density(p, &m[p->material[i]], i, own, dim);
     }
     if (flows && with_law) place_laws(mesh, p, m, cell, q, with_law, 0, stress, dim);
     return sum;
@@ -133,17 +134,17 @@ static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct par
 /* Adds the stresses of the points number q of eight cells to the sums over the points of each cell: to s->P, the
  * stress of the mean strain, and to s->force, the forces on the bending modes. stress: symmetric components [Pa],
  * already divided by the number of points. */
-static ALWAYS_INLINE void place_stress_add(struct mesh_cell *s, const lanes *stress, const int q, const int dim)
+static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lanes *stress, const int q, const int dim)
 {
-    for (int k = 0; k < symmetric_count(dim); k++) {
+    for (int k = 0; k < symmetric_component_count(dim); k++) {
         int a, b;
-        symmetric_axes(dim, k, &a, &b);
+        symmetric_component_axes(dim, k, &a, &b);
         s->P[a][b] += stress[k];
         if (a != b) s->P[b][a] += stress[k];
         for (int M = 3; M < 1 << dim; M++) {
             if (!(M & (M - 1))) continue;
-            if (M >> b & 1) s->force[M][a] += place_along(M & ~(1 << b), q) * stress[k];
-            if (a != b && M >> a & 1) s->force[M][b] += place_along(M & ~(1 << a), q) * stress[k];
+            if (M >> b & 1) s->force[M][a] += point_coordinate_product(M & ~(1 << b), q) * stress[k];
+            if (a != b && M >> a & 1) s->force[M][b] += point_coordinate_product(M & ~(1 << a), q) * stress[k];
         }
     }
 }
@@ -151,54 +152,56 @@ static ALWAYS_INLINE void place_stress_add(struct mesh_cell *s, const lanes *str
 /* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield, by
  * return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points. m: array of the
  * elastic constants of all materials; cell: eight cell indices, -1 for a lane without cell. */
-static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                     const int32_t *cell, struct mesh_cell *s, const int dim)
+static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const struct particles *p,
+                                               const struct elastic *m, const int32_t *cell, struct mesh_cell *s,
+                                               const int dim)
 {
     const real share = 1.0 / (1 << dim);
     lanes change[CORNERS_MAX], stress[CORNERS_MAX][SYM_MAX];
     const bool averaged = cells_dilate(mesh, p, m, cell, s, change, dim);
     for (int a = 0; a < dim; a++)
-        for (int b = 0; b < dim; b++) s->P[a][b] = lanes_of(0);
+        for (int b = 0; b < dim; b++) s->P[a][b] = lanes_broadcast(0);
     for (int M = 0; M < 1 << dim; M++)
-        for (int a = 0; a < dim; a++) s->force[M][a] = lanes_of(0);
+        for (int a = 0; a < dim; a++) s->force[M][a] = lanes_broadcast(0);
     for (int q = 0; q < 1 << dim; q++)
-        place_stress(mesh, p, m, cell, s, averaged ? &change[q] : NULL, q, stress[q], dim, true);
+        cells_compute_point_stress(mesh, p, m, cell, s, averaged ? &change[q] : NULL, q, stress[q], dim, true);
     for (int q = 0; q < 1 << dim && averaged; q++) {
-        change[q] = lanes_of(0);
+        change[q] = lanes_broadcast(0);
         for (int d = 0; d < dim; d++) change[q] += stress[q][d] * (1.0 / dim);
     }
     if (averaged) cells_differences(mesh, p, m, cell, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
         for (int d = 0; d < dim && averaged; d++) stress[q][d] += change[q];
-        for (int k = 0; k < symmetric_count(dim); k++) stress[q][k] *= share;
-        place_stress_add(s, stress[q], q, dim);
+        for (int k = 0; k < symmetric_component_count(dim); k++) stress[q][k] *= share;
+        cells_add_point_stress(s, stress[q], q, dim);
     }
 }
 
 /* Returns the elastic energy of eight cells at the present plastic state of their points, which is not changed [J]. m:
  * array of the elastic constants of all materials; cell: eight cell indices, -1 for a lane without cell; s: strain of
  * the cells. */
-static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                            const int32_t *cell, const struct mesh_cell *s, const int dim)
+static ALWAYS_INLINE real cells_elastic_energy(const struct mesh *mesh, const struct particles *p,
+                                               const struct elastic *m, const int32_t *cell, const struct mesh_cell *s,
+                                               const int dim)
 {
     lanes stress[SYM_MAX], change[CORNERS_MAX];
     real sum = 0;
     const bool averaged = cells_dilate(mesh, p, m, cell, s, change, dim);
     for (int q = 0; q < 1 << dim; q++)
-        sum += place_stress(mesh, p, m, cell, s, averaged ? &change[q] : NULL, q, stress, dim, false);
+        sum += cells_compute_point_stress(mesh, p, m, cell, s, averaged ? &change[q] : NULL, q, stress, dim, false);
     return sum * mesh->volume;
 }
 
 /* Writes the indices of eight cells of a row of consecutive cells `run`, from its k-th cell on, to cell[8]; -1 for
  * entries beyond the last cell. */
-static ALWAYS_INLINE void run_cells(const struct mesh_run *run, int64_t k, int32_t *cell)
+static ALWAYS_INLINE void mesh_run_cell_indices(const struct mesh_run *run, int64_t k, int32_t *cell)
 {
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
 
 /* Writes the indices of the eight cells of a group of partial cells (cells with missing points, partial stresses,
  * several materials or doubled nodes) to cell[8]; -1 for entries beyond the last partial cell. */
-static ALWAYS_INLINE void group_cells(const struct mesh *mesh, int64_t group, int32_t *cell)
+static ALWAYS_INLINE void mesh_group_cell_indices(const struct mesh *mesh, int64_t group, int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)
         cell[l] = group * LANES + l < mesh->partial_cells ? mesh->partial_cell[group * LANES + l] : -1;

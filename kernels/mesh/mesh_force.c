@@ -18,21 +18,21 @@ static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
     return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
-/* Defines cells_flow_1, _2 and _3: cells_flow for dimension D. Not inlined, because return mapping point by point
- * (mesh_flow.h) would take registers from elastic cells. */
+/* Defines cells_flow_1, _2 and _3: cells_return_mapping for dimension D. Not inlined, because return mapping point by
+ * point (mesh_flow.h) would take registers from elastic cells. */
 #define FLOW(D)                                                                                                        \
     static NEVER_INLINE void cells_flow_##D(const struct mesh *mesh, const struct particles *p,                        \
                                             const struct elastic *m, const int32_t *cell, struct mesh_cell *s)         \
     {                                                                                                                  \
-        cells_flow(mesh, p, m, cell, s, D);                                                                            \
+        cells_return_mapping(mesh, p, m, cell, s, D);                                                                  \
     }
 FLOW(1)
 FLOW(2)
 FLOW(3)
 
 /* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield into *s,
- * by return mapping at each point, and updates the plastic state of the points (cells_flow). cell: eight cell indices,
- * -1 for a lane without cell; m: elastic constants of all materials. */
+ * by return mapping at each point, and updates the plastic state of the points (cells_return_mapping). cell: eight cell
+ * indices, -1 for a lane without cell; m: elastic constants of all materials. */
 static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         const int32_t *cell, struct mesh_cell *s, const int dim)
 {
@@ -50,10 +50,10 @@ static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particl
     struct mesh_cell s;
     int32_t cell[LANES];
     cell_strain(&s, mesh->grid.h, u, dim, rotates);
-    run_cells(run, k, cell);
+    mesh_run_cell_indices(run, k, cell);
     cells_flow_of(mesh, p, m, cell, &s, dim);
-    if (rotates) cell_balance(&s, (lanes[3]){{0}}, dim);
-    cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
+    if (rotates) cell_balance_finite_moments(&s, (lanes[3]){{0}}, dim);
+    cell_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
 }
 
 /* Adds the forces of the cells of a row of consecutive cells `run` to the nodes. Sets run->stressed if the principal
@@ -67,21 +67,21 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
     const struct grid *g = &mesh->grid;
     const struct elastic *m = &all[run->material];
     const real volume = mesh->volume * (1 << dim);
-    const bool balanced = mesh_balanced(m, dim);
+    const bool balanced = cells_have_balanced_moments(m, dim);
     const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
-    const uint8_t *levels = mesh_levels(mesh, row);
-    lanes carried[CORNERS_MAX][3], tension = lanes_of(-INFINITY);
+    const uint8_t *levels = mesh_row_activity_levels(mesh, row);
+    lanes carried[CORNERS_MAX][3], tension = lanes_broadcast(-INFINITY);
     for (int c = 0; c < 1 << dim; c++)
-        for (int i = 0; i < dim; i++) carried[c][i] = lanes_of(0);
+        for (int i = 0; i < dim; i++) carried[c][i] = lanes_broadcast(0);
     for (int64_t k = 0; k < run->cells; k += LANES) {
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
-        if (mesh_inactive(levels, start + k)) continue; /* forces carried from the cells before are 0 */
-        mesh_run_load(mesh, run, k, u, dim);
+        if (mesh_nodes_are_at_rest(levels, start + k)) continue; /* forces carried from the cells before are 0 */
+        mesh_run_load_displacements(mesh, run, k, u, dim);
         if (flows)
             run_flow(mesh, p, all, run, k, u, f, dim, finite);
         else
-            mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
+            mesh_run_corner_forces(m, g->h, volume, u, f, &tension, dim, finite, balanced);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];
@@ -110,7 +110,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
                                                        int64_t band, const struct elastic *m)                          \
     {                                                                                                                  \
         for (int64_t r = mesh->band[band]; r < mesh->band[band + 1]; r++)                                              \
-            if (mesh_flows(p) && elastic_yields(&m[mesh->run[r].material]))                                            \
+            if (mesh_points_can_yield(p) && elastic_yields(&m[mesh->run[r].material]))                                 \
                 run_flow_##D##_##FINITE(mesh, p, &mesh->run[r], m);                                                    \
             else                                                                                                       \
                 run_force(mesh, p, &mesh->run[r], m, D, FINITE, false);                                                \
@@ -133,22 +133,22 @@ static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t grou
 {
     uint8_t level = 0;
     for (int l = 0; l < LANES; l++)
-        level |= mesh->active.level[mesh_block(mesh, mesh->partial_cell[group * LANES + l])];
+        level |= mesh->active.level[mesh_block_of_node(mesh, mesh->partial_cell[group * LANES + l])];
     return level == 0;
 }
 
 /* Sets mesh->partial_stressed for those cells of a group of eight partial cells in which the principal stress at a
- * point may exceed the conversion stress of the material, by the bound cell_tension. s: strain of the cells; m: elastic
- * constants of all materials. */
+ * point may exceed the conversion stress of the material, by the bound cell_principal_stress_bound. s: strain of the
+ * cells; m: elastic constants of all materials. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
                                        const struct mesh_cell *s, const int dim)
 {
     const uint8_t *material = mesh->partial_material + group * LANES;
-    lanes tension = lanes_of(0), P[3][3];
+    lanes tension = lanes_broadcast(0), P[3][3];
     for (int l = 0; l < LANES; l++) {
         if (l == 0 || material[l] != material[l - 1]) {
-            stress_of(&m[material[l]], s->e, P, dim);
-            tension = cell_tension(&m[material[l]], s, P, dim);
+            hooke_stress(&m[material[l]], s->e, P, dim);
+            tension = cell_principal_stress_bound(&m[material[l]], s, P, dim);
         }
         mesh->partial_stressed[group * LANES + l] = tension[l] > m[material[l]].trigger;
     }
@@ -162,21 +162,21 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
     const bool rotates = finite && dim > 1;
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], moment[3] = {{0}};
-    mesh_partial_load(mesh, group, u, dim);
+    mesh_group_load_displacements(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, rotates);
     partial_mark(mesh, m, group, &s, dim);
-    if (mesh_flows(p)) {
+    if (mesh_points_can_yield(p)) {
         int32_t cell[LANES];
-        group_cells(mesh, group, cell);
+        mesh_group_cell_indices(mesh, group, cell);
         cells_flow_of(mesh, p, m, cell, &s, dim);
     } else
-        partial_law(mesh, p, group, &s, dim);
-    if (mesh->ends && p->end_rotation[0]) partial_add_moments(mesh, p, group, moment, dim);
+        partial_compute_stress(mesh, p, group, &s, dim);
+    if (mesh->ends && p->end_rotation[0]) partial_add_bond_moments(mesh, p, group, moment, dim);
     if (rotates)
-        cell_balance(&s, moment, dim);
+        cell_balance_finite_moments(&s, moment, dim);
     else if (dim > 1 && mesh->ends && p->end_rotation[0])
-        cell_skew(&s, moment, dim);
-    cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
+        cell_balance_small_moments(&s, moment, dim);
+    cell_corner_forces(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
     lanes *out = (lanes *)mesh->partial_force + group * (1 << dim) * dim;
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
@@ -186,13 +186,13 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
  * forces are added serially and in order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
-    for (int64_t group = 0; group < mesh_groups(mesh); group++) {
+    for (int64_t group = 0; group < mesh_partial_group_count(mesh); group++) {
         const int32_t *cell = mesh->partial_cell + group * LANES;
         const int64_t left = mesh->partial_cells - group * LANES;
         const lanes *f = (const lanes *)mesh->partial_force + group * (1 << dim) * dim;
         if (partial_inactive(mesh, group)) continue;
-        const int32_t *own = mesh_group_corners(mesh, group, dim);
-        const bool in_line = !own && list_together(cell);
+        const int32_t *own = mesh_group_slit_corners(mesh, group, dim);
+        const bool in_line = !own && list_is_consecutive(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
                 real *to = mesh->grid.force[i] + (own ? 0 : mesh->corner[c]);
@@ -215,8 +215,8 @@ enum { FEW = 16 }; /* groups that one thread computes in less time than a thread
     }                                                                                                                  \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_groups(mesh) > FEW,                                                                             \
-                  for (int64_t k = 0; k < mesh_groups(mesh); k++) cut_force_##D##_##FINITE(mesh, p, m, k););           \
+        TEAM_LOOP(mesh_partial_group_count(mesh) > FEW, for (int64_t k = 0; k < mesh_partial_group_count(mesh); k++)   \
+                                                            cut_force_##D##_##FINITE(mesh, p, m, k););                 \
         cuts_add(mesh, D);                                                                                             \
     }
 

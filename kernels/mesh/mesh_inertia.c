@@ -37,7 +37,7 @@ static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, 
         const int64_t cell = I - mesh->corner[c];
         real part = w[I] / corners;
         if (!(mesh->matched[I] >> c & 1)) continue;
-        for (int k = 0; k < corners; k++) part -= mesh_consistent(dim, c, k) * w[cell + mesh->corner[k]];
+        for (int k = 0; k < corners; k++) part -= mesh_consistent_mass_entry(dim, c, k) * w[cell + mesh->corner[k]];
         sum += mesh->cell_mass[mesh->material[cell]] * part;
     }
     return w[I] + mesh->match * mesh->inverse_mass[I] * sum;
@@ -51,7 +51,7 @@ static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const
                   end = mesh->span[2 * r + 1];
     const uint64_t all = EIGHT_TIMES((1 << (1 << dim)) - 1);
     for (int64_t I = mesh->span[2 * r]; I < end; I += LANES) {
-        const uint64_t cells = eight_bytes(mesh->matched + I);
+        const uint64_t cells = load_eight_bytes(mesh->matched + I);
         if (cells == 0)
             lanes_store(v + I, lanes_load(w + I));
         else if (cells == all) {

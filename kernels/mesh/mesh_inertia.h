@@ -18,7 +18,7 @@
 /* Returns the entry for corners c and k of the consistent mass matrix of a linear cell, divided by the mass of the
  * cell [1]: the product of 1/3 for each axis along which both corners have the same position and 1/6 for each other
  * axis. */
-static ALWAYS_INLINE real mesh_consistent(int dim, int c, int k)
+static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int c, int k)
 {
     real share = 1;
     for (int d = 0; d < dim; d++) share *= (c ^ k) >> d & 1 ? 1.0 / 6 : 1.0 / 3;
@@ -29,7 +29,7 @@ static ALWAYS_INLINE real mesh_consistent(int dim, int c, int k)
  * dt^2, is the contribution of the cell's blended mass matrix to mesh_kick. a = f/m at its corners, from nodal forces f
  * and masses m; L and C: lumped and consistent mass matrix of the cell; alpha = mesh->match. Sums s and differences d
  * along the axes diagonalise both matrices: along one axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
-static inline real mesh_matched_form(const struct mesh *mesh, int64_t I)
+static inline real mesh_blended_mass_form(const struct mesh *mesh, int64_t I)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */
     const int dim = mesh->grid.dim, corners = 1 << dim;

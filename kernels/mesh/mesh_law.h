@@ -40,7 +40,7 @@ struct mesh_cell {
 /* Replaces the values v[c] of a nodal variable at the 2^dim corners of eight cells by the amplitudes of the modes of
  * the cell, without their scale factor, in place: v[M] = sum_c sign(M, c) v[c] for every set of axes M (bit set), where
  * the sign is the product over the axes in M of -1 at the lower and 1 at the upper end. */
-static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
+static ALWAYS_INLINE void cell_modes_from_corners(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -51,8 +51,8 @@ static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
 }
 
 /* Replaces values v[M] for all sets of axes M (bit sets) by values at the 2^dim corners of eight cells, in place: v[c]
- * = sum_M sign(M, c) v[M], the transpose of modes_of_corners. */
-static ALWAYS_INLINE void corners_of_modes(lanes *v, const int dim)
+ * = sum_M sign(M, c) v[M], the transpose of cell_modes_from_corners. */
+static ALWAYS_INLINE void cell_corners_from_modes(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -69,9 +69,9 @@ static ALWAYS_INLINE void corners_of_modes(lanes *v, const int dim)
 static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     lanes c = 2.0 + g[0][0] + g[1][1], s = g[1][0] - g[0][1];
-    const lanes inverse = lanes_inverse_root(c * c + s * s);
+    const lanes inverse = lanes_inverse_square_root(c * c + s * s);
     c *= inverse, s *= inverse;
-    const lanes less = lanes_choose(c > 0, -s * s / (1.0 + lanes_max(c, lanes_of(0))), c - 1.0);
+    const lanes less = lanes_choose(c > 0, -s * s / (1.0 + lanes_max(c, lanes_broadcast(0))), c - 1.0);
     R[0][0] = R[1][1] = c, R[1][0] = s, R[0][1] = -s;
     e[0][0] = c * g[0][0] + s * g[1][0] + less;
     e[1][1] = c * g[1][1] - s * g[0][1] + less;
@@ -96,7 +96,7 @@ static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], l
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) R[a][b] = g[a][b] + (a == b ? 1.0 : 0.0);
     for (int step = 0; step < 12; step++) {
-        lanes C[3][3], change = lanes_of(0);
+        lanes C[3][3], change = lanes_broadcast(0);
         cofactors_3d(R, C);
         const lanes inverse = 0.5 / (R[0][0] * C[0][0] + R[0][1] * C[0][1] + R[0][2] * C[0][2]);
         for (int a = 0; a < 3; a++)
@@ -123,7 +123,7 @@ static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const boo
     lanes old[3];
     for (int a = 0; a < dim; a++) old[a] = v[a];
     for (int a = 0; a < dim; a++) {
-        v[a] = lanes_of(0);
+        v[a] = lanes_broadcast(0);
         for (int b = 0; b < dim; b++) v[a] += (back ? R[a][b] : R[b][a]) * old[b];
     }
 }
@@ -131,7 +131,7 @@ static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const boo
 /* Adds to the stress P an antisymmetric part that balances a given moment. P, e: stress [Pa] and strain in the rotated
  * axes of the cell; m: moment per volume about each axis [Pa], in 2D m[2] only. The part is the matrix of the cross
  * product with the vector w that solves (tr U - U) w = m, with U = 1 + e. */
-static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lanes *m, const int dim)
+static ALWAYS_INLINE void stress_add_skew_part(lanes P[3][3], const lanes e[3][3], const lanes *m, const int dim)
 {
     if (dim == 2) {
         const lanes w = m[2] / (2.0 + e[0][0] + e[1][1]);
@@ -141,7 +141,7 @@ static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lan
     lanes A[3][3], C[3][3], w[3];
     const lanes trace = 3.0 + e[0][0] + e[1][1] + e[2][2];
     for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) A[a][b] = (a == b ? trace - 1.0 : lanes_of(0)) - e[a][b];
+        for (int b = 0; b < 3; b++) A[a][b] = (a == b ? trace - 1.0 : lanes_broadcast(0)) - e[a][b];
     cofactors_3d(A, C);
     const lanes inverse = 1.0 / (A[0][0] * C[0][0] + A[0][1] * C[0][1] + A[0][2] * C[0][2]);
     for (int a = 0; a < 3; a++) w[a] = inverse * (C[a][0] * m[0] + C[a][1] * m[1] + C[a][2] * m[2]);
@@ -155,7 +155,7 @@ static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lan
 
 /* Computes the stress P of the symmetric strain e by Hooke's law, for eight cells at a time [Pa]. m: elastic
  * constants. */
-static ALWAYS_INLINE void stress_of(const struct elastic *m, const lanes e[3][3], lanes P[3][3], const int dim)
+static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes e[3][3], lanes P[3][3], const int dim)
 {
     for (int a = 0; a < dim; a++) {
         P[a][a] = m->c11 * e[a][a];
@@ -174,8 +174,8 @@ static ALWAYS_INLINE real averaged_stiffness(const struct elastic *m, const int 
 /* Returns the derivative of the elastic energy per volume by component i of bending mode M, in the rotated axes of the
  * cell [Pa]. M: bit set of axes. The gradient d_j u_i contains mode {j, l} of component i times the coordinate along
  * l, and mode {1, 2, 3} of component i times the two other coordinates. */
-static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M, const int i,
-                                const int dim)
+static ALWAYS_INLINE lanes cell_bending_force(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M,
+                                              const int i, const int dim)
 {
     const real averaged = averaged_stiffness(m, dim), c11 = m->c11 - averaged, c12 = m->c12 - averaged;
     if (dim == 3 && M == 7) return mode[M][i] * ((c11 + 2 * m->shear) / 256);
@@ -199,7 +199,7 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         for (int c = 0; c < corners; c++) v[c] = u[c][i];
-        modes_of_corners(v, dim);
+        cell_modes_from_corners(v, dim);
         SETS for (int M = 1; M < corners; M++) s->mode[M][i] =
             v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
         for (int b = 0; b < dim; b++) g[i][b] = s->mode[1 << b][i];
@@ -217,7 +217,7 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
 
 /* Returns the product of the coordinates +-1/4 of material point number q of a cell along the axes in the bit set
  * `set`, in units of the edge of the cell [1]; 1 for an empty set. */
-static ALWAYS_INLINE real place_along(const int set, const int q)
+static ALWAYS_INLINE real point_coordinate_product(const int set, const int q)
 {
     const int axes = __builtin_popcount(set), below = __builtin_popcount(set & ~q);
     return (below & 1 ? -1.0 : 1.0) / (1 << 2 * axes);
@@ -225,14 +225,14 @@ static ALWAYS_INLINE real place_along(const int set, const int q)
 
 /* Computes the strain e of eight cells at their material points number q: the mean strain plus the bending modes times
  * the coordinates +-1/4 of the point. e may be unsymmetric; its symmetric part is the strain. */
-static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
+static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) {
             e[i][j] = s->e[i][j];
             SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1) && M >> j & 1)
             {
-                e[i][j] += place_along(M & ~(1 << j), q) * s->mode[M][i];
+                e[i][j] += point_coordinate_product(M & ~(1 << j), q) * s->mode[M][i];
             }
         }
 }
@@ -242,7 +242,7 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
 static ALWAYS_INLINE void cells_average(const struct elastic *m, const struct mesh_cell *s, lanes e[3][3],
                                         const int dim)
 {
-    lanes change = lanes_of(0);
+    lanes change = lanes_broadcast(0);
     if (!m->mean_dilatation) return;
     for (int d = 0; d < dim; d++) change += s->e[d][d] - e[d][d];
     for (int d = 0; d < dim; d++) e[d][d] += change / dim;
@@ -250,20 +250,20 @@ static ALWAYS_INLINE void cells_average(const struct elastic *m, const struct me
 
 /* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of eight whole cells (with
  * all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic constants. */
-static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
+static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
-    stress_of(m, s->e, s->P, dim);
+    hooke_stress(m, s->e, s->P, dim);
     SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] =
-        bend(m, s->mode, M, i, dim);
+        cell_bending_force(m, s->mode, M, i, dim);
 }
 
 /* Returns for each of eight cells an upper bound of the largest principal stress at its material points [Pa]: for the
  * stress P of the mean strain the largest normal stress plus the magnitudes of all shear stresses (Gershgorin), plus a
  * bound on the stress of all bending modes in s. m: elastic constants. */
-static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct mesh_cell *s, const lanes P[3][3],
-                                        const int dim)
+static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, const struct mesh_cell *s,
+                                                       const lanes P[3][3], const int dim)
 {
-    lanes largest = lanes_of(0), bound = P[0][0];
+    lanes largest = lanes_broadcast(0), bound = P[0][0];
     SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) largest +=
         lanes_max(s->mode[M][i], -s->mode[M][i]);
     for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
@@ -276,7 +276,7 @@ static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct me
  * volume: of a cell [m^3]. */
 static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, const int dim)
 {
-    lanes energy = lanes_of(0);
+    lanes energy = lanes_broadcast(0);
     for (int i = 0; i < dim; i++) {
         for (int b = 0; b < dim; b++) energy += s->P[i][b] * s->e[i][b];
         SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) energy += s->force[M][i] * s->mode[M][i];
@@ -287,7 +287,7 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
 /* Adds to the stress s->P of eight cells, at finite strain, the antisymmetric part that balances the moments of the
  * stresses and of bonds. moment: moment of bonds at the points of the cell, per volume about each axis [Pa];
  * overwritten with its sum with the axial part of P U^T over all modes, U = 1 + e of the mean strain. */
-static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const int dim)
+static ALWAYS_INLINE void cell_balance_finite_moments(struct mesh_cell *s, lanes *moment, const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -295,25 +295,25 @@ static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const
         SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) moment[k] +=
             s->force[M][j] * s->mode[M][i] - s->force[M][i] * s->mode[M][j];
     }
-    add_skew(s->P, s->e, moment, dim);
+    stress_add_skew_part(s->P, s->e, moment, dim);
 }
 
 /* Adds to the stress s->P of eight cells, at small strain, an antisymmetric part. It makes the corner forces balance
  * the moments that state-based bonds exert on the material points of the cells. moment: these moments, per volume about
  * each axis [Pa]; in 2D moment[2] only. */
-static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, const int dim)
+static ALWAYS_INLINE void cell_balance_small_moments(struct mesh_cell *s, const lanes *moment, const int dim)
 {
     lanes none[3][3];
     for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) none[a][b] = lanes_of(0);
-    add_skew(s->P, none, moment, dim);
+        for (int b = 0; b < 3; b++) none[a][b] = lanes_broadcast(0);
+    stress_add_skew_part(s->P, none, moment, dim);
 }
 
 /* Computes the forces f[c][i] on corner c along axis i of eight cells from stress and forces on bending modes in s
  * [N]. h: edge [m]; volume: of a cell [m^3]; rotates: true to rotate s->P and s->force from the axes of the cell to
  * fixed axes first, in place. */
-static ALWAYS_INLINE void cell_corners(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3], const int dim,
-                                       const bool rotates)
+static ALWAYS_INLINE void cell_corner_forces(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3],
+                                             const int dim, const bool rotates)
 {
     const int corners = 1 << dim;
     for (int b = 0; b < dim && rotates; b++) {
@@ -325,13 +325,13 @@ static ALWAYS_INLINE void cell_corners(struct mesh_cell *s, real h, real volume,
     SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->force[M], true, dim);
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
-        v[0] = lanes_of(0);
+        v[0] = lanes_broadcast(0);
         SETS for (int M = 1; M < corners; M++)
         {
             const lanes by = M & (M - 1) ? s->force[M][i] : s->P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
             v[M] = by * (-volume / (h * (1 << (dim - __builtin_popcount(M)))));
         }
-        corners_of_modes(v, dim);
+        cell_corners_from_modes(v, dim);
         for (int c = 0; c < corners; c++) f[c][i] = v[c];
     }
 }

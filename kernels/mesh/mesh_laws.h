@@ -24,7 +24,7 @@ static ALWAYS_INLINE lanes lanes_of_listed(const real *from, const int32_t *poin
  * load steps. m: elastic constants. */
 static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_points *e, real dt)
 {
-    lanes D[SYM_MAX], square = lanes_of(0);
+    lanes D[SYM_MAX], square = lanes_broadcast(0);
     if (!(dt > 0)) return square;
     for (int c = 0; c < SYM_MAX; c++) D[c] = e->s[c] - e->before[c];
     const lanes mean = (D[0] + D[1] + D[2]) / 3.0, x = D[0], y = D[1];
@@ -33,7 +33,7 @@ static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_po
     if (m->space == SPACE_PLANE_STRESS) D[0] = (x - nu * y) / young, D[1] = (y - nu * x) / young, D[2] = -D[0] - D[1];
     if (m->space == SPACE_LINE) D[0] = x / young, D[1] = D[2] = -0.5 * D[0];
     for (int c = 0; c < 3; c++) square += D[c] * D[c] + 2.0 * D[c + 3] * D[c + 3];
-    return lanes_root(lanes_max(2.0 / 3 * square, lanes_of(1e-200))) / dt;
+    return lanes_square_root(lanes_max(2.0 / 3 * square, lanes_broadcast(1e-200))) / dt;
 }
 
 /* Loads the state of eight points into *e. point: indices, -1 for a lane without a point; stress: symmetric components
@@ -41,8 +41,8 @@ static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_po
 static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elastic *m, const int32_t *point,
                                     const lanes *stress, real dt, struct law_points *e, const int dim)
 {
-    const int n = symmetric_count(dim);
-    for (int c = 0; c < SYM_MAX; c++) e->s[c] = e->before[c] = e->back[c] = lanes_of(0);
+    const int n = symmetric_component_count(dim);
+    for (int c = 0; c < SYM_MAX; c++) e->s[c] = e->before[c] = e->back[c] = lanes_broadcast(0);
     for (int k = 0; k < n; k++) {
         e->s[law_place[dim][k]] = stress[k];
         if (dt > 0) e->before[law_place[dim][k]] = lanes_of_listed(p->mesh_stress[k], point);
@@ -54,17 +54,18 @@ static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elas
         e->s[2] = m->law->poisson * (e->s[0] + e->s[1]) + across;
         e->before[2] = m->law->poisson * (e->before[0] + e->before[1]) + across;
     }
-    e->volume_before = e->volume = lanes_of(1);
+    e->volume_before = e->volume = lanes_broadcast(1);
     e->rate = law_rate(m, e, dt);
     e->a = lanes_of_listed(p->plastic_strain, point), e->work = lanes_of_listed(p->plastic_work, point);
-    e->temperature = p->temperature ? lanes_of_listed(p->temperature, point) : lanes_of(m->law->johnson_cook.T_room);
+    e->temperature =
+        p->temperature ? lanes_of_listed(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
 /* Stores the state of lane l to point i, and its stress in `stress`, whose trial value it replaces. */
 static ALWAYS_INLINE void law_store(const struct particles *p, const struct elastic *m, const struct law_points *e,
                                     int l, int64_t i, lanes *stress, const int dim)
 {
-    for (int k = 0; k < symmetric_count(dim); k++) {
+    for (int k = 0; k < symmetric_component_count(dim); k++) {
         const int c = law_place[dim][k];
         p->plastic_correction[k][i] += stress[k][l] - e->s[c][l];
         stress[k][l] = e->s[c][l];
@@ -92,7 +93,7 @@ static NEVER_INLINE void place_laws(const struct mesh *mesh, const struct partic
         for (int l = 0; l < LANES; l++) own |= (unsigned)(left >> l & 1 && p->material[point[l]] == material) << l;
         left &= ~own;
         laws_load(p, &m[material], point, stress, dt, &e, dim);
-        e.active = lanes_of_bits((uint8_t)own);
+        e.active = lanes_mask_from_bits((uint8_t)own);
         law_update(m[material].law, &e, m[material].space, m[material].mode);
         for (int l = 0; l < LANES; l++)
             if (own >> l & 1) law_store(p, &m[material], &e, l, point[l], stress, dim);

@@ -40,8 +40,8 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
         const int64_t I = g->dashpot[k].node;
         for (int d = 0; d < g->dim && g->mass[I] > 0; d++) {
             const real change = dt_velocity * g->force[d][I] / g->mass[I];
-            g->force[d][I] += dashpot_kick(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I],
-                                           g->velocity[d][I], change) /
+            g->force[d][I] += dashpot_add_impulse(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I],
+                                                  g->velocity[d][I], change) /
                               dt_velocity;
         }
     }
@@ -71,8 +71,10 @@ void mesh_clear(struct mesh *mesh)
 #pragma omp parallel for schedule(static)
     for (int64_t r = 0; r < mesh->rows; r++)
         for (int64_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I += LANES)
-            for (int d = 0; d < dim && !mesh_inactive(mesh_levels(mesh, r), I - r * mesh->grid.count[0]); d++)
-                lanes_store(mesh->grid.force[d] + I, lanes_of(0));
+            for (int d = 0;
+                 d < dim && !mesh_nodes_are_at_rest(mesh_row_activity_levels(mesh, r), I - r * mesh->grid.count[0]);
+                 d++)
+                lanes_store(mesh->grid.force[d] + I, lanes_broadcast(0));
 }
 
 /* Advances velocity and displacement of the active nodes of a row (along x) by a leap-frog step, eight at a time;
@@ -81,13 +83,13 @@ void mesh_clear(struct mesh *mesh)
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
-    const uint8_t *levels = mesh_levels(mesh, row);
-    lanes most = lanes_of(0), sum = lanes_of(0);
+    const uint8_t *levels = mesh_row_activity_levels(mesh, row);
+    lanes most = lanes_broadcast(0), sum = lanes_broadcast(0);
     for (int d = 0; d < mesh->grid.dim; d++) {
         real *velocity = mesh->grid.velocity[d], *displacement = mesh->displacement[d];
         const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
         for (int64_t I = first; I < end; I += LANES) {
-            if (mesh_inactive(levels, I - start)) continue;
+            if (mesh_nodes_are_at_rest(levels, I - start)) continue;
             const lanes v = lanes_load(velocity + I) + dt_velocity * lanes_load(inverse + I) * lanes_load(force + I);
             lanes_store(velocity + I, v);
             lanes_store(displacement + I, ((lanes_load(displacement + I) + dt * v) + mesh->rounding) - mesh->rounding);

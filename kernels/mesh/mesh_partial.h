@@ -12,26 +12,27 @@
 
 /* Loads the displacements u[c][i] of corner c along axis i of the eight cells of a group [m]. group: number of a group
  * of eight partial cells (cells with missing points, partial stresses, several materials or doubled nodes). */
-static ALWAYS_INLINE void mesh_partial_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
-                                            const int dim)
+static ALWAYS_INLINE void mesh_group_load_displacements(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
+                                                        const int dim)
 {
-    const int32_t *cell = mesh->partial_cell + group * LANES, *own = mesh_group_corners(mesh, group, dim);
+    const int32_t *cell = mesh->partial_cell + group * LANES, *own = mesh_group_slit_corners(mesh, group, dim);
     const int32_t first = cell[LANES - 1] - cell[0] == LANES - 1 ? cell[0] : -1;
     for (int c = 0; c < 1 << dim && own; c++)
-        for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i], -1, own + c * LANES);
+        for (int i = 0; i < dim; i++) u[c][i] = lanes_load_or_gather(mesh->displacement[i], -1, own + c * LANES);
     if (own) return;
     for (int c = 0; c < 1 << dim; c++)
-        for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i] + mesh->corner[c], first, cell);
+        for (int i = 0; i < dim; i++)
+            u[c][i] = lanes_load_or_gather(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
 /* Writes strain and bending modes of eight cells in s as one vector v [1]: first the symmetric components of the mean
  * strain, shear strains as angles, then the bending modes, set by set of axes. */
-static ALWAYS_INLINE void partial_modes(const struct mesh_cell *s, lanes *v, const int dim)
+static ALWAYS_INLINE void cell_strain_vector(const struct mesh_cell *s, lanes *v, const int dim)
 {
-    int n = symmetric_count(dim);
+    int n = symmetric_component_count(dim);
     for (int k = 0; k < n; k++) {
         int a, b;
-        symmetric_axes(dim, k, &a, &b);
+        symmetric_component_axes(dim, k, &a, &b);
         v[k] = a == b ? s->e[a][a] : s->e[a][b] + s->e[b][a];
     }
     SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
@@ -39,9 +40,9 @@ static ALWAYS_INLINE void partial_modes(const struct mesh_cell *s, lanes *v, con
 
 /* Computes f = K v with symmetric matrices K of n x n for eight cells at a time. K: upper triangle, row by row from
  * the diagonal on; v, f: n values. */
-static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, const int n)
+static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const lanes *v, lanes *f, const int n)
 {
-    for (int a = 0; a < n; a++) f[a] = lanes_of(0);
+    for (int a = 0; a < n; a++) f[a] = lanes_broadcast(0);
 #pragma GCC unroll 18
     for (int a = 0; a < n; a++) {
         lanes sum = f[a] + *K++ * v[a];
@@ -53,12 +54,12 @@ static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, co
 
 /* Adds to f the forces of state-based bonds on the modes of the cells of a group of partial cells [Pa]: f += share^T
  * pull for each material point with bonds (struct mesh_end), with p->end_pull of this point. f: one value for each
- * mode of partial_modes. */
-static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f,
-                                           const int dim)
+ * mode of cell_strain_vector. */
+static ALWAYS_INLINE void partial_add_bond_forces(const struct mesh *mesh, const struct particles *p, int64_t group,
+                                                  lanes *f, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
-    const int n = mesh_modes(dim);
+    const int n = cell_deformation_mode_count(dim);
     const real inverse = 1 / (mesh->volume * (1 << dim));
     for (; end < last; end++) {
         const real pull = p->end_pull[end->point] * inverse;
@@ -69,8 +70,8 @@ static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct
 
 /* Adds the moments of bonds about the material points of a group of partial cells, per volume of the cell, to
  * moment[axis] [Pa]; in 2D moment[2] only. */
-static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
-                                              lanes *moment, const int dim)
+static ALWAYS_INLINE void partial_add_bond_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
+                                                   lanes *moment, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const real inverse = 1 / (mesh->volume * (1 << dim));
@@ -82,18 +83,18 @@ static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const str
 /* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of a group of eight partial
  * cells (cells with missing points, partial stresses, several materials or doubled nodes) [Pa], from the strain in s,
  * the stiffness of each cell, and the forces of state-based bonds. */
-static ALWAYS_INLINE void partial_law(const struct mesh *mesh, const struct particles *p, int64_t group,
-                                      struct mesh_cell *s, const int dim)
+static ALWAYS_INLINE void partial_compute_stress(const struct mesh *mesh, const struct particles *p, int64_t group,
+                                                 struct mesh_cell *s, const int dim)
 {
-    const int n = mesh_modes(dim), half = n * (n + 1) / 2;
+    const int n = cell_deformation_mode_count(dim), half = n * (n + 1) / 2;
     lanes v[MODES_MAX], f[MODES_MAX];
-    partial_modes(s, v, dim);
-    cut_times((const lanes *)mesh->stiffness + mesh->alike[group] * half, v, f, n);
-    if (mesh->ends) partial_add_ends(mesh, p, group, f, dim);
-    int k = symmetric_count(dim);
+    cell_strain_vector(s, v, dim);
+    symmetric_matrix_times_vector((const lanes *)mesh->stiffness + mesh->alike[group] * half, v, f, n);
+    if (mesh->ends) partial_add_bond_forces(mesh, p, group, f, dim);
+    int k = symmetric_component_count(dim);
     for (int t = 0; t < k; t++) {
         int a, b;
-        symmetric_axes(dim, t, &a, &b);
+        symmetric_component_axes(dim, t, &a, &b);
         s->P[a][b] = s->P[b][a] = f[t];
     }
     SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = f[k++];

@@ -3,7 +3,8 @@
  *
  * Point number q of a cell is at a quarter or three quarters of the edge along every axis, next to corner q. Values are
  * interpolated from corners to points, and distributed from points to corners, along one axis after the other, as near
- * + (far - near)/4. The factor 1/4 is exact, so mesh_places and mesh_place_value give equal bits. */
+ * + (far - near)/4. The factor 1/4 is exact, so cell_interpolate_to_points and cell_interpolate_to_point give equal
+ * bits. */
 #ifndef CLEAVE_KERNELS_MESH_POINT
 #define CLEAVE_KERNELS_MESH_POINT
 
@@ -13,7 +14,7 @@
 
 /* Replaces the values at the two ends of an edge by the linearly interpolated values at one quarter (*low) and three
  * quarters (*high) of the edge. */
-static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
+static ALWAYS_INLINE void interpolate_to_quarters(real *low, real *high)
 {
     const real by = 0.25 * (*high - *low), near = *low + by;
     *high = *high - by;
@@ -22,15 +23,15 @@ static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
 
 /* Replaces values v at the 2^dim corners of a cell by the interpolated values at its 2^dim material points, in place.
  * The interpolation matrix is symmetric, so that the same call distributes values of the points to the corners. */
-static ALWAYS_INLINE void mesh_places(real *v, const int dim)
+static ALWAYS_INLINE void cell_interpolate_to_points(real *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
-            if (!(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
+            if (!(c >> d & 1)) interpolate_to_quarters(&v[c], &v[c | 1 << d]);
 }
 
 /* Returns the interpolated value at material point number q of a cell. v: values at its 2^dim corners, overwritten. */
-static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
+static ALWAYS_INLINE real cell_interpolate_to_point(real *v, int q, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
@@ -42,27 +43,28 @@ static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
 }
 
 /* Loads the values of a nodal field at the 2^dim corners of cell I into v. field: a value for each node. */
-static ALWAYS_INLINE void mesh_corners(const struct mesh *mesh, const real *field, int64_t I, real *v, const int dim)
+static ALWAYS_INLINE void mesh_load_corner_values(const struct mesh *mesh, const real *field, int64_t I, real *v,
+                                                  const int dim)
 {
-    const int32_t *own = mesh_own_corners(mesh, I);
+    const int32_t *own = mesh_cell_slit_corners(mesh, I);
     for (int c = 0; c < 1 << dim; c++) v[c] = field[own ? own[c] : I + mesh->corner[c]];
 }
 
 /* Computes the displacement gradient at each material point of cell I: g[q][a dim + b] = du_a/dX_b at point q [1]. */
-static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, real g[CORNERS_MAX][DIM_MAX * DIM_MAX],
-                                         const int dim)
+static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t I,
+                                               real g[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
 {
     const real inverse = 1 / mesh->grid.h;
     for (int a = 0; a < dim; a++) {
         real u[CORNERS_MAX];
-        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
+        mesh_load_corner_values(mesh, mesh->displacement[a], I, u, dim);
         for (int b = 0; b < dim; b++) {
             real v[CORNERS_MAX];
             for (int c = 0; c < 1 << dim; c++) v[c] = u[c ^ 1 << b] - u[c];
             for (int c = 0; c < 1 << dim; c++) v[c] *= c >> b & 1 ? -inverse : inverse;
             for (int d = 0; d < dim; d++)
                 for (int c = 0; c < 1 << dim; c++)
-                    if (d != b && !(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
+                    if (d != b && !(c >> d & 1)) interpolate_to_quarters(&v[c], &v[c | 1 << d]);
             for (int q = 0; q < 1 << dim; q++) g[q][a * dim + b] = v[q];
         }
     }
@@ -71,11 +73,11 @@ static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, rea
 /* Computes e = R^T F - 1 at each material point of cell I, with the deformation gradient F at the point and the
  * rotation R of the mean deformation gradient of the cell. R: receives the rotation, dim x dim row by row; the
  * identity if `finite` is false or in 1D. e[q]: dim x dim row by row for point q; only its symmetric part is strain. */
-static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real *R,
-                                       real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
+static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t I, real *R,
+                                             real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX], mean[DIM_MAX * DIM_MAX];
-    mesh_gradients(mesh, I, g, dim);
+    mesh_point_gradients(mesh, I, g, dim);
     if (!finite || dim == 1) {
         for (int a = 0; a < dim * dim; a++) R[a] = a % (dim + 1) == 0;
         for (int q = 0; q < 1 << dim; q++)
@@ -134,7 +136,7 @@ static ALWAYS_INLINE void cell_differences(const struct elastic *m, const uint8_
 }
 
 /* Replaces the trace of the strains e[q] of the points of cell I by the mean over the points of the same material,
- * where the material has the mean dilatation of its cell. e: as from mesh_strains. */
+ * where the material has the mean dilatation of its cell. e: as from mesh_point_strains. */
 static ALWAYS_INLINE void mesh_strains_average(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, int64_t I,
                                                real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
@@ -151,16 +153,16 @@ static ALWAYS_INLINE void mesh_strains_average(const struct mesh *mesh, const st
 
 /* Computes the stress s of the strain e by Hooke's law. e: dim x dim row by row, of which the symmetric part counts;
  * s: receives symmetric components [Pa]; m: elastic constants. */
-static ALWAYS_INLINE void mesh_point_stress(const struct elastic *m, const real *e, real *s, const int dim)
+static ALWAYS_INLINE void point_hooke_stress(const struct elastic *m, const real *e, real *s, const int dim)
 {
     for (int a = 0; a < dim; a++) {
         s[a] = m->c11 * e[a * dim + a];
         for (int b = 0; b < dim; b++)
             if (b != a) s[a] += m->c12 * e[b * dim + b];
     }
-    for (int k = dim; k < symmetric_count(dim); k++) {
+    for (int k = dim; k < symmetric_component_count(dim); k++) {
         int a, b;
-        symmetric_axes(dim, k, &a, &b);
+        symmetric_component_axes(dim, k, &a, &b);
         s[k] = m->shear * (e[a * dim + b] + e[b * dim + a]);
     }
 }

@@ -31,10 +31,10 @@ static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p
     const int32_t *point = &mesh->point[I << dim];
     for (int a = 0; a < dim; a++) {
         real u[CORNERS_MAX], v[CORNERS_MAX];
-        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
-        mesh_corners(mesh, mesh->grid.velocity[a], I, v, dim);
-        mesh_places(u, dim);
-        mesh_places(v, dim);
+        mesh_load_corner_values(mesh, mesh->displacement[a], I, u, dim);
+        mesh_load_corner_values(mesh, mesh->grid.velocity[a], I, v, dim);
+        cell_interpolate_to_points(u, dim);
+        cell_interpolate_to_points(v, dim);
         for (int q = 0; q < 1 << dim; q++) {
             const int32_t i = point[q];
             if (i < 0 || !(places >> q & 1)) continue;
@@ -51,10 +51,10 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
     const int q = mesh->place[i] & ((1 << dim) - 1);
     for (int a = 0; a < dim; a++) {
         real u[CORNERS_MAX], v[CORNERS_MAX];
-        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
-        mesh_corners(mesh, mesh->grid.velocity[a], I, v, dim);
-        p->x[a][i] = p->X[a][i] + mesh_place_value(u, q, dim);
-        p->v[a][i] = mesh_place_value(v, q, dim);
+        mesh_load_corner_values(mesh, mesh->displacement[a], I, u, dim);
+        mesh_load_corner_values(mesh, mesh->grid.velocity[a], I, v, dim);
+        p->x[a][i] = p->X[a][i] + cell_interpolate_to_point(u, q, dim);
+        p->v[a][i] = cell_interpolate_to_point(v, q, dim);
     }
 }
 
@@ -115,7 +115,7 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
  * the finite rotation s->R, false for that by the antisymmetric part of the displacement gradient. */
 static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
 {
-    lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_of(0);
+    lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_broadcast(0);
     for (int a = 0; a < dim && rotates; a++)
         for (int b = 0; b < dim; b++) R[a * dim + b] = s->R[a][b];
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
@@ -131,10 +131,10 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
         return;
     }
     if (rotates) {
-        rotation_make(rotation, R, lanes_of(0.5), 3);
+        rotation_encode(rotation, R, lanes_broadcast(0.5), 3);
         return;
     }
-    rotation[3] = lanes_inverse_root(1.0 + square);
+    rotation[3] = lanes_inverse_square_root(1.0 + square);
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
@@ -145,11 +145,11 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
 {
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], v[MODES_MAX], rotation[ROTATION];
-    const int n = mesh_modes(dim);
+    const int n = cell_deformation_mode_count(dim);
     if (mesh->ends[group] == mesh->ends[group + 1]) return;
-    mesh_partial_load(mesh, group, u, dim);
+    mesh_group_load_displacements(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, finite);
-    partial_modes(&s, v, dim);
+    cell_strain_vector(&s, v, dim);
     if (p->end_rotation[0]) cells_rotate(&s, rotation, dim, finite);
     for (int32_t k = mesh->ends[group]; k < mesh->ends[group + 1]; k++) {
         const struct mesh_end *end = &mesh->end[k];
@@ -169,8 +169,9 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     }                                                                                                                  \
     static void ends_update_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_groups(mesh) > FEW / LANES,                                                                     \
-                  for (int64_t k = 0; k < mesh_groups(mesh); k++) group_ends_##D##_##FINITE(mesh, p, k););             \
+        TEAM_LOOP(mesh_partial_group_count(mesh) > FEW / LANES,                                                        \
+                  for (int64_t k = 0; k < mesh_partial_group_count(mesh); k++)                                         \
+                      group_ends_##D##_##FINITE(mesh, p, k););                                                         \
     }
 ENDS(2, false)
 ENDS(2, true)
@@ -195,8 +196,8 @@ static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p
     for (int a = 0; a < dim; a++) {
         real f[CORNERS_MAX];
         for (int q = 0; q < 1 << dim; q++) f[q] = places >> q & 1 ? p->f[a][point[q]] : 0;
-        mesh_places(f, dim);
-        for (int c = 0; c < 1 << dim; c++) mesh->grid.force[a][mesh_node(mesh, I, c)] += f[c];
+        cell_interpolate_to_points(f, dim);
+        for (int c = 0; c < 1 << dim; c++) mesh->grid.force[a][mesh_cell_corner_node(mesh, I, c)] += f[c];
     }
 }
 
@@ -220,19 +221,19 @@ void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R,
                                              const real *e, const int dim, bool finite)
 {
-    const int n = symmetric_count(dim);
+    const int n = symmetric_component_count(dim);
     real s[SYM_MAX], S[9], T[9], det = 1;
-    if (mesh_flows(p))
-        point_stress(p, m, i, e, s, dim, false);
+    if (mesh_points_can_yield(p))
+        point_compute_stress(p, m, i, e, s, dim, false);
     else
-        mesh_point_stress(m, e, s, dim);
+        point_hooke_stress(m, e, s, dim);
     if (!finite) {
         for (int k = 0; k < n; k++) p->stress[k][i] = s[k];
         return;
     }
     for (int k = 0; k < n; k++) {
         int a, b;
-        symmetric_axes(dim, k, &a, &b);
+        symmetric_component_axes(dim, k, &a, &b);
         S[a * dim + b] = S[b * dim + a] = s[k];
     }
     for (int a = 0; a < dim; a++)
@@ -248,7 +249,7 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
     for (int k = 0; k < n; k++) {
         int a, b;
         real sum = 0;
-        symmetric_axes(dim, k, &a, &b);
+        symmetric_component_axes(dim, k, &a, &b);
         for (int c = 0; c < dim; c++)
             for (int d = 0; d < dim; d++)
                 sum += R[a * dim + c] * 0.5 * (T[c * dim + d] + T[d * dim + c]) * R[b * dim + d];
@@ -262,7 +263,7 @@ static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles 
                                       const int dim, bool finite)
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX];
-    mesh_strains(mesh, I, R, e, dim, finite);
+    mesh_point_strains(mesh, I, R, e, dim, finite);
     mesh_strains_average(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
@@ -293,7 +294,7 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
 static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real *const *to, const int dim)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX];
-    mesh_gradients(mesh, I, g, dim);
+    mesh_point_gradients(mesh, I, g, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         for (int a = 0; a < dim * dim && i >= 0; a++) to[a][i] = g[q][a];
@@ -326,15 +327,16 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
                                            int64_t I, const int dim, bool finite)
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX], s[SYM_MAX];
-    mesh_strains(mesh, I, R, e, dim, finite);
+    mesh_point_strains(mesh, I, R, e, dim, finite);
     mesh_strains_average(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i < 0) continue;
         const struct elastic *own = &m[p->material[i]];
-        mesh_point_stress(own, e[q], s, dim);
-        const real most = point_trigger(own, p, i);
-        if (stress_bound(s, dim) > most && stress_principal(s, dim) > most) p->flag[i] |= FLAG_STRESSED;
+        point_hooke_stress(own, e[q], s, dim);
+        const real most = point_conversion_stress(own, p, i);
+        if (stress_principal_bound(s, dim) > most && stress_largest_principal(s, dim) > most)
+            p->flag[i] |= FLAG_STRESSED;
     }
 }
 
@@ -364,12 +366,12 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
-    lanes most = lanes_of(-INFINITY), e[3][3], P[3][3];
+    lanes most = lanes_broadcast(-INFINITY), e[3][3], P[3][3];
     SETS for (int q = 0; q < 1 << dim; q++)
     {
-        cells_strain_at(s, q, e, dim);
+        cells_strain_at_point(s, q, e, dim);
         if (!there) cells_average(m, s, e, dim);
-        stress_of(m, e, P, dim);
+        hooke_stress(m, e, P, dim);
         lanes bound = P[0][0];
         for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
         for (int a = 0; a < dim; a++)
@@ -413,7 +415,7 @@ static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct ela
 {
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3];
-    mesh_run_load(mesh, run, k, u, dim);
+    mesh_run_load_displacements(mesh, run, k, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
     return cells_tension(m, &s, NULL, dim);
 }
@@ -452,12 +454,12 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
 {
     const int64_t first = group * LANES;
     struct mesh_cell s;
-    lanes u[CORNERS_MAX][3], tension = lanes_of(0);
+    lanes u[CORNERS_MAX][3], tension = lanes_broadcast(0);
     lanes_mask there[CORNERS_MAX] = {{0}};
     for (int q = 0; q < 1 << dim; q++)
         for (int l = 0; l < LANES; l++)
             there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->partial_cell[first + l] << dim) + q] >= 0);
-    mesh_partial_load(mesh, group, u, dim);
+    mesh_group_load_displacements(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
     for (int64_t k = first; k < first + LANES && k < mesh->partial_cells; k++) {
         const uint8_t material = mesh->partial_material[k];
@@ -481,7 +483,7 @@ static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 #define MARK(D, FINITE)                                                                                                \
     static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        for (int64_t k = 0; k < mesh_groups(mesh); k++)                                                                \
+        for (int64_t k = 0; k < mesh_partial_group_count(mesh); k++)                                                   \
             if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                         \
         for (int64_t r = 0; r < mesh->runs; r++)                                                                       \
             if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                                 \

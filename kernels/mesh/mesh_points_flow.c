@@ -24,7 +24,8 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     for (int q = 0; q < 1 << dim; q++) {
         lanes stress[SYM_MAX];
         unsigned with_law = 0;
-        place_stress(f->mesh, f->p, f->elastic, cell, &s, averaged ? &change[q] : NULL, q, stress, dim, false);
+        cells_compute_point_stress(f->mesh, f->p, f->elastic, cell, &s, averaged ? &change[q] : NULL, q, stress, dim,
+                                   false);
         for (int l = 0; l < LANES; l++) {
             const int32_t i = place_point(f->mesh, cell[l], q, dim);
             if (i < 0) continue;
@@ -47,8 +48,8 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
         lanes u[CORNERS_MAX][3];                                                                                       \
         if (!f->elastic[run->material].law) return;                                                                    \
         for (int64_t k = 0; k < run->cells; k += LANES) {                                                              \
-            run_cells(run, k, cell);                                                                                   \
-            mesh_run_load(f->mesh, run, k, u, D);                                                                      \
+            mesh_run_cell_indices(run, k, cell);                                                                       \
+            mesh_run_load_displacements(f->mesh, run, k, u, D);                                                        \
             cells_step_##D##_##FINITE(f, cell, u);                                                                     \
         }                                                                                                              \
     }                                                                                                                  \
@@ -56,13 +57,13 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     {                                                                                                                  \
         int32_t cell[LANES];                                                                                           \
         lanes u[CORNERS_MAX][3];                                                                                       \
-        group_cells(f->mesh, group, cell);                                                                             \
-        mesh_partial_load(f->mesh, group, u, D);                                                                       \
+        mesh_group_cell_indices(f->mesh, group, cell);                                                                 \
+        mesh_group_load_displacements(f->mesh, group, u, D);                                                           \
         cells_step_##D##_##FINITE(f, cell, u);                                                                         \
     }                                                                                                                  \
     static void all_step_##D##_##FINITE(const struct flow_step *f)                                                     \
     {                                                                                                                  \
-        const int64_t groups = mesh_groups(f->mesh);                                                                   \
+        const int64_t groups = mesh_partial_group_count(f->mesh);                                                      \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < groups + f->mesh->runs; k++)              \
         {                                                                                                              \
             if (k < groups)                                                                                            \

@@ -32,7 +32,7 @@ static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, 
 {
     const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;
     const lanes x2 = dim > 2 ? lanes_load(s->x[2] + i) : x0;
-    lanes f0 = lanes_of(0), f1 = f0, f2 = f0;
+    lanes f0 = lanes_broadcast(0), f1 = f0, f2 = f0;
     for (int k = 0; k < s->neighbours; k++) {
         const int64_t j = i + s->offset[k];
         const lanes d0 = lanes_load(s->x[0] + j) - x0;
@@ -41,7 +41,7 @@ static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, 
         lanes distance2 = d0 * d0;
         if (dim > 1) distance2 += d1 * d1;
         if (dim > 2) distance2 += d2 * d2;
-        const lanes inverse = lanes_inverse_root(distance2);
+        const lanes inverse = lanes_inverse_square_root(distance2);
         const lanes force = (distance2 * inverse * s->inverse_length[k] - 1.0) * inverse;
         f0 += force * d0;
         if (dim > 1) f1 += force * d1;

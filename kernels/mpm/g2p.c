@@ -25,8 +25,9 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
                                                       const int32_t *point, const int dim)
 {
     const struct elastic *first = &t->elastic[p->material[point[0]]];
-    struct elastic_points m = {points_of(first->c11), points_of(first->c12), points_of(first->shear),
-                               points_of(first->trigger), points_of(first->yield)};
+    struct elastic_points m = {points_broadcast(first->c11), points_broadcast(first->c12),
+                               points_broadcast(first->shear), points_broadcast(first->trigger),
+                               points_broadcast(first->yield)};
     for (int k = 1; k < AT_ONCE(dim); k++) {
         const struct elastic *own = &t->elastic[p->material[point[k]]];
         if (own == first) continue;
@@ -59,12 +60,13 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
             const row_of_points stretch = points_load(p->stretch[d], point, dim);
             points_store(p->stretch[d], point, stretch + stretch * (t->dt * L[d * dim + d]), dim);
         }
-    const int near = points_signs(m->trigger - stress_bounds(stress, dim));
+    const int near = points_sign_bits(m->trigger - stress_principal_bounds(stress, dim));
     for (int k = 0; k < AT_ONCE(dim) && __builtin_expect(near, 0); k++) {
         real own[SYM_MAX];
         for (int c = 0; c < n; c++) own[c] = stress[c][k];
         const int32_t i = point[k];
-        if (near >> k & 1 && stress_principal(own, dim) > point_trigger(&t->elastic[p->material[i]], p, i))
+        if (near >> k & 1 &&
+            stress_largest_principal(own, dim) > point_conversion_stress(&t->elastic[p->material[i]], p, i))
             p->flag[i] |= FLAG_STRESSED;
     }
 }
@@ -89,7 +91,7 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
     for (int k = 0; k < 3; k++)
         next[k] = q[k] + q[3] * w[k] + w[(k + 1) % 3] * q[(k + 2) % 3] - w[(k + 2) % 3] * q[(k + 1) % 3];
     next[3] = q[3] - w[0] * q[0] - w[1] * q[1] - w[2] * q[2];
-    row_of_points size2 = points_of(0);
+    row_of_points size2 = points_broadcast(0);
     for (int c = 0; c < ROTATION; c++) size2 += next[c] * next[c];
     for (int k = 0; k < AT_ONCE(dim); k++) {
         const real inverse = 1 / sqrt(size2[k]);
@@ -104,8 +106,8 @@ static ALWAYS_INLINE void point_unmark(struct particles *p, const struct elastic
                                        const int dim)
 {
     if (!(p->flag[i] & FLAG_STRESSED)) return;
-    const real trigger = point_trigger(m, p, i);
-    if (!(stress_bound(stress, dim) > trigger && stress_principal(stress, dim) > trigger))
+    const real trigger = point_conversion_stress(m, p, i);
+    if (!(stress_principal_bound(stress, dim) > trigger && stress_largest_principal(stress, dim) > trigger))
         p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
@@ -142,8 +144,9 @@ static NEVER_INLINE void points_yield(struct particles *p, const struct elastic 
     const row_of_points mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
     const row_of_points off = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
     const row_of_points q2 = 1.5 * (a * a + b * b + c * c) + 3 * off;
-    const row_of_points yields = (row_of_points)((q2 > bound * bound) & (points_mask)points_of(-1)); /* -1: yields */
-    const int any = points_signs(yields);
+    const row_of_points yields =
+        (row_of_points)((q2 > bound * bound) & (points_mask)points_broadcast(-1)); /* -1: yields */
+    const int any = points_sign_bits(yields);
     if (!any) return;
     for (int k = 0; k < POINTS; k++) q[k] = sqrt(q2[k]);
     const row_of_points more = (q - bound) / rate, left = (bound + hardening * more) / q;
@@ -167,11 +170,11 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     points_mask inside = (points_mask){0} - 1;
     for (int d = 0; d < dim; d++) {
         const row_of_points x = s->x[d] + step[d];
-        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_place */
+        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_cell_coordinate */
         points_store(p->x[d], s->point, x, dim);
         inside &= (place >= c->place[d]) & (place < c->place[d] + 1);
     }
-    return points_signs((row_of_points)~inside);
+    return points_sign_bits((row_of_points)~inside);
 }
 
 /* Returns in each lane -1 if the point moves with the velocities of the second map (remap.c), else 1. Points with bonds
@@ -179,7 +182,7 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     const bool all = t->momentum_only || t->second_map;
-    row_of_points bonded = points_of(all ? -1 : 1);
+    row_of_points bonded = points_broadcast(all ? -1 : 1);
     for (int k = 0; t->bonded && !all && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
     return bonded;
 }
@@ -192,27 +195,29 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
                                         const int dim, const enum shape shape, const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
-    const bool any = transfer == TRANSFER_FLIP && points_signs(bonded) != 0;
-    for (int d = 0; d < dim; d++) velocity[d] = points_of(0);
-    for (int k = 0; k < dim * dim; k++) L[k] = points_of(0);
+    const bool any = transfer == TRANSFER_FLIP && points_sign_bits(bonded) != 0;
+    for (int d = 0; d < dim; d++) velocity[d] = points_broadcast(0);
+    for (int k = 0; k < dim * dim; k++) L[k] = points_broadcast(0);
     FOR_ANY_TOUCHED(s, dim, shape)
     {
-        const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
-        const int64_t I = cell_row(c, g, k1, k2, dim);
+        const row_of_points weight = stencil_row_factors(s, k1, k2, dim, shape);
+        const int64_t I = cell_row_first_node(c, g, k1, k2, dim);
         for (int d = 0; d < dim; d++) {
             const real *moving = g->velocity[d] + I,
                        *straining = transfer == TRANSFER_APIC ? moving : g->momentum[d] + I;
-            row_of_points moved = points_of(0), strained = points_of(0), slope[2] = {points_of(0), points_of(0)};
+            row_of_points moved = points_broadcast(0), strained = points_broadcast(0),
+                          slope[2] = {points_broadcast(0), points_broadcast(0)};
             FOR_NODES(dim, shape)
             {
-                const int64_t node = row_node(g, k, dim, shape);
+                const int64_t node = row_node_offset(g, k, dim, shape);
                 moved += s->N[k] * moving[node];
                 strained += s->N[k] * straining[node];
                 for (int e = 0; e < along; e++) slope[e] += s->D[e][k] * straining[node];
             }
             velocity[d] += weight * (any ? points_choose(bonded, strained, moved) : moved);
             for (int e = 0; e < dim; e++)
-                L[d * dim + e] += e < along ? weight * slope[e] : stencil_slopes(s, k1, k2, e, dim, shape) * strained;
+                L[d * dim + e] +=
+                    e < along ? weight * slope[e] : stencil_row_factor_slopes(s, k1, k2, e, dim, shape) * strained;
         }
     }
 }
@@ -222,17 +227,17 @@ static ALWAYS_INLINE row_of_points points_dilate(const struct grid *g, const str
                                                  const struct cell_stencil *s, const int dim, const enum shape shape,
                                                  const enum transfer transfer)
 {
-    row_of_points trace = points_of(0);
+    row_of_points trace = points_broadcast(0);
     FOR_ANY_TOUCHED(s, dim, shape)
     {
-        const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
-        const int64_t I = cell_row(c, g, k1, k2, dim);
+        const row_of_points weight = stencil_row_factors(s, k1, k2, dim, shape);
+        const int64_t I = cell_row_first_node(c, g, k1, k2, dim);
         for (int d = 0; d < dim; d++) {
             const real *at = (transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d]) + I;
-            row_of_points sum = points_of(0);
+            row_of_points sum = points_broadcast(0);
             FOR_NODES(dim, shape)
-            sum += (d < ROW_DIMS(dim, shape) ? s->D[d][k] : s->N[k]) * at[row_node(g, k, dim, shape)];
-            trace += sum * (d < ROW_DIMS(dim, shape) ? weight : stencil_slopes(s, k1, k2, d, dim, shape));
+            sum += (d < ROW_DIMS(dim, shape) ? s->D[d][k] : s->N[k]) * at[row_node_offset(g, k, dim, shape)];
+            trace += sum * (d < ROW_DIMS(dim, shape) ? weight : stencil_row_factor_slopes(s, k1, k2, d, dim, shape));
         }
     }
     return trace;
@@ -244,10 +249,10 @@ static NEVER_INLINE void means_of_dilatation(const struct grid *g, const struct 
                                              const struct transfer_data *t, const int32_t *list, int n, real *change,
                                              const int dim, const enum shape shape, const enum transfer transfer)
 {
-    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct cell_stencil s;
-        const int points = at_once(n - k, dim);
+        const int points = points_at_once(n - k, dim);
         cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         const row_of_points trace = points_dilate(g, &c, &s, dim, shape, transfer);
         for (int at = 0; at < points; at++) change[k + at] = trace[at];
@@ -259,7 +264,7 @@ static NEVER_INLINE void means_of_dilatation(const struct grid *g, const struct 
 static ALWAYS_INLINE void points_dilate_more(row_of_points *L, const real *change, int n, const int dim)
 {
     row_of_points more;
-    for (int k = 0; k < POINTS; k++) more[k] = change[smaller(k % AT_ONCE(dim), n - 1)] / dim;
+    for (int k = 0; k < POINTS; k++) more[k] = change[int_min(k % AT_ONCE(dim), n - 1)] / dim;
     for (int d = 0; d < dim; d++) L[d * dim + d] += more;
 }
 
@@ -285,7 +290,7 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, s.point, L, t->dt, dim);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
     const int moved = points_move(g, c, p, &s, velocity, dim);
-    const bool yields = __builtin_expect(points_signs(points_of(0) - m.yield), 0); /* -0 would have a sign */
+    const bool yields = __builtin_expect(points_sign_bits(points_broadcast(0) - m.yield), 0); /* -0 would have a sign */
     if (yields && dim == 3) points_yield(p, t->elastic, s.point);
     for (int k = 0; k < n && yields && dim < 3; k++)
         if (m.yield[k] > 0) point_yield(p, &t->elastic[p->material[list[k]]], list[k], dim);
@@ -298,13 +303,14 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
 static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
-    if (!fetch_now(list, k, &i)) return;
-    fetch(p->volume + i);
-    for (int d = 0; d < dim; d++) fetch(p->x[d] + i);
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
-    if (__builtin_expect(p->plastic_work != NULL, 0)) fetch(p->plastic_strain + i), fetch(p->plastic_work + i);
-    if (__builtin_expect(p->plastic_work != NULL, 0)) fetch(p->volume0 + i);
-    if (__builtin_expect(p->temperature != NULL, 0)) fetch(p->temperature + i);
+    if (!prefetch_is_due(list, k, &i)) return;
+    prefetch_line(p->volume + i);
+    for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_line(p->stress[c] + i);
+    if (__builtin_expect(p->plastic_work != NULL, 0))
+        prefetch_line(p->plastic_strain + i), prefetch_line(p->plastic_work + i);
+    if (__builtin_expect(p->plastic_work != NULL, 0)) prefetch_line(p->volume0 + i);
+    if (__builtin_expect(p->temperature != NULL, 0)) prefetch_line(p->temperature + i);
 }
 
 /* Updates the n listed points of one cell (g2p_points). Returns the number of points that have left the cell. The cell
@@ -318,11 +324,11 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
     int64_t moved = 0;
     for (int k = 0; k < n; k++) g2p_fetch(p, list, k, dim);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
-        const struct cell c = cell_make(g, p, list[k], dim, shape);
+        const struct cell c = cell_containing_point(g, p, list[k], dim, shape);
         if (averaged && k % MEAN_POINTS == 0)
-            means_of_dilatation(g, p, t, list + k, smaller(n - k, MEAN_POINTS), change, dim, shape, transfer);
-        moved += g2p_points(g, &c, p, t, due, list + k, at_once(n - k, dim), averaged ? &change[k % MEAN_POINTS] : NULL,
-                            dim, shape, transfer);
+            means_of_dilatation(g, p, t, list + k, int_min(n - k, MEAN_POINTS), change, dim, shape, transfer);
+        moved += g2p_points(g, &c, p, t, due, list + k, points_at_once(n - k, dim),
+                            averaged ? &change[k % MEAN_POINTS] : NULL, dim, shape, transfer);
     }
     return moved;
 }

@@ -217,7 +217,7 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
         for (int d = 0; d < g->dim && g->mass[I] >= least; d++) {
             const real change = g->force[d][I], before = g->velocity[d][I] - change;
             const real given =
-                dashpot_kick(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I], before, change);
+                dashpot_add_impulse(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I], before, change);
             g->dashpot[k].impulse[d] = given;
             g->force[d][I] += given / g->mass[I];
             g->velocity[d][I] += given / g->mass[I];
@@ -232,7 +232,7 @@ static void grid_absorb_again(struct grid *g)
     for (int64_t k = 0; k < g->dashpots; k++)
         for (int d = 0; d < g->dim; d++) {
             const struct dashpot *c = &g->dashpot[k];
-            dashpot_correct(&g->absorbed, c->impulse[d], g->momentum[d][c->node] - g->velocity[d][c->node]);
+            dashpot_correct_energy(&g->absorbed, c->impulse[d], g->momentum[d][c->node] - g->velocity[d][c->node]);
         }
 }
 

@@ -3,7 +3,8 @@
  *
  *     m_I = sum m N,   P_I = sum m v N,   f_I = sum (N f - V sigma_given . grad N)
  *
- * with v + L (x_I - x_p) in place of v for APIC (Jiang et al. 2015) and for points that rotate (turn_slopes).
+ * with v + L (x_I - x_p) in place of v for APIC (Jiang et al. 2015) and for points that rotate
+ * (rotating_velocity_gradients).
  *
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
  * of a block stay in cache. */
@@ -38,13 +39,13 @@ static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, con
     static const int first[DIM_MAX] = {0, 1, 2}, second[DIM_MAX] = {1, 2, 0};
     const int64_t i = s->point[at];
     real skew[DIM_MAX];
-    if (dim == 1 || t->momentum_only || !stress_given_skew(p, t->partial, i, skew, dim)) return;
+    if (dim == 1 || t->momentum_only || !point_skew_stress_on_grid(p, t->partial, i, skew, dim)) return;
     FOR_TOUCHED(s, at, dim, shape)
     {
         row_of_nodes grad[DIM_MAX];
         for (int e = 0; e < dim; e++)
-            grad[e] = e < ROW_DIMS(dim, shape) ? row->D[e] * stencil_row(s, at, k1, k2, dim, shape)
-                                               : row->N * stencil_slope(s, at, k1, k2, e, dim, shape);
+            grad[e] = e < ROW_DIMS(dim, shape) ? row->D[e] * stencil_row_factor(s, at, k1, k2, dim, shape)
+                                               : row->N * stencil_row_factor_slope(s, at, k1, k2, e, dim, shape);
         for (int c = 0; c < dim * (dim - 1) / 2; c++) {
             const real force = skew[c] * p->volume[i];
             sum[1 + dim + first[c]][PATCH(dim, shape)] -= force * grad[second[c]];
@@ -62,8 +63,8 @@ static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim
 
 /* Adds mass, momentum and force of point `at` of stencil s to the sums of its cell. Factors of the directions along a
  * row, equal for all rows, are computed once. turn: velocity gradients of the points of the stencil, by which they
- * extrapolate their velocity to nodes, from turn_slopes [1/s]; not read for APIC, nor where points do not rotate.
- * pressure: mean stress that is added to its stress [Pa], from means_of_stress; NULL: none. */
+ * extrapolate their velocity to nodes, from rotating_velocity_gradients [1/s]; not read for APIC, nor where points do
+ * not rotate. pressure: mean stress that is added to its stress [Pa], from means_of_stress; NULL: none. */
 static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct particles *p,
                                        const struct transfer_data *t, const struct cell_stencil *s,
                                        const row_of_points *turn, const real *pressure, int at, const int dim,
@@ -71,12 +72,12 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
 {
     const int along = ROW_DIMS(dim, shape);
     const int64_t i = s->point[at];
-    const struct touch row = stencil_touch(s, at, g->h, dim, shape);
+    const struct touch row = stencil_row_weights(s, at, g->h, dim, shape);
     real stress[SYM_MAX];
     if (t->momentum_only)
         memset(stress, 0, sizeof stress);
     else
-        stress_given(p, t->partial, i, stress, dim);
+        point_stress_on_grid(p, t->partial, i, stress, dim);
     for (int d = 0; d < dim && pressure; d++) stress[d] += *pressure;
     const real m = p->mass[i], volume = p->volume[i];
     for (int k = 0; k < dim * (dim + 1) / 2; k++) stress[k] *= volume;
@@ -87,11 +88,11 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = stress[k] * row.N;
 #pragma GCC unroll 3
     for (int d = 0; d < dim; d++) {
-        row_of_nodes speed = row_of(p->v[d][i]);
+        row_of_nodes speed = row_broadcast(p->v[d][i]);
 #pragma GCC unroll 3
         for (int e = 0; e < dim && continued; e++) {
             slope[d][e] = transfer == TRANSFER_APIC ? p->gradient[d * dim + e][i] : turn[d * dim + e][at];
-            if (e < along) speed += slope[d][e] * stencil_along(s, at, g->h, e, dim, shape);
+            if (e < along) speed += slope[d][e] * stencil_distances_in_row(s, at, g->h, e, dim, shape);
         }
         momentum[d] = mass * speed;
         force[d] = p->f[d][i] * row.N;
@@ -99,15 +100,16 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     }
     FOR_TOUCHED(s, at, dim, shape)
     {
-        const real weight = stencil_row(s, at, k1, k2, dim, shape);
+        const real weight = stencil_row_factor(s, at, k1, k2, dim, shape);
         const int k = PATCH(dim, shape);
         sum[0][k] += mass * weight;
         for (int d = 0; d < dim; d++) {
             row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
             for (int e = along; e < dim; e++) {
                 if (continued)
-                    carried += slope[d][e] * mass * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
-                pushed -= pull[symmetric_place(d, e, dim)] * stencil_slope(s, at, k1, k2, e, dim, shape);
+                    carried +=
+                        slope[d][e] * mass * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
+                pushed -= pull[symmetric_place(d, e, dim)] * stencil_row_factor_slope(s, at, k1, k2, e, dim, shape);
             }
             sum[1 + d][k] += carried * weight;
             sum[1 + dim + d][k] = pushed;
@@ -122,11 +124,11 @@ static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *li
                                     const enum transfer transfer)
 {
     int64_t i;
-    if (!fetch_now(list, k, &i)) return;
-    fetch(p->mass + i), fetch(p->volume + i);
-    for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i), fetch(p->f[d] + i);
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
-    for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) fetch(p->gradient[c] + i);
+    if (!prefetch_is_due(list, k, &i)) return;
+    prefetch_line(p->mass + i), prefetch_line(p->volume + i);
+    for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i), prefetch_line(p->v[d] + i), prefetch_line(p->f[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_line(p->stress[c] + i);
+    for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
 }
 
 /* Computes by how much the mean stress of n <= MEAN_POINTS listed points of a cell changes by averaging
@@ -136,7 +138,7 @@ static NEVER_INLINE void means_of_stress(const struct particles *p, const struct
 {
     for (int k = 0; k < n; k++) {
         real stress[SYM_MAX];
-        stress_given(p, t->partial, list[k], stress, dim);
+        point_stress_on_grid(p, t->partial, list[k], stress, dim);
         change[k] = (dim == 2 ? stress[0] + stress[1] : stress[0] + stress[1] + stress[2]) / dim;
     }
     differences_from_mean(p, t, list, n, change);
@@ -148,19 +150,20 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
                                    const int32_t *list, int n, const int dim, const enum shape shape,
                                    const enum transfer transfer, const bool averaged)
 {
-    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
     real change[MEAN_POINTS];
     cell_sums sum;
     FOR_ROWS(dim, shape)
-    for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_of(0);
+    for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_broadcast(0);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct cell_stencil s;
-        const int points = at_once(n - k, dim);
-        if (averaged && k % MEAN_POINTS == 0) means_of_stress(p, t, list + k, smaller(n - k, MEAN_POINTS), change, dim);
+        const int points = points_at_once(n - k, dim);
+        if (averaged && k % MEAN_POINTS == 0) means_of_stress(p, t, list + k, int_min(n - k, MEAN_POINTS), change, dim);
         cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         stencil_transpose(&s, dim, shape);
         row_of_points turn[DIM_MAX * DIM_MAX];
-        if (transfer == TRANSFER_FLIP && continues(t, dim, transfer)) turn_slopes(t, s.point, 0.5 * t->dt, turn, dim);
+        if (transfer == TRANSFER_FLIP && continues(t, dim, transfer))
+            rotating_velocity_gradients(t, s.point, 0.5 * t->dt, turn, dim);
         for (int at = 0; at < points; at++) {
             p2g_fetch(p, list, k + at, dim, transfer);
             p2g_particle(sum, g, p, t, &s, turn, averaged ? &change[(k + at) % MEAN_POINTS] : NULL, at, dim, shape,
@@ -169,12 +172,12 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     }
     FOR_ROWS(dim, shape)
     {
-        const int64_t I = cell_row(&c, g, k1, k2, dim);
+        const int64_t I = cell_row_first_node(&c, g, k1, k2, dim);
         const int k = PATCH(dim, shape);
-        nodes_add(g, g->mass + I, sum[0][k], dim, shape);
+        nodes_add_row(g, g->mass + I, sum[0][k], dim, shape);
         for (int d = 0; d < dim; d++) {
-            nodes_add(g, g->momentum[d] + I, sum[1 + d][k], dim, shape);
-            nodes_add(g, g->force[d] + I, sum[1 + dim + d][k], dim, shape);
+            nodes_add_row(g, g->momentum[d] + I, sum[1 + d][k], dim, shape);
+            nodes_add_row(g, g->force[d] + I, sum[1 + dim + d][k], dim, shape);
         }
     }
 }
@@ -203,13 +206,14 @@ p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIE
 static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct particles *p, real half_width, int32_t i,
                                           real value, real *field, const int dim, const enum shape shape)
 {
-    const struct cell c = cell_make(g, p, i, dim, shape);
+    const struct cell c = cell_containing_point(g, p, i, dim, shape);
     struct cell_stencil s;
     cell_stencil_make(&s, g, &c, p, &i, 1, half_width, dim, shape);
     stencil_transpose(&s, dim, shape);
-    const row_of_nodes spread = value * stencil_touch(&s, 0, g->h, dim, shape).N;
+    const row_of_nodes spread = value * stencil_row_weights(&s, 0, g->h, dim, shape).N;
     FOR_TOUCHED(&s, 0, dim, shape)
-    nodes_add(g, field + cell_row(&c, g, k1, k2, dim), spread * stencil_row(&s, 0, k1, k2, dim, shape), dim, shape);
+    nodes_add_row(g, field + cell_row_first_node(&c, g, k1, k2, dim),
+                  spread * stencil_row_factor(&s, 0, k1, k2, dim, shape), dim, shape);
 }
 
 #define SPREAD(D, S)                                                                                                   \
@@ -221,4 +225,4 @@ static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct par
 SHAPE_VARIANTS(SPREAD)
 
 #define SPREAD_ENTRY(D, S) [D][SHAPE_##S] = spread_##D##d_##S,
-spread_fn *const spread_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS(SPREAD_ENTRY)};
+spread_to_nodes_fn *const spread_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS(SPREAD_ENTRY)};

@@ -28,7 +28,7 @@ struct flow_motion {
 static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, real dt, enum space space,
                                          const int dim)
 {
-    const lanes none = lanes_of(0);
+    const lanes none = lanes_broadcast(0);
     lanes D[SYM_MAX] = {L[0], none, none, none, none, none}, square = none;
     for (int c = 0; c < 3; c++) m->spin[c] = none;
     if (dim == 2) D[1] = L[3], D[3] = 0.5 * (L[1] + L[2]), m->spin[0] = 0.5 * (L[1] - L[2]) * dt;
@@ -49,7 +49,7 @@ static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, 
     if (space == SPACE_LINE) D[1] = D[2] = -0.5 * D[0];
     const lanes mean = (D[0] + D[1] + D[2]) / 3.0;
     for (int c = 0; c < 3; c++) square += (D[c] - mean) * (D[c] - mean) + 2 * D[c + 3] * D[c + 3];
-    m->rate = lanes_root(lanes_max(2.0 / 3 * square, lanes_of(1e-200)));
+    m->rate = lanes_square_root(lanes_max(2.0 / 3 * square, lanes_broadcast(1e-200)));
 }
 
 /* Returns lanes l to l + POINTS - 1 of a. */
@@ -80,7 +80,7 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
                                     const int dim)
 {
     const int n = dim * (dim + 1) / 2;
-    const lanes none = lanes_of(0);
+    const lanes none = lanes_broadcast(0);
     lanes s[SYM_MAX] = {none, none, none, none, none, none};
     for (int c = 0; c < n; c++) s[law_place[dim][c]] = stress[c];
     if (m->space == SPACE_PLANE_STRAIN) s[2] = m->poisson * (s[0] + s[1]) + lanes_gather(p->out_of_plane, point);
@@ -97,7 +97,8 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
     e->volume_before = e->volume / (1.0 + motion->trace);
     e->a = lanes_gather(p->plastic_strain, point), e->work = lanes_gather(p->plastic_work, point);
     e->rate = motion->rate;
-    e->temperature = p->temperature ? lanes_gather(p->temperature, point) : lanes_of(m->law->johnson_cook.T_room);
+    e->temperature =
+        p->temperature ? lanes_gather(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
 /* Stores the state of lane l to point i, except its stress. */
@@ -130,11 +131,11 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
 {
     struct flow_motion motion;
     struct law_points e;
-    const int n = smaller(due->n, LANES), parts = dim * (dim + 1) / 2;
+    const int n = int_min(due->n, LANES), parts = dim * (dim + 1) / 2;
     int32_t point[LANES] __attribute__((aligned(LANES * sizeof(int32_t))));
     lanes L[DIM_MAX * DIM_MAX], stress[SYM_MAX];
     unsigned left = (1u << n) - 1;
-    for (int l = 0; l < LANES; l++) point[l] = due->point[smaller(l, n - 1)];
+    for (int l = 0; l < LANES; l++) point[l] = due->point[int_min(l, n - 1)];
     for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(due->L[k]);
     for (int c = 0; c < parts; c++) stress[c] = lanes_load(due->stress[c]);
     flow_motion_of(&motion, L, t->dt, t->elastic[p->material[point[0]]].space, dim);
@@ -145,7 +146,7 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
         left &= ~own;
         if (!m->law) continue;
         flow_load(p, m, point, stress, &motion, &e, dim);
-        e.active = lanes_of_bits((uint8_t)own);
+        e.active = lanes_mask_from_bits((uint8_t)own);
         law_update(m->law, &e, m->space, LAW_EXPLICIT);
         for (int c = 0; c < parts; c++) stress[c] = lanes_choose(e.active, e.s[law_place[dim][c]], stress[c]);
         for (int l = 0; l < n; l++)

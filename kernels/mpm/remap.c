@@ -14,14 +14,14 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
                                        const struct cell *c, struct particles *p, const int dim, const enum shape shape)
 {
     row_of_points gain[DIM_MAX];
-    for (int d = 0; d < dim; d++) gain[d] = points_of(0);
+    for (int d = 0; d < dim; d++) gain[d] = points_broadcast(0);
     FOR_ANY_TOUCHED(s, dim, shape)
     {
-        const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
+        const row_of_points weight = stencil_row_factors(s, k1, k2, dim, shape);
         for (int d = 0; d < dim; d++) {
-            const real *change = g->force[d] + cell_row(c, g, k1, k2, dim);
-            row_of_points sum = points_of(0);
-            FOR_NODES(dim, shape) sum += s->N[k] * change[row_node(g, k, dim, shape)];
+            const real *change = g->force[d] + cell_row_first_node(c, g, k1, k2, dim);
+            row_of_points sum = points_broadcast(0);
+            FOR_NODES(dim, shape) sum += s->N[k] * change[row_node_offset(g, k, dim, shape)];
             gain[d] += weight * sum;
         }
     }
@@ -38,9 +38,9 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
 static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
-    if (!fetch_now(list, k, &i)) return;
-    fetch(p->mass + i);
-    for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i);
+    if (!prefetch_is_due(list, k, &i)) return;
+    prefetch_line(p->mass + i);
+    for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i), prefetch_line(p->v[d] + i);
 }
 
 /* Updates the velocities of n listed points (n <= AT_ONCE) of cell c by the change of the nodal velocities, and adds
@@ -55,13 +55,13 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
     remap_gather(momentum, &s, g, c, p, dim, shape);
     stencil_transpose(&s, dim, shape);
     for (int at = 0; at < n; at++) {
-        const row_of_nodes N = stencil_touch(&s, at, g->h, dim, shape).N;
+        const row_of_nodes N = stencil_row_weights(&s, at, g->h, dim, shape).N;
         row_of_nodes given[DIM_MAX];
         remap_fetch(p, list, at, dim);
         for (int d = 0; d < dim; d++) given[d] = momentum[d][at] * N;
         FOR_TOUCHED(&s, at, dim, shape)
         {
-            const real weight = stencil_row(&s, at, k1, k2, dim, shape);
+            const real weight = stencil_row_factor(&s, at, k1, k2, dim, shape);
             for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] += weight * given[d];
         }
     }
@@ -72,14 +72,16 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
 static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                      const int32_t *list, int n, const int dim, const enum shape shape)
 {
-    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
     cell_rows sum;
     FOR_ROWS(dim, shape)
-    for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
-    for (int k = 0; k < n; k += AT_ONCE(dim)) remap_points(sum, g, &c, p, t, list + k, at_once(n - k, dim), dim, shape);
+    for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_broadcast(0);
+    for (int k = 0; k < n; k += AT_ONCE(dim))
+        remap_points(sum, g, &c, p, t, list + k, points_at_once(n - k, dim), dim, shape);
     FOR_ROWS(dim, shape)
     for (int d = 0; d < dim; d++)
-        nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
+        nodes_add_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
+                      shape);
 }
 
 #define INSTANCE(D, S)                                                                                                 \
@@ -90,4 +92,4 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
 SHAPE_VARIANTS(INSTANCE)
 
 #define ENTRY(D, S) [D][SHAPE_##S] = remap_##D##d_##S,
-remap_fn *const remap_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS(ENTRY)};
+musl_remap_fn *const remap_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS(ENTRY)};

@@ -28,25 +28,26 @@ static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct 
     row_of_points gain[DIM_MAX], arm[DIM_MAX][DIM_MAX]; /* arm[e][d]: sum N (x_I - x_p)_e dv_d */
     cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
     for (int d = 0; d < dim; d++) {
-        gain[d] = points_of(0);
-        for (int e = 0; e < dim; e++) arm[e][d] = points_of(0);
+        gain[d] = points_broadcast(0);
+        for (int e = 0; e < dim; e++) arm[e][d] = points_broadcast(0);
     }
     FOR_ANY_TOUCHED(&s, dim, shape)
     {
-        const row_of_points weight = stencil_rows(&s, k1, k2, dim, shape);
+        const row_of_points weight = stencil_row_factors(&s, k1, k2, dim, shape);
         for (int d = 0; d < dim; d++) {
-            const real *change = g->force[d] + cell_row(c, g, k1, k2, dim);
-            row_of_points sum = points_of(0), far[2] = {points_of(0), points_of(0)};
+            const real *change = g->force[d] + cell_row_first_node(c, g, k1, k2, dim);
+            row_of_points sum = points_broadcast(0), far[2] = {points_broadcast(0), points_broadcast(0)};
             FOR_NODES(dim, shape)
             {
-                const row_of_points part = s.N[k] * change[row_node(g, k, dim, shape)];
+                const row_of_points part = s.N[k] * change[row_node_offset(g, k, dim, shape)];
                 sum += part;
-                for (int e = 0; e < along; e++) far[e] += part * stencil_lanes(&s, k, g->h, e, dim, shape);
+                for (int e = 0; e < along; e++)
+                    far[e] += part * stencil_distances_of_points(&s, k, g->h, e, dim, shape);
             }
             gain[d] += weight * sum;
             for (int e = 0; e < along; e++) arm[e][d] += weight * far[e];
             for (int e = along; e < dim; e++)
-                arm[e][d] += weight * sum * stencil_lanes(&s, e == 1 ? k1 : k2, g->h, e, dim, shape);
+                arm[e][d] += weight * sum * stencil_distances_of_points(&s, e == 1 ? k1 : k2, g->h, e, dim, shape);
         }
     }
     const row_of_points mass = points_load(p->mass, s.point, dim);
@@ -62,9 +63,9 @@ static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct 
         _Pragma("omp parallel for schedule(static)") for (int32_t k = 0; k < o->cells; k++)                            \
         {                                                                                                              \
             const int32_t *list = o->particle + o->cell_start[k], n = o->cell_start[k + 1] - o->cell_start[k];         \
-            const struct cell c = cell_make(g, p, list[0], D, SHAPE_##S);                                              \
+            const struct cell c = cell_containing_point(g, p, list[0], D, SHAPE_##S);                                  \
             for (int m = 0; m < n; m += AT_ONCE(D))                                                                    \
-                turn_gather_points(g, &c, p, t, list + m, at_once(n - m, D), D, SHAPE_##S);                            \
+                turn_gather_points(g, &c, p, t, list + m, points_at_once(n - m, D), D, SHAPE_##S);                     \
         }                                                                                                              \
     }
 SHAPE_VARIANTS_TURNING(GATHER)
@@ -75,27 +76,29 @@ SHAPE_VARIANTS_TURNING(GATHER)
 typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
 
 /* Adds the momentum m N (v + L (x_I - x_p)) of point `at` of stencil s to the sums of its cell. slope: velocity
- * gradients L of the points of the stencil, from turn_slopes [1/s]. */
+ * gradients L of the points of the stencil, from rotating_velocity_gradients [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g, const struct particles *p,
                                              const row_of_points *slope, const struct cell_stencil *s, int at,
                                              const int dim, const enum shape shape)
 {
     const int along = ROW_DIMS(dim, shape);
     const int64_t i = s->point[at];
-    const row_of_nodes mass = p->mass[i] * stencil_touch(s, at, g->h, dim, shape).N;
+    const row_of_nodes mass = p->mass[i] * stencil_row_weights(s, at, g->h, dim, shape).N;
     row_of_nodes momentum[DIM_MAX];
     for (int d = 0; d < dim; d++) {
-        row_of_nodes speed = row_of(p->v[d][i]);
-        for (int e = 0; e < along; e++) speed += slope[d * dim + e][at] * stencil_along(s, at, g->h, e, dim, shape);
+        row_of_nodes speed = row_broadcast(p->v[d][i]);
+        for (int e = 0; e < along; e++)
+            speed += slope[d * dim + e][at] * stencil_distances_in_row(s, at, g->h, e, dim, shape);
         momentum[d] = mass * speed;
     }
     FOR_TOUCHED(s, at, dim, shape)
     {
-        const real weight = stencil_row(s, at, k1, k2, dim, shape);
+        const real weight = stencil_row_factor(s, at, k1, k2, dim, shape);
         for (int d = 0; d < dim; d++) {
             row_of_nodes given = momentum[d];
             for (int e = along; e < dim; e++)
-                given += mass * (slope[d * dim + e][at] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
+                given += mass * (slope[d * dim + e][at] *
+                                 stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
             sum[d][PATCH(dim, shape)] += weight * given;
         }
     }
@@ -106,22 +109,23 @@ static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct p
                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                             const enum shape shape)
 {
-    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
     cell_rows sum;
     FOR_ROWS(dim, shape)
-    for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
+    for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_broadcast(0);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct cell_stencil s;
-        const int points = at_once(n - k, dim);
+        const int points = points_at_once(n - k, dim);
         cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         stencil_transpose(&s, dim, shape);
         row_of_points slope[DIM_MAX * DIM_MAX];
-        turn_slopes(t, s.point, -0.5 * t->dt, slope, dim);
+        rotating_velocity_gradients(t, s.point, -0.5 * t->dt, slope, dim);
         for (int at = 0; at < points; at++) turn_scatter_point(sum, g, p, slope, &s, at, dim, shape);
     }
     FOR_ROWS(dim, shape)
     for (int d = 0; d < dim; d++)
-        nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
+        nodes_add_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
+                      shape);
 }
 
 #define TURN_SCATTER(D, S)                                                                                             \
@@ -132,6 +136,6 @@ static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct p
 SHAPE_VARIANTS_TURNING(TURN_SCATTER)
 
 #define GATHER_ENTRY(D, S) [D][SHAPE_##S] = turn_gather_##D##d_##S,
-turn_gather_fn *const turn_gather_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS_TURNING(GATHER_ENTRY)};
+rotating_remap_gather_fn *const turn_gather_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS_TURNING(GATHER_ENTRY)};
 #define SCATTER_ENTRY(D, S) [D][SHAPE_##S] = turn_scatter_##D##d_##S,
-turn_scatter_fn *const turn_scatter_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS_TURNING(SCATTER_ENTRY)};
+rotating_remap_scatter_fn *const turn_scatter_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS_TURNING(SCATTER_ENTRY)};

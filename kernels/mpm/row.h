@@ -21,10 +21,10 @@ typedef real row_of_points __attribute__((vector_size(POINTS * sizeof(real))));
 typedef int64_t points_mask __attribute__((vector_size(POINTS * sizeof(int64_t))));
 
 /* Returns a vector of ROW nodes whose entries are a. */
-static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
+static ALWAYS_INLINE row_of_nodes row_broadcast(real a) { return (row_of_nodes){a, a, a, a}; }
 
 /* Returns a vector of POINTS material points whose entries are a. */
-static ALWAYS_INLINE row_of_points points_of(real a) { return a - (row_of_points){0}; }
+static ALWAYS_INLINE row_of_points points_broadcast(real a) { return a - (row_of_points){0}; }
 
 /* Returns a in lanes where `sign` is negative, else b. */
 static ALWAYS_INLINE row_of_points points_choose(row_of_points sign, row_of_points a, row_of_points b)
@@ -58,14 +58,14 @@ static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 }
 
 /* Returns |a|. */
-static ALWAYS_INLINE row_of_points points_size(row_of_points a)
+static ALWAYS_INLINE row_of_points points_absolute(row_of_points a)
 {
     const points_mask digits = (points_mask){0} + INT64_MAX;
     return (row_of_points)((points_mask)a & digits);
 }
 
 /* Returns a bit mask: bit k is set where lane k is negative. */
-static ALWAYS_INLINE int points_signs(row_of_points a)
+static ALWAYS_INLINE int points_sign_bits(row_of_points a)
 {
 #ifdef __AVX__
     return _mm256_movemask_pd((__m256d)a);
@@ -80,14 +80,14 @@ static ALWAYS_INLINE int points_signs(row_of_points a)
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
 /* Returns the smaller of a and b. */
-static ALWAYS_INLINE int smaller(int a, int b) { return a < b ? a : b; }
+static ALWAYS_INLINE int int_min(int a, int b) { return a < b ? a : b; }
 
 /* Returns how many of `left` remaining points are processed at once. */
-static ALWAYS_INLINE int at_once(int left, const int dim) { return smaller(left, AT_ONCE(dim)); }
+static ALWAYS_INLINE int points_at_once(int left, const int dim) { return int_min(left, AT_ONCE(dim)); }
 
 /* Returns true if all lanes hold the same point, as in cells with one point (2D and 3D). The branch saves time there,
  * and costs none where cells have four points. */
-static ALWAYS_INLINE bool points_alone(const int32_t *point, const int dim)
+static ALWAYS_INLINE bool points_are_the_same(const int32_t *point, const int dim)
 {
     return dim > 1 && point[0] == point[POINTS - 1];
 }
@@ -96,7 +96,7 @@ static ALWAYS_INLINE bool points_alone(const int32_t *point, const int dim)
  * (in 1D of two, which are repeated). */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
-    if (points_alone(point, dim)) return points_of(from[point[0]]);
+    if (points_are_the_same(point, dim)) return points_broadcast(from[point[0]]);
     row_of_points a;
     for (int k = 0; k < POINTS; k++) a[k] = from[point[k % AT_ONCE(dim)]];
     return a;
@@ -106,7 +106,7 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
     to[point[0]] = a[0];
-    if (points_alone(point, dim)) return;
+    if (points_are_the_same(point, dim)) return;
     for (int k = 1; k < AT_ONCE(dim); k++) to[point[k]] = a[k];
 }
 

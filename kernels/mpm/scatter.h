@@ -8,14 +8,14 @@
 /* Returns true if the data of the point ORDER_AHEAD entries after entry k of the list should be prefetched: for one
  * point per cache line. *i: receives this point. The points of a row of cells occupy two (in 3D four) lines in many
  * arrays, more than the hardware prefetcher follows. */
-static ALWAYS_INLINE bool fetch_now(const int32_t *list, int k, int64_t *i)
+static ALWAYS_INLINE bool prefetch_is_due(const int32_t *list, int k, int64_t *i)
 {
     *i = list[k + ORDER_AHEAD];
     return *i % LANES == 0;
 }
 
 /* Prefetches the cache line of *at for reading. */
-static ALWAYS_INLINE void fetch(const real *at) { __builtin_prefetch(at, 0, 3); }
+static ALWAYS_INLINE void prefetch_line(const real *at) { __builtin_prefetch(at, 0, 3); }
 
 /* Body of an instance for dimension D: evaluates CALL, an expression in `nodes`, `points`, `data`, `list` and `n`, for
  * the n listed points of every cell in the order of TRANSFER. Threads share the blocks of a colour; one colour follows

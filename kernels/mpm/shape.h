@@ -20,9 +20,9 @@
  * in node distances. */
 static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
-    N[0] = N[3] = dN[0] = dN[3] = points_of(0);
+    N[0] = N[3] = dN[0] = dN[3] = points_broadcast(0);
     N[1] = 1 - t, N[2] = t;
-    dN[1] = points_of(-1), dN[2] = points_of(1);
+    dN[1] = points_broadcast(-1), dN[2] = points_broadcast(1);
 }
 
 /* Computes weights N and slopes dN/dt of GIMP shape functions at the four nodes of a row, for a few points (one per
@@ -38,8 +38,8 @@ static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], ro
 static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width,
                                      row_of_points N[ROW], row_of_points dN[ROW])
 {
-    const row_of_points rest = 1 - t, below = points_max(l - t, points_of(0)),
-                        above = points_max(l - rest, points_of(0));
+    const row_of_points rest = 1 - t, below = points_max(l - t, points_broadcast(0)),
+                        above = points_max(l - rest, points_broadcast(0));
     dN[0] = -below * inverse_width, dN[3] = above * inverse_width;
     N[0] = -0.5 * below * dN[0], N[3] = 0.5 * above * dN[3];
     N[1] = rest - 2 * N[0] + N[3], N[2] = t + N[0] - 2 * N[3];
@@ -62,26 +62,27 @@ static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row
  * momentum by sum N; on a lattice all points have the same round-off, so that an error would grow with the number of
  * steps. The missing part is added to the nearer node of the cell, whose weight is never small. t: distance from the
  * lower node of the cell, in node distances. */
-static ALWAYS_INLINE void whole(row_of_points t, row_of_points N[ROW])
+static ALWAYS_INLINE void weights_normalise(row_of_points t, row_of_points N[ROW])
 {
     const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
-    N[1] += points_choose(t - 0.5, missing, points_of(0));
-    N[2] += points_choose(t - 0.5, points_of(0), missing);
+    N[1] += points_choose(t - 0.5, missing, points_broadcast(0));
+    N[2] += points_choose(t - 0.5, points_broadcast(0), missing);
 }
 
 /* Computes weights N and slopes dN/dt of a shape function at the four nodes of a row, for a few points (one per lane).
  * t: distance from the lower node of the cell, l: half width of the particle, inverse_width: 1/(2 l), in node
  * distances; l and inverse_width are read for GIMP and cpGIMP only. The quadratic B-spline is GIMP with l = 1/2, the
  * mean of a hat over a whole cell. */
-static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row_of_points l,
-                                    row_of_points inverse_width, row_of_points N[ROW], row_of_points dN[ROW])
+static ALWAYS_INLINE void shape_functions_of_row(const enum shape shape, row_of_points t, row_of_points l,
+                                                 row_of_points inverse_width, row_of_points N[ROW],
+                                                 row_of_points dN[ROW])
 {
     switch (shape) {
     case SHAPE_LINEAR:
         shape_linear(t, N, dN);
         return;
     case SHAPE_QUADRATIC:
-        shape_gimp(t, points_of(0.5), points_of(1), N, dN);
+        shape_gimp(t, points_broadcast(0.5), points_broadcast(1), N, dN);
         break;
     case SHAPE_CUBIC:
         shape_cubic(t, N, dN);
@@ -89,7 +90,7 @@ static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row
     default:
         shape_gimp(t, l, inverse_width, N, dN);
     }
-    whole(t, N);
+    weights_normalise(t, N);
 }
 
 /* ---- nodes of a cell ---------------------------------------------------------------------------------------------
@@ -139,12 +140,12 @@ struct cell {
 };
 
 /* Returns the grid cell that contains point i, with the lowest node that a point of the cell reaches. */
-static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct particles *p, int64_t i, const int dim,
-                                           const enum shape shape)
+static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, const struct particles *p, int64_t i,
+                                                       const int dim, const enum shape shape)
 {
     struct cell c = {0};
     for (int d = 0; d < dim; d++) {
-        const int64_t k = grid_cell(g, d, p->x[d][i]);
+        const int64_t k = grid_cell_index_at(g, d, p->x[d][i]);
         c.place[d] = (real)k;
         c.node += (k - (IS_FACE(dim, shape) ? 0 : 1) - g->first[d]) * g->stride[d];
     }
@@ -152,20 +153,21 @@ static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct pa
 }
 
 /* Returns the index of the first node of row k1 (along y), k2 (along z) of the nodes that points of cell c reach. */
-static ALWAYS_INLINE int64_t cell_row(const struct cell *c, const struct grid *g, int k1, int k2, const int dim)
+static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const struct grid *g, int k1, int k2,
+                                                 const int dim)
 {
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
 /* Returns the index of node k of a row, relative to the first node of the row. */
-static ALWAYS_INLINE int64_t row_node(const struct grid *g, int k, const int dim, const enum shape shape)
+static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const int dim, const enum shape shape)
 {
     return IS_FACE(dim, shape) ? k % 2 + k / 2 * g->stride[1] : k;
 }
 
 /* Adds the values a of the nodes of a row to the nodal array whose entry of the first node is *to. */
-static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes a, const int dim,
-                                    const enum shape shape)
+static ALWAYS_INLINE void nodes_add_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
+                                        const enum shape shape)
 {
     if (IS_FACE(dim, shape)) {
         *(pair_anywhere *)to += (pair_of_nodes){a[0], a[1]};
@@ -203,7 +205,7 @@ struct touch {
 /* Computes the weights and slopes in s of linear shape functions in 2D and 3D, where the four nodes of a "row" are the
  * corners of a cell face z = const: products of two hat functions, and in 3D the factors along z. inverse: 1/h
  * [1/m]. */
-static ALWAYS_INLINE void stencil_face(struct cell_stencil *s, real inverse, const int dim)
+static ALWAYS_INLINE void stencil_compute_face_weights(struct cell_stencil *s, real inverse, const int dim)
 {
     const row_of_points X[2] = {1 - s->t[0], s->t[0]}, Y[2] = {1 - s->t[1], s->t[1]};
     for (int k = 0; k < ROW; k++) {
@@ -213,38 +215,39 @@ static ALWAYS_INLINE void stencil_face(struct cell_stencil *s, real inverse, con
     }
     if (dim < 3) return;
     s->A[2][0] = 1 - s->t[2], s->A[2][1] = s->t[2];
-    s->B[2][0] = points_of(-inverse), s->B[2][1] = points_of(inverse);
+    s->B[2][0] = points_broadcast(-inverse), s->B[2][1] = points_broadcast(inverse);
 }
 
 /* Finds which rows of nodes the points of s touch in direction d, for shapes with three nodes per direction: a point
  * with t < l does not touch the upper outer row, others not the lower outer row. l: half widths in node distances. The
  * code has no branches, because on a lattice t = l up to round-off and the result is unpredictable. */
-static ALWAYS_INLINE void stencil_touched(struct cell_stencil *s, row_of_points l, int d)
+static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_of_points l, int d)
 {
-    const int all = (1 << POINTS) - 1, upper = ~points_signs(s->t[d] - l) & all;
+    const int all = (1 << POINTS) - 1, upper = ~points_sign_bits(s->t[d] - l) & all;
     for (int k = 0; k < POINTS; k++) s->low[d][k] = upper >> k & 1;
     s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
 /* Computes weights and slopes of the points of s in direction d (not for linear shapes in 2D and 3D). inverse: 1/h
  * [1/m]; half_width: half the reference edge of a particle [m]. */
-static ALWAYS_INLINE void stencil_direction(struct cell_stencil *s, const struct particles *p, real inverse,
-                                            real half_width, int d, const int dim, const enum shape shape)
+static ALWAYS_INLINE void stencil_compute_direction(struct cell_stencil *s, const struct particles *p, real inverse,
+                                                    real half_width, int d, const int dim, const enum shape shape)
 {
-    row_of_points l = points_of(half_width * inverse), inverse_width = points_of(0.5 / (half_width * inverse));
+    row_of_points l = points_broadcast(half_width * inverse),
+                  inverse_width = points_broadcast(0.5 / (half_width * inverse));
     row_of_points N[ROW], dN[ROW];
     if (shape == SHAPE_CPGIMP) {
-        l = points_min(l * points_load(p->stretch[d], s->point, dim), points_of(HALF_WIDTH_MOST));
+        l = points_min(l * points_load(p->stretch[d], s->point, dim), points_broadcast(HALF_WIDTH_MOST));
         inverse_width = 0.5 / l;
     }
-    shape_row(shape, s->t[d], l, inverse_width, N, dN);
+    shape_functions_of_row(shape, s->t[d], l, inverse_width, N, dN);
     for (int k = 0; k < ROW; k++) {
         if (d == 0)
             s->N[k] = N[k], s->D[0][k] = dN[k] * inverse;
         else
             s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse;
     }
-    if (SKIPS(dim, shape) && d > 0) stencil_touched(s, shape == SHAPE_GIMP ? l : points_of(0.5), d);
+    if (SKIPS(dim, shape) && d > 0) stencil_find_touched_rows(s, shape == SHAPE_GIMP ? l : points_broadcast(0.5), d);
 }
 
 /* Computes the stencil s: weights and slopes of the shape functions of n listed points (n <= AT_ONCE) of cell c.
@@ -254,15 +257,15 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
                                             const int dim, const enum shape shape)
 {
     const real inverse = 1 / g->h;
-    for (int k = 0; k < POINTS; k++) s->point[k] = list[smaller(k % AT_ONCE(dim), n - 1)];
+    for (int k = 0; k < POINTS; k++) s->point[k] = list[int_min(k % AT_ONCE(dim), n - 1)];
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
-        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d]; /* grid_place */
+        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d]; /* grid_cell_coordinate */
     }
     if (IS_FACE(dim, shape))
-        stencil_face(s, inverse, dim);
+        stencil_compute_face_weights(s, inverse, dim);
     else
-        for (int d = 0; d < dim; d++) stencil_direction(s, p, inverse, half_width, d, dim, shape);
+        for (int d = 0; d < dim; d++) stencil_compute_direction(s, p, inverse, half_width, d, dim, shape);
 }
 
 /* Transposes the weights and slopes of a row from one lane per point to one lane per node (s->from_N, s->from_D), for
@@ -277,8 +280,8 @@ static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int di
 /* Returns weights and slopes of the four nodes of a row at point `at` of the stencil, one lane per node.
  * stencil_transpose must have been called. h: node distance [m]. For linear shapes in 2D and 3D they are computed
  * again, which is cheaper than transposing. */
-static ALWAYS_INLINE struct touch stencil_touch(const struct cell_stencil *s, int at, real h, const int dim,
-                                                const enum shape shape)
+static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil *s, int at, real h, const int dim,
+                                                      const enum shape shape)
 {
     if (!IS_FACE(dim, shape)) return (struct touch){s->from_N[at], {s->from_D[at]}};
     const row_of_nodes right = {-1, 1, -1, 1}, up = {-1, -1, 1, 1};
@@ -289,20 +292,21 @@ static ALWAYS_INLINE struct touch stencil_touch(const struct cell_stencil *s, in
 
 /* Returns the factor by which the weights N of a row are multiplied in row k1 (along y), k2 (along z), one lane per
  * point [1]. */
-static ALWAYS_INLINE row_of_points stencil_rows(const struct cell_stencil *s, int k1, int k2, const int dim,
-                                                const enum shape shape)
+static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil *s, int k1, int k2, const int dim,
+                                                       const enum shape shape)
 {
-    row_of_points weight = points_of(1);
+    row_of_points weight = points_broadcast(1);
     if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1];
     if (dim > 2) weight *= s->A[2][k2];
     return weight;
 }
 
-/* Returns the derivative of the factor stencil_rows along axis d, which is across the row, one lane per point [1/m]. */
-static ALWAYS_INLINE row_of_points stencil_slopes(const struct cell_stencil *s, int k1, int k2, int d, const int dim,
-                                                  const enum shape shape)
+/* Returns the derivative of the factor stencil_row_factors along axis d, which is across the row, one lane per point
+ * [1/m]. */
+static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_stencil *s, int k1, int k2, int d,
+                                                             const int dim, const enum shape shape)
 {
-    row_of_points slope = points_of(1);
+    row_of_points slope = points_broadcast(1);
     if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1] : s->A[1][k1];
     if (dim > 2) slope *= d == 2 ? s->B[2][k2] : s->A[2][k2];
     return slope;
@@ -310,8 +314,8 @@ static ALWAYS_INLINE row_of_points stencil_slopes(const struct cell_stencil *s, 
 
 /* Returns the factor by which the weights N of a row are multiplied in row k1 (along y), k2 (along z), for point `at`
  * of the stencil [1]. */
-static ALWAYS_INLINE real stencil_row(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
-                                      const enum shape shape)
+static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
+                                             const enum shape shape)
 {
     real weight = 1;
     if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1][at];
@@ -321,8 +325,8 @@ static ALWAYS_INLINE real stencil_row(const struct cell_stencil *s, int at, int 
 
 /* Returns the derivative of the factor stencil_row along axis d, which is across the row, for point `at` of the stencil
  * [1/m]. */
-static ALWAYS_INLINE real stencil_slope(const struct cell_stencil *s, int at, int k1, int k2, int d, const int dim,
-                                        const enum shape shape)
+static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s, int at, int k1, int k2, int d,
+                                                   const int dim, const enum shape shape)
 {
     real slope = 1;
     if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1][at] : s->A[1][k1][at];
@@ -332,8 +336,8 @@ static ALWAYS_INLINE real stencil_slope(const struct cell_stencil *s, int at, in
 
 /* Returns the distances along axis d from point `at` of the stencil to the four nodes of a row [m], signed. d: an axis
  * along which the nodes of a row differ; h: node distance [m]. */
-static ALWAYS_INLINE row_of_nodes stencil_along(const struct cell_stencil *s, int at, real h, int d, const int dim,
-                                                const enum shape shape)
+static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_stencil *s, int at, real h, int d,
+                                                           const int dim, const enum shape shape)
 {
     const row_of_nodes nodes = !IS_FACE(dim, shape) ? (row_of_nodes){-1, 0, 1, 2}
                                : d == 0             ? (row_of_nodes){0, 1, 0, 1}
@@ -343,8 +347,8 @@ static ALWAYS_INLINE row_of_nodes stencil_along(const struct cell_stencil *s, in
 
 /* Returns the signed distances along axis d from all points of the stencil, one per lane, to node k of a row, or, if d
  * is across the rows, to row k [m]. h: node distance [m]. */
-static ALWAYS_INLINE row_of_points stencil_lanes(const struct cell_stencil *s, int k, real h, int d, const int dim,
-                                                 const enum shape shape)
+static ALWAYS_INLINE row_of_points stencil_distances_of_points(const struct cell_stencil *s, int k, real h, int d,
+                                                               const int dim, const enum shape shape)
 {
     const int node = !IS_FACE(dim, shape) ? k - 1 : d == 0 ? k % 2 : d == 1 ? k / 2 : k;
     return (node - s->t[d]) * h;
@@ -352,8 +356,8 @@ static ALWAYS_INLINE row_of_points stencil_lanes(const struct cell_stencil *s, i
 
 /* Returns the signed distance along axis d from point `at` of the stencil to row k [m]. d: an axis across the rows; h:
  * node distance [m]. */
-static ALWAYS_INLINE real stencil_across(const struct cell_stencil *s, int at, real h, int d, int k, const int dim,
-                                         const enum shape shape)
+static ALWAYS_INLINE real stencil_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k,
+                                                  const int dim, const enum shape shape)
 {
     return (k - (IS_FACE(dim, shape) ? 0 : 1) - s->t[d][at]) * h;
 }

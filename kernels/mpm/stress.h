@@ -60,8 +60,8 @@ static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
 
 /* Computes the first-order change of the stress by a rotation, more = W s - s W, for a few points (one per lane). s:
  * symmetric components [Pa]; w: components W_xy, in 3D also W_yz and W_zx, of the antisymmetric matrix W [rad]. */
-static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_points *w, row_of_points *more,
-                                      const int dim)
+static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *s, const row_of_points *w, row_of_points *more,
+                                                    const int dim)
 {
     if (dim == 2) {
         more[0] = 2 * w[0] * s[2], more[1] = -more[0], more[2] = w[0] * (s[1] - s[0]);
@@ -79,8 +79,9 @@ static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_point
  *     R s R^T = s + c1 A s + c2 A^2 s + c3 A^3 s + c4 A^4 s,
  *     c1 = (8 sin a - sin 2a)/6a, c2 = (15 - 16 cos a + cos 2a)/12a^2,
  *     c3 = (2 sin a - sin 2a)/6a^3, c4 = (3 - 4 cos a + cos 2a)/12a^4. */
-static ALWAYS_INLINE void stress_turn(const row_of_points *s, const row_of_points *w, const row_of_points angle2,
-                                      row_of_points *more, const int dim)
+static ALWAYS_INLINE void stress_exact_rotation_increment(const row_of_points *s, const row_of_points *w,
+                                                          const row_of_points angle2, row_of_points *more,
+                                                          const int dim)
 {
     const int n = dim * (dim + 1) / 2;
     const row_of_points c[4] = {1 + angle2 * angle2 * (-1.0 / 30 + angle2 * (1.0 / 252 - angle2 * (1.0 / 4320))),
@@ -90,10 +91,10 @@ static ALWAYS_INLINE void stress_turn(const row_of_points *s, const row_of_point
     row_of_points sum[SYM_MAX];
     for (int k = 0; k < n; k++) sum[k] = c[3] * s[k];
     for (int power = 2; power >= 0; power--) {
-        stress_spin(sum, w, more, dim);
+        stress_rotation_increment(sum, w, more, dim);
         for (int k = 0; k < n; k++) sum[k] = c[power] * s[k] + more[k];
     }
-    stress_spin(sum, w, more, dim);
+    stress_rotation_increment(sum, w, more, dim);
 }
 
 /* Rotates the stress s of a few points (one per lane), each by its own antisymmetric matrix W with components w [rad]:
@@ -103,19 +104,19 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w
     const int n = dim * (dim + 1) / 2;
     row_of_points more[SYM_MAX], angle2 = w[0] * w[0];
     if (dim == 3) angle2 += w[1] * w[1] + w[2] * w[2];
-    stress_spin(s, w, more, dim);
-    if (__builtin_expect(points_signs(SPIN_NONE * SPIN_NONE - angle2), 0)) {
+    stress_rotation_increment(s, w, more, dim);
+    if (__builtin_expect(points_sign_bits(SPIN_NONE * SPIN_NONE - angle2), 0)) {
         row_of_points middle[SYM_MAX], second[SYM_MAX];
         for (int c = 0; c < n; c++) middle[c] = s[c] + 0.5 * more[c];
-        stress_spin(middle, w, second, dim);
+        stress_rotation_increment(middle, w, second, dim);
         for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_NONE * SPIN_NONE - angle2, second[c], more[c]);
     }
-    if (__builtin_expect(points_signs(SPIN_SMALL * SPIN_SMALL - angle2), 0)) {
+    if (__builtin_expect(points_sign_bits(SPIN_SMALL * SPIN_SMALL - angle2), 0)) {
         row_of_points exact[SYM_MAX];
-        stress_turn(s, w, angle2, exact, dim);
+        stress_exact_rotation_increment(s, w, angle2, exact, dim);
         for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_SMALL * SPIN_SMALL - angle2, exact[c], more[c]);
     }
-    const int large = points_signs(SPIN_SERIES * SPIN_SERIES - angle2);
+    const int large = points_sign_bits(SPIN_SERIES * SPIN_SERIES - angle2);
     for (int k = 0; k < POINTS && __builtin_expect(large, 0); k++) {
         real turned[SYM_MAX];
         if (!(large >> k & 1)) continue;
@@ -170,7 +171,7 @@ static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_
 
 /* Returns the largest principal stress [Pa], in 3D by the trigonometric solution of the cubic equation. s: symmetric
  * components. */
-static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
+static ALWAYS_INLINE real stress_largest_principal(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
     if (dim == 2) return 0.5 * (s[0] + s[1]) + sqrt(0.25 * (s[0] - s[1]) * (s[0] - s[1]) + s[2] * s[2]);
@@ -186,7 +187,7 @@ static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
 
 /* Returns an upper bound of the largest principal stress [Pa]. The principal stress itself is computed only where this
  * bound exceeds the conversion stress. s: symmetric components. */
-static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
+static ALWAYS_INLINE real stress_principal_bound(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
     if (dim == 2) return 0.5 * (s[0] + s[1]) + 0.5 * fabs(s[0] - s[1]) + fabs(s[2]);
@@ -197,17 +198,18 @@ static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
 
 /* Returns an upper bound of the largest principal stress of a few points, one per lane [Pa]. s: symmetric
  * components. */
-static ALWAYS_INLINE row_of_points stress_bounds(const row_of_points *s, const int dim)
+static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *s, const int dim)
 {
     if (dim == 1) return s[0];
-    if (dim == 2) return points_max(s[0], s[1]) + points_size(s[2]);
-    return points_max(points_max(s[0], s[1]), s[2]) + 2 * (points_size(s[3]) + points_size(s[4]) + points_size(s[5]));
+    if (dim == 2) return points_max(s[0], s[1]) + points_absolute(s[2]);
+    return points_max(points_max(s[0], s[1]), s[2]) +
+           2 * (points_absolute(s[3]) + points_absolute(s[4]) + points_absolute(s[5]));
 }
 
 /* Computes the stress that point i transmits to the grid [Pa]: all of its stress, or the part that PD-MPM bonds do not
  * carry (partial stress, src/coupling/partial_stress.c). */
-static ALWAYS_INLINE void stress_given(const struct particles *p, const struct partial_stress *partial, int64_t i,
-                                       real *stress, const int dim)
+static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
+                                               int64_t i, real *stress, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
     for (int s = 0; s < n; s++) stress[s] = p->stress[s][i];
@@ -225,7 +227,7 @@ static ALWAYS_INLINE void stress_given(const struct particles *p, const struct p
 }
 
 /* Rotates v by the quaternion q, in place. */
-static inline void rotate_by(const real *q, real *v)
+static inline void quaternion_rotate_vector(const real *q, real *v)
 {
     real u[3], old[3] = {v[0], v[1], v[2]};
     for (int k = 0; k < 3; k++) {
@@ -240,8 +242,8 @@ static inline void rotate_by(const real *q, real *v)
 
 /* Computes the antisymmetric part of the stress that a bonded point of a state-based model transmits to the grid [Pa],
  * components sigma_ab in the order xy, yz, zx; it balances the moment of the bonds. Returns false if there is none. */
-static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const struct partial_stress *partial, int64_t i,
-                                            real *skew, const int dim)
+static ALWAYS_INLINE bool point_skew_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
+                                                    int64_t i, real *skew, const int dim)
 {
     if (!partial || !partial->local || !p->end_moment[0] || partial->index[i] < 0) return false;
     const real half = 0.5 / p->volume[i];
@@ -252,7 +254,7 @@ static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const str
     const real rotation[ROTATION] = {p->end_rotation[0][i], p->end_rotation[1][i], p->end_rotation[2][i],
                                      p->end_rotation[3][i]};
     real moment[3] = {p->end_moment[0][i], p->end_moment[1][i], p->end_moment[2][i]};
-    rotate_by(rotation, moment);
+    quaternion_rotate_vector(rotation, moment);
     for (int c = 0; c < 3; c++) skew[c] = half * moment[(c + 2) % 3];
     return true;
 }

@@ -9,7 +9,8 @@
  * [1/s], from the spins w of their groups [1/s]. The leap-frog velocity v = (x' - x)/dt is along a chord of the circle
  * of rotation: v = w x r - part w x (w x r). part: dt/2 for r at the position x' at the end of the step, -dt/2 at its
  * start x [s]. Without the second-order term rotating bodies shrink: a square by 0.2 % per turn at 4000 1/s. */
-static ALWAYS_INLINE row_of_points turn_slope(const row_of_points *w, const real part, int d, int e, const int dim)
+static ALWAYS_INLINE row_of_points rotating_velocity_slope(const row_of_points *w, const real part, int d, int e,
+                                                           const int dim)
 {
     if (dim == 2) return d == e ? part * (w[2] * w[2]) : d < e ? -w[2] : w[2];
     const row_of_points mixed = -part * w[d] * w[e];
@@ -18,14 +19,14 @@ static ALWAYS_INLINE row_of_points turn_slope(const row_of_points *w, const real
 }
 
 /* Computes the velocity gradients of a few points that rotate with their groups, slope[d dim + e] = dv_d/dx_e [1/s].
- * part: as in turn_slope [s]. */
-static ALWAYS_INLINE void turn_slopes(const struct transfer_data *t, const int32_t *point, const real part,
-                                      row_of_points *slope, const int dim)
+ * part: as in rotating_velocity_slope [s]. */
+static ALWAYS_INLINE void rotating_velocity_gradients(const struct transfer_data *t, const int32_t *point,
+                                                      const real part, row_of_points *slope, const int dim)
 {
     row_of_points w[3];
     for (int c = dim == 2 ? 2 : 0; c < 3; c++) w[c] = points_load(t->turn[c], point, dim);
 #pragma GCC unroll 9
-    for (int k = 0; k < dim * dim; k++) slope[k] = turn_slope(w, part, k / dim, k % dim, dim);
+    for (int k = 0; k < dim * dim; k++) slope[k] = rotating_velocity_slope(w, part, k / dim, k % dim, dim);
 }
 
 #endif

@@ -31,7 +31,8 @@ static void set_flag(struct particles *p, int32_t i, int flag)
  * bond-based models. */
 static real half_energy(const struct bonds *b, int64_t q, real stretch)
 {
-    return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / fabs(b->inverse_length[q]);
+    return 0.25 * b->stiffness * b->w[q] * square(bond_entry_elastic_stretch(b, q, stretch)) /
+           fabs(b->inverse_length[q]);
 }
 
 /* Marks bond q of a row, from particle i to j, as broken: sets its weight to 0, and updates the counts of broken bonds,
@@ -62,8 +63,8 @@ static void row_changed(struct bonds *b, int64_t row)
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
-    pair_force(b, p, bond, i, true, given);
-    pair_force(b, p, bond, i, false, f);
+    bond_force_of_any_model(b, p, bond, i, true, given);
+    bond_force_of_any_model(b, p, bond, i, false, f);
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
@@ -73,13 +74,13 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
-    const struct bond_last last = bond_last_stored(b, p, limit, q, i, j);
+    const struct bond_break_moment last = bond_break_moment_of_stored(b, p, limit, q, i, j);
     const struct bond bond = {q, j, b->inverse_length[q], b->w[q]};
     const bool state = b->state.modulus != NULL;
     last_force(b, p, &bond, i, last.share);
     b->fracture_energy[row] += state ? state_row_energy(b, p, row, last.lag)
                                      : half_energy(b, q, bond_stretch_earlier(p, b->inverse_length[q], i, j, last.lag));
-    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_of(b, &bond);
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_plastic_work_of(b, &bond);
     bond_end(b, p, row, q, i, j);
     row_changed(b, row);
     if (state) b->fracture_energy[row] -= state_row_energy(b, p, row, last.lag);
@@ -130,10 +131,10 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     const int32_t i = b->particle[row];
     int64_t broken = 0;
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-        const int64_t q = bond_to_write(b, row / LANES, k, (int)(row % LANES));
+        const int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
-        if (!(bond_stretch_earlier(p, b->inverse_length[q], i, j, 0) > stretch_limit(p, limit, i, j))) continue;
+        if (!(bond_stretch_earlier(p, b->inverse_length[q], i, j, 0) > bond_breaking_stretch(p, limit, i, j))) continue;
         bond_break(b, p, limit, row, q);
         broken++;
     }
@@ -155,20 +156,20 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
                                                  const struct column s, const int dim)
 {
     const lanes inverse = column_inverse_length(s);
-    lanes distance2 = lanes_of(0);
+    lanes distance2 = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) {
-        const lanes y = column_at(s, p->x[d]) - x[d];
+        const lanes y = column_gather_neighbours(s, p->x[d]) - x[d];
         distance2 += y * y;
     }
-    return column_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
+    return column_max_intact(s, largest, distance2 * (inverse * lanes_absolute(inverse)));
 }
 
 /* Returns for each of the eight rows of row block g the largest squared elongation |y|^2/|xi|^2 of its bonds [1]. */
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
-    lanes x[DIM_MAX], largest = lanes_of(0);
-    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
+    lanes x[DIM_MAX], largest = lanes_broadcast(0);
+    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
 #define VISIT(COLUMN) largest = bond_break_largest_of(largest, p, x, COLUMN, dim)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
@@ -196,7 +197,7 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
  * for the row where strength is random, else above the smallest critical stretch of all materials. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
-    const lanes least = p->strength ? lanes_load(b->trigger + g * LANES) : lanes_of(least_limit(limit));
+    const lanes least = p->strength ? lanes_load(b->trigger + g * LANES) : lanes_broadcast(least_limit(limit));
     return p->dim == 1   ? rows_past(b, p, g, least, 1)
            : p->dim == 2 ? rows_past(b, p, g, least, 2)
                          : rows_past(b, p, g, least, 3);

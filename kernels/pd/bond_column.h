@@ -26,7 +26,8 @@ struct column {
 };
 
 /* Returns stored column `number`; prefetches the columns COLUMNS_AHEAD further on. */
-static ALWAYS_INLINE struct column column_stored(const struct bonds *b, int64_t number, const enum column_kind kind)
+static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int64_t number,
+                                                      const enum column_kind kind)
 {
     const int64_t q = (number + COLUMNS_AHEAD) * LANES;
     __builtin_prefetch(b->common + number + COLUMNS_AHEAD);
@@ -37,8 +38,9 @@ static ALWAYS_INLINE struct column column_stored(const struct bonds *b, int64_t 
 
 /* Returns column k of a row block that follows a stencil. own: first particle of the row block; number: index of the
  * column among all columns. */
-static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t number, const struct stencil *stencil,
-                                             int64_t k, int64_t own, const enum column_kind kind)
+static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t number,
+                                                       const struct stencil *stencil, int64_t k, int64_t own,
+                                                       const enum column_kind kind)
 {
     const struct stencil_column *column = stencil->column + k;
     return (struct column){b, number, own + column->offset, column, kind >= COLUMN_WHOLE ? NULL : stencil->w[k], kind};
@@ -55,49 +57,50 @@ static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t numb
                 if ((B)->common[k_].intact == 0)                                                                       \
                     continue;                                                                                          \
                 else if ((B)->common[k_].alike)                                                                        \
-                    VISIT(column_stored(B, k_, COLUMN_ALIKE));                                                         \
+                    VISIT(column_load_stored(B, k_, COLUMN_ALIKE));                                                    \
                 else if ((B)->common[k_].shell)                                                                        \
-                    VISIT(column_stored(B, k_, COLUMN_SHELL));                                                         \
+                    VISIT(column_load_stored(B, k_, COLUMN_SHELL));                                                    \
                 else                                                                                                   \
-                    VISIT(column_stored(B, k_, COLUMN_FREE));                                                          \
+                    VISIT(column_load_stored(B, k_, COLUMN_FREE));                                                     \
         else if (stencil_->unit)                                                                                       \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(column_of(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT));                                      \
+                VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT));                            \
         else if (stencil_->whole)                                                                                      \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(column_of(B, from_ + k_, stencil_, k_, own_, COLUMN_WHOLE));                                     \
+                VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_WHOLE));                           \
         else                                                                                                           \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
-                VISIT(column_of(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                                   \
+                VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                         \
     } while (0)
 
 /* Returns the values of the particle array `from` at the neighbours of the eight bonds of column s. */
-static ALWAYS_INLINE lanes column_at(const struct column s, const real *from)
+static ALWAYS_INLINE lanes column_gather_neighbours(const struct column s, const real *from)
 {
-    return s.kind ? lanes_load(from + s.first) : lanes_at(from, (int32_t)s.first, s.b->nbr + s.number * LANES);
+    return s.kind ? lanes_load(from + s.first)
+                  : lanes_load_or_gather(from, (int32_t)s.first, s.b->nbr + s.number * LANES);
 }
 
 /* Returns component d of the reference bond vectors X_j - X_i of the eight bonds of column s [m]. X: component d of the
  * reference positions X_i of the particles of the row block [m]. */
-static ALWAYS_INLINE lanes column_reference(const struct column s, const struct particles *p, int d, lanes X)
+static ALWAYS_INLINE lanes column_reference_vectors(const struct column s, const struct particles *p, int d, lanes X)
 {
-    return s.stencil ? lanes_of(s.stencil->xi[d]) : column_at(s, p->X[d]) - X;
+    return s.stencil ? lanes_broadcast(s.stencil->xi[d]) : column_gather_neighbours(s, p->X[d]) - X;
 }
 
 /* Returns component d of weight times reference bond vector of the eight bonds of column s [m]. w: their weights [1];
  * xi: component d of their reference vectors [m]. */
-static ALWAYS_INLINE lanes column_weighted_reference(const struct column s, int d, lanes w, lanes xi)
+static ALWAYS_INLINE lanes column_weighted_vectors(const struct column s, int d, lanes w, lanes xi)
 {
-    return s.kind == COLUMN_WHOLE ? lanes_of(s.stencil->w_xi[d]) : s.kind == COLUMN_UNIT ? xi : w * xi;
+    return s.kind == COLUMN_WHOLE ? lanes_broadcast(s.stencil->w_xi[d]) : s.kind == COLUMN_UNIT ? xi : w * xi;
 }
 
 /* Returns the inverse reference lengths 1/|X_j - X_i| of the eight bonds of column s [1/m]; those of broken bonds may
  * be negative. */
 static ALWAYS_INLINE lanes column_inverse_length(const struct column s)
 {
-    if (s.stencil) return lanes_of(s.stencil->inverse_length);
+    if (s.stencil) return lanes_broadcast(s.stencil->inverse_length);
     const struct bond_column *c = &s.b->common[s.number];
-    return s.kind ? lanes_excess(s.b->shell_length[c->shell].inverse, c->excess)
+    return s.kind ? lanes_add_ulps(s.b->shell_length[c->shell].inverse, c->excess)
                   : lanes_load(s.b->inverse_length + s.number * LANES);
 }
 
@@ -110,11 +113,12 @@ static ALWAYS_INLINE uint8_t column_intact(const struct column s)
 /* Returns the weights of the eight bonds of column s [1], 0 for broken bonds. */
 static ALWAYS_INLINE lanes column_weight(const struct column s)
 {
-    if (s.kind == COLUMN_UNIT) return lanes_of(1);
-    if (s.kind == COLUMN_WHOLE) return lanes_of(s.stencil->w);
+    if (s.kind == COLUMN_UNIT) return lanes_broadcast(1);
+    if (s.kind == COLUMN_WHOLE) return lanes_broadcast(s.stencil->w);
     if (s.kind == COLUMN_STENCIL) return lanes_load(s.w);
     const struct bond_column *c = &s.b->common[s.number];
-    return s.kind == COLUMN_ALIKE ? lanes_keep(c->intact, lanes_of(c->w)) : lanes_load(s.b->w + s.number * LANES);
+    return s.kind == COLUMN_ALIKE ? lanes_zero_unless_selected(c->intact, lanes_broadcast(c->w))
+                                  : lanes_load(s.b->w + s.number * LANES);
 }
 
 /* Computes the stretch |y|/|xi| - 1 of a bond from its length |y| and inverse reference length, rounded to a multiple
@@ -127,22 +131,22 @@ static ALWAYS_INLINE lanes column_weight(const struct column s)
 
 /* Returns in each lane the larger of a and `other` if the bond of column s in that lane is intact, else a. Columns of
  * the kind FREE are not masked: their broken bonds have negative lengths and hence values below a. */
-static ALWAYS_INLINE lanes column_largest(const struct column s, lanes a, lanes other)
+static ALWAYS_INLINE lanes column_max_intact(const struct column s, lanes a, lanes other)
 {
     return s.kind == COLUMN_FREE || s.kind >= COLUMN_WHOLE ? lanes_max(a, other)
-                                                           : lanes_max_kept(column_intact(s), a, other);
+                                                           : lanes_max_selected(column_intact(s), a, other);
 }
 
 /* Returns in each lane the smaller of a and `other` if the bond of column s in that lane is intact, else a. */
-static ALWAYS_INLINE lanes column_smallest(const struct column s, lanes a, lanes other)
+static ALWAYS_INLINE lanes column_min_intact(const struct column s, lanes a, lanes other)
 {
-    return s.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_kept(column_intact(s), a, other);
+    return s.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact(s), a, other);
 }
 
 /* Stores the values of the eight particles of a row block in the particle array `to`. row: the numbers of these
  * particles; rows: how many of them exist, less than 8 in the last row block; aligned: true if the numbers are
  * consecutive. */
-static ALWAYS_INLINE void rows_store(real *to, const int32_t *row, int rows, bool aligned, lanes value)
+static ALWAYS_INLINE void row_block_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {
     if (aligned)
         lanes_store(to + row[0], value);

@@ -29,7 +29,8 @@ struct core {
 };
 
 /* Computes the core of a bond in the row of particle i; ratio = 1 if the bond is broken or not within its core. */
-static inline struct core core_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
+static inline struct core bond_core_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                       int32_t i)
 {
     struct core c = {.ratio = 1};
     const real *spring = b->state.spring;
@@ -44,12 +45,12 @@ static inline struct core core_of(const struct bonds *b, const struct particles 
 }
 
 /* Adds the core forces on the particles of row block g. */
-RARE void core_row_block(const struct bonds *b, struct particles *p, int64_t g)
+RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
-            const struct core c = core_of(b, p, &it.bond, i);
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+            const struct core c = bond_core_of(b, p, &it.bond, i);
             if (!(c.ratio < CORE_FROM)) continue;
             for (int d = 0; d < p->dim; d++) p->f[d][i] -= c.K * b->core * (CORE_FROM - c.ratio) * c.y[d] / c.distance;
         }
@@ -57,12 +58,12 @@ RARE void core_row_block(const struct bonds *b, struct particles *p, int64_t g)
 }
 
 /* Returns half the core energy of the bonds of row block g [J]; the other half belongs to the bonds' other rows. */
-RARE real core_row_block_energy(const struct bonds *b, const struct particles *p, int64_t g)
+RARE real row_block_core_energy(const struct bonds *b, const struct particles *p, int64_t g)
 {
     real sum = 0;
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
-            const struct core c = core_of(b, p, &it.bond, b->particle[row]);
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+            const struct core c = bond_core_of(b, p, &it.bond, b->particle[row]);
             if (!(c.ratio < CORE_FROM)) continue;
             sum += 0.25 * c.K / it.bond.inverse_length * b->core * square(CORE_FROM - c.ratio);
         }

@@ -31,17 +31,17 @@ struct bond_sums {
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
                                                         const struct column s, const int dim, const enum pd_model model)
 {
-    const lanes d0 = column_at(s, p->x[0]) - sum.x0;
-    const lanes d1 = dim > 1 ? column_at(s, p->x[1]) - sum.x1 : d0;
-    const lanes d2 = dim > 2 ? column_at(s, p->x[2]) - sum.x2 : d0;
+    const lanes d0 = column_gather_neighbours(s, p->x[0]) - sum.x0;
+    const lanes d1 = dim > 1 ? column_gather_neighbours(s, p->x[1]) - sum.x1 : d0;
+    const lanes d2 = dim > 2 ? column_gather_neighbours(s, p->x[2]) - sum.x2 : d0;
     lanes distance2 = d0 * d0 + TINY;
     if (dim > 1) distance2 += d1 * d1;
     if (dim > 2) distance2 += d2 * d2;
-    const lanes inverse = lanes_inverse_root(distance2), w = column_weight(s);
+    const lanes inverse = lanes_inverse_square_root(distance2), w = column_weight(s);
     const lanes stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
-    const lanes force = bond_law(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
-    sum.stretch = column_largest(s, sum.stretch, stretch);
-    sum.press = column_smallest(s, sum.press, stretch);
+    const lanes force = bonds_normalised_force(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
+    sum.stretch = column_max_intact(s, sum.stretch, stretch);
+    sum.press = column_min_intact(s, sum.press, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
     if (dim > 2) sum.f2 += force * d2;
@@ -56,23 +56,23 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
 {
     const int32_t *row = b->particle + g * LANES;
     const bool aligned = b->aligned[g];
-    const int rows = eight_at(g * LANES, b->rows);
+    const int rows = count_of_eight_below(g * LANES, b->rows);
     const int32_t own = aligned ? row[0] : -1;
-    const lanes zero = lanes_of(0), x0 = lanes_at(p->x[0], own, row);
+    const lanes zero = lanes_broadcast(0), x0 = lanes_load_or_gather(p->x[0], own, row);
     struct bond_sums sum = {x0,
-                            dim > 1 ? lanes_at(p->x[1], own, row) : x0,
-                            dim > 2 ? lanes_at(p->x[2], own, row) : x0,
+                            dim > 1 ? lanes_load_or_gather(p->x[1], own, row) : x0,
+                            dim > 2 ? lanes_load_or_gather(p->x[2], own, row) : x0,
                             zero,
                             zero,
                             zero,
-                            lanes_of(-1),
+                            lanes_broadcast(-1),
                             zero};
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    rows_store(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
-    if (dim > 1) rows_store(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
-    if (dim > 2) rows_store(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
+    row_block_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
+    if (dim > 1) row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
+    if (dim > 2) row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
     *pressed = lanes_any(sum.press < CORE_FROM - 1);
     return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
 }
@@ -84,7 +84,7 @@ static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct partic
 {
     bool pressed;
     const bool past = bond_force_row_block(b, p, g, dim, model, &pressed);
-    if (__builtin_expect(pressed, 0)) core_row_block(b, p, g);
+    if (__builtin_expect(pressed, 0)) row_block_add_core_forces(b, p, g);
     return past ? bond_break_row_block(b, p, limit, g) : 0;
 }
 

@@ -23,14 +23,15 @@ static inline real bond_stretch_earlier(const struct particles *p, real inverse_
 }
 
 /* Returns the stretch at which the bond i-j breaks [1]: critical stretch of its materials times its strength. */
-static inline real stretch_limit(const struct particles *p, const struct bond_limit *limit, int32_t i, int32_t j)
+static inline real bond_breaking_stretch(const struct particles *p, const struct bond_limit *limit, int32_t i,
+                                         int32_t j)
 {
-    return limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] * bond_strength(p, i, j);
+    return limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] * bond_strength_factor(p, i, j);
 }
 
 /* When a bond breaks within a time step: `lag`, the time before the present positions at which its stretch exceeded the
  * limit [s], and `share`, the fraction of its force that acts in the velocity update of this step [1]. */
-struct bond_last {
+struct bond_break_moment {
     real lag, share;
 };
 
@@ -54,34 +55,35 @@ struct bond_last {
  *
  * for a force linear in e. Both shares agree to first order in dt, so impulse and energy of breaking are of second
  * order. */
-static inline struct bond_last bond_last_of(const struct particles *p, const struct bond_limit *limit,
-                                            real inverse_length, real plastic, int32_t i, int32_t j)
+static inline struct bond_break_moment bond_break_moment_of(const struct particles *p, const struct bond_limit *limit,
+                                                            real inverse_length, real plastic, int32_t i, int32_t j)
 {
-    const real most = stretch_limit(p, limit, i, j);
+    const real most = bond_breaking_stretch(p, limit, i, j);
     const real now = bond_stretch_earlier(p, inverse_length, i, j, 0);
     const real before = bond_stretch_earlier(p, inverse_length, i, j, limit->dt);
     switch (limit->last_force) {
     case LAST_FORCE_HALF:
-        return (struct bond_last){0, 0.5};
+        return (struct bond_break_moment){0, 0.5};
     case LAST_FORCE_WHOLE:
-        return (struct bond_last){0, 1};
+        return (struct bond_break_moment){0, 1};
     case LAST_FORCE_NONE:
-        return (struct bond_last){0, 0};
+        return (struct bond_break_moment){0, 0};
     case LAST_FORCE_MOMENT:
         break;
     }
     if (!(before <= most && most < now))
-        return (struct bond_last){0, 0}; /* already beyond the limit when first evaluated */
+        return (struct bond_break_moment){0, 0}; /* already beyond the limit when first evaluated */
     const real lag = (now - most) / (now - before), part = most > plastic ? (most - plastic) / (now - plastic) : 0;
-    return (struct bond_last){lag * limit->dt, 0.5 - 0.5 * lag * (1 + part)};
+    return (struct bond_break_moment){lag * limit->dt, 0.5 - 0.5 * lag * (1 + part)};
 }
 
-/* Returns the result of bond_last_of for the stored bond with index q between the particles i and j, with its stored
- * inverse length and plastic stretch. */
-static inline struct bond_last bond_last_stored(const struct bonds *b, const struct particles *p,
-                                                const struct bond_limit *limit, int64_t q, int32_t i, int32_t j)
+/* Returns the result of bond_break_moment_of for the stored bond with index q between the particles i and j, with its
+ * stored inverse length and plastic stretch. */
+static inline struct bond_break_moment bond_break_moment_of_stored(const struct bonds *b, const struct particles *p,
+                                                                   const struct bond_limit *limit, int64_t q, int32_t i,
+                                                                   int32_t j)
 {
-    return bond_last_of(p, limit, b->inverse_length[q], b->plastic_stretch ? b->plastic_stretch[q] : 0, i, j);
+    return bond_break_moment_of(p, limit, b->inverse_length[q], b->plastic_stretch ? b->plastic_stretch[q] : 0, i, j);
 }
 
 #endif

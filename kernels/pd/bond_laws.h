@@ -17,12 +17,12 @@
  *
  * In monotonic loading this is the capped force of Zeng et al. 2021, eq. 18, which lacks elastic unloading. Returns the
  * elastic parts s - s_p of the eight stretches. */
-static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes stretch, lanes_mask intact)
+static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t q, lanes stretch, lanes_mask intact)
 {
     const lanes yield = lanes_gather(b->yield.stretch, b->pair + q);
     const lanes hardening = lanes_gather(b->yield.hardening, b->pair + q);
     lanes plastic = lanes_load(b->plastic_stretch + q), path = lanes_load(b->plastic_path + q);
-    const lanes trial = stretch - plastic, zero = lanes_of(0);
+    const lanes trial = stretch - plastic, zero = lanes_broadcast(0);
     const lanes size = lanes_choose(trial < zero, -trial, trial);
     lanes step = lanes_max(size - (yield + hardening * path), zero) / (1.0 + hardening);
     step = lanes_choose(intact, step, zero);
@@ -35,47 +35,50 @@ static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes s
 /* Returns the force of the eight bonds with indices q to q + 7, divided by stiffness and weight [1]. It equals the
  * stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), or its elastic part where bonds yield; the plastic
  * state of those is updated. stretch: total stretch; w: weights, 0 for broken bonds [1]. */
-static ALWAYS_INLINE lanes bond_law(const enum pd_model model, const struct bonds *b, int64_t q, lanes stretch, lanes w)
+static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, const struct bonds *b, int64_t q,
+                                                  lanes stretch, lanes w)
 {
-    return model == PD_BOND_PLASTIC ? bond_yields(b, q, stretch, w > 0.0) : stretch;
+    return model == PD_BOND_PLASTIC ? bonds_return_mapping(b, q, stretch, w > 0.0) : stretch;
 }
 
 /* Returns the elastic part of the stretch of the eight bonds with indices q to q + 7 [1]: the total stretch `stretch`
  * less the stored plastic stretch of models that yield. */
-static ALWAYS_INLINE lanes bond_elastic(const enum pd_model model, const struct bonds *b, int64_t q, lanes stretch)
+static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, const struct bonds *b, int64_t q,
+                                                 lanes stretch)
 {
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + q) : stretch;
 }
 
 /* Returns the elastic part of the stretch of the bond at entry q [1]. */
-static inline real bond_elastic_one(const struct bonds *b, int64_t q, real stretch)
+static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t q, real stretch)
 {
     return b->plastic_stretch ? stretch - b->plastic_stretch[q] : stretch;
 }
 
 /* Returns the elastic energy of eight bonds divided by stiffness, weight and reference length [1]. elastic: elastic
  * part of their stretches [1]. */
-static ALWAYS_INLINE lanes bond_law_energy(lanes elastic) { return 0.5 * elastic * elastic; }
+static ALWAYS_INLINE lanes bonds_normalised_energy(lanes elastic) { return 0.5 * elastic * elastic; }
 
 /* ---- one bond, for samples and frames ---------------------------------------------------------------------- */
 
 /* Returns the elastic part of the stretch of a bond in the row of particle i [1]. */
-static inline real bond_elastic_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
+static inline real bond_elastic_stretch_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                           int32_t i)
 {
     real distance2 = 0;
     for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][bond->nbr] - p->x[d][i]);
-    return bond_elastic_one(b, bond->entry, sqrt(distance2) * bond->inverse_length - 1);
+    return bond_entry_elastic_stretch(b, bond->entry, sqrt(distance2) * bond->inverse_length - 1);
 }
 
 /* Returns the force of a bond in the row of particle i [N], equal to the force kernel's; tension is positive. */
 static inline real bond_force_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
-    return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_of(b, p, bond, i);
+    return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_stretch_of(b, p, bond, i);
 }
 
 /* Stores the force of a bond on particle i as a vector in f[dim] [N]. */
-static inline void bond_pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i,
-                                   real *f)
+static inline void bond_force_vector(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                     int32_t i, real *f)
 {
     real distance2 = 0;
     for (int d = 0; d < p->dim; d++) f[d] = p->x[d][bond->nbr] - p->x[d][i], distance2 += square(f[d]);
@@ -87,11 +90,11 @@ static inline void bond_pair_force(const struct bonds *b, const struct particles
 static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     if (bond->w == 0) return 0;
-    return 0.5 * b->stiffness * bond->w * square(bond_elastic_of(b, p, bond, i)) / bond->inverse_length;
+    return 0.5 * b->stiffness * bond->w * square(bond_elastic_stretch_of(b, p, bond, i)) / bond->inverse_length;
 }
 
 /* Returns the plastic work of a bond [J]: closed form, since hardening is linear and the path only grows. */
-static inline real bond_work_of(const struct bonds *b, const struct bond *bond)
+static inline real bond_plastic_work_of(const struct bonds *b, const struct bond *bond)
 {
     const int64_t q = bond->entry;
     if (bond->w == 0 || b->plastic_path[q] == 0) return 0;

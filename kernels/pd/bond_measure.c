@@ -16,12 +16,12 @@
 static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *y, lanes *stretch, const int dim)
 {
-    lanes distance2 = lanes_of(TINY);
+    lanes distance2 = lanes_broadcast(TINY);
     for (int d = 0; d < dim; d++) {
-        y[d] = column_at(s, p->x[d]) - x[d];
+        y[d] = column_gather_neighbours(s, p->x[d]) - x[d];
         distance2 += y[d] * y[d];
     }
-    const lanes inverse = lanes_inverse_root(distance2);
+    const lanes inverse = lanes_inverse_square_root(distance2);
     *stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
     return inverse;
 }
@@ -33,11 +33,11 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
 {
     lanes y[DIM_MAX], stretch;
     bond_measure_store(s, p, x, y, &stretch, dim);
-    *press = column_smallest(s, *press, stretch);
+    *press = column_min_intact(s, *press, stretch);
     const lanes w = column_weight(s), inverse = column_inverse_length(s);
-    const lanes length = lanes_inverse_root(inverse * inverse); /* cheaper than a division */
-    const lanes elastic = bond_elastic(model, s.b, s.number * LANES, stretch);
-    return lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
+    const lanes length = lanes_inverse_square_root(inverse * inverse); /* cheaper than a division */
+    const lanes elastic = bonds_elastic_stretch(model, s.b, s.number * LANES, stretch);
+    return lanes_choose(w > 0.0, w * bonds_normalised_energy(elastic) * length, lanes_broadcast(0));
 }
 
 /* Returns half the elastic energy of the bonds of the particles in row block g (each bond belongs to two particles),
@@ -46,12 +46,12 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
                                                 const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    lanes sum = lanes_of(0), press = lanes_of(0), x[DIM_MAX];
-    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
+    lanes sum = lanes_broadcast(0), press = lanes_broadcast(0), x[DIM_MAX];
+    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
 #define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    real total = lanes_any(press < CORE_FROM - 1) ? core_row_block_energy(b, p, g) / (0.5 * b->stiffness) : 0;
+    real total = lanes_any(press < CORE_FROM - 1) ? row_block_core_energy(b, p, g) / (0.5 * b->stiffness) : 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     return total;
 }
@@ -63,7 +63,7 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
 {
     lanes y[DIM_MAX], stretch;
     const lanes inverse = bond_measure_store(s, p, x, y, &stretch, dim);
-    const lanes share = column_weight(s) * bond_elastic(model, s.b, s.number * LANES, stretch) * inverse;
+    const lanes share = column_weight(s) * bonds_elastic_stretch(model, s.b, s.number * LANES, stretch) * inverse;
     for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
     if (dim > 1) sum[dim] += share * y[0] * y[1];
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
@@ -76,8 +76,8 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
 {
     const int32_t *row = b->particle + g * LANES;
     lanes sum[SYM_MAX], x[DIM_MAX];
-    for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_of(0);
-    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
+    for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_broadcast(0);
+    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
 #define VISIT(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
@@ -89,14 +89,15 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
 real bond_row_plastic_work(const struct bonds *b, int64_t row)
 {
     real sum = b->plastic_work[row];
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) sum += 0.5 * bond_work_of(b, &it.bond);
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+        sum += 0.5 * bond_plastic_work_of(b, &it.bond);
     return sum;
 }
 
 real bond_row_plastic_path(const struct bonds *b, int64_t row)
 {
     real sum = 0, all = 0;
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         if (it.bond.w == 0) continue;
         const real weight = it.bond.w / it.bond.inverse_length;
         sum += weight * b->plastic_path[it.bond.entry], all += weight;

@@ -32,12 +32,12 @@ static ALWAYS_INLINE struct across across_of(const struct clamped *c, const stru
                                              const int dim)
 {
     struct across a = {.w = lanes_load(c->w + k), .inverse_length = lanes_load(c->inverse_length + k)};
-    lanes distance2 = lanes_of(STATE_TINY);
+    lanes distance2 = lanes_broadcast(STATE_TINY);
     for (int d = 0; d < dim; d++) {
         a.y[d] = lanes_gather(p->x[d], c->to + k) - lanes_gather(p->x[d], c->from + k);
         distance2 += a.y[d] * a.y[d];
     }
-    a.inverse = lanes_inverse_root(distance2);
+    a.inverse = lanes_inverse_square_root(distance2);
     a.stretch = STRETCH_OF(distance2 * a.inverse, a.inverse_length);
     return a;
 }
@@ -63,16 +63,17 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
     const struct clamped *c = &b->clamped;
     const struct state *t = &b->state;
     const struct across a = across_of(c, p, k, dim);
-    const lanes r = lanes_inverse_root(lanes_choose(a.w > 0.0, a.inverse_length * a.inverse_length, lanes_of(1)));
+    const lanes r =
+        lanes_inverse_square_root(lanes_choose(a.w > 0.0, a.inverse_length * a.inverse_length, lanes_broadcast(1)));
     const lanes spring = lanes_gather(t->spring, c->from + k);
     lanes along = r * lanes_gather(t->pressure, c->from + k), rotation[ROTATION], xi[DIM_MAX], effective[DIM_MAX];
     if (!rotates) along += r * a.stretch * spring;
     for (int d = 0; d < dim; d++) {
         xi[d] = lanes_gather(p->X[d], c->to + k) - lanes_gather(p->X[d], c->from + k);
-        effective[d] = rotates ? spring * (a.y[d] - xi[d]) : lanes_of(0);
+        effective[d] = rotates ? spring * (a.y[d] - xi[d]) : lanes_broadcast(0);
     }
     for (int e = 0; rotates && e < ROTATION; e++) rotation[e] = lanes_gather(t->rotation[e], c->from + k);
-    if (rotates) rotate_back(effective, rotation, xi, dim);
+    if (rotates) rotation_subtract_product(effective, rotation, xi, dim);
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }
 
@@ -116,9 +117,9 @@ static void reactions_last(const struct bonds *b, const struct particles *p, con
     for (int64_t k = 0; k < c->n; k++) {
         const struct bond bond = {c->entry[k], c->to[k], c->inverse_length[k], c->w[k]};
         if (bond.w == 0 || b->w[bond.entry] > 0) continue;
-        const real share = bond_last_stored(b, p, limit, bond.entry, c->from[k], bond.nbr).share;
+        const real share = bond_break_moment_of_stored(b, p, limit, bond.entry, c->from[k], bond.nbr).share;
         real f[DIM_MAX];
-        pair_force(b, p, &bond, c->from[k], false, f);
+        bond_force_of_any_model(b, p, &bond, c->from[k], false, f);
         for (int d = 0; d < p->dim; d++) c->reaction[d][k] = -share * (b->state.modulus ? 1 : 0.5) * f[d];
     }
 }

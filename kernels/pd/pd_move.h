@@ -8,20 +8,23 @@
 /* Returns a bit for each of the first n of eight listed particles, set if the particle is moved now: if it is not moved
  * by the grid and loaded[i] is 0. loaded: [particles] not 0 for particles that are moved later, after the loads are
  * applied; NULL: none. */
-static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t *list, int n, const uint8_t *loaded)
+static ALWAYS_INLINE unsigned pd_particles_to_move(const struct particles *p, const int32_t *list, int n,
+                                                   const uint8_t *loaded)
 {
     const int32_t first = list[0];
     unsigned bits = 0;
-    if (n == LANES && list_together(list) && eight_bytes(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
-        !(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_GRID_COUPLED)) && !(loaded && eight_bytes(loaded + first)))
+    if (n == LANES && list_is_consecutive(list) && load_eight_bytes(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
+        !(load_eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_GRID_COUPLED)) &&
+        !(loaded && load_eight_bytes(loaded + first)))
         return UINT8_MAX;
-    for (int l = 0; l < n; l++) bits |= (unsigned)(!particle_on_grid(p, list[l]) && !(loaded && loaded[list[l]])) << l;
+    for (int l = 0; l < n; l++)
+        bits |= (unsigned)(!particle_moves_with_nodes(p, list[l]) && !(loaded && loaded[list[l]])) << l;
     return bits;
 }
 
 /* Stores a[l] in to[list[l]] for those of the eight listed particles whose bit l is set in `movers`. together: true if
  * all bits are set and the particle numbers are consecutive. */
-static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together, unsigned movers, lanes a)
+static ALWAYS_INLINE void pd_store_selected(real *to, const int32_t *list, bool together, unsigned movers, lanes a)
 {
     if (together)
         lanes_store(to + list[0], a);
@@ -33,20 +36,20 @@ static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together,
 /* Advances eight listed particles by a leap-frog step, v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21). Only
  * the particles whose bit is set in `movers` are changed. together: true if all bits are set and the particle numbers
  * are consecutive. Returns true if one of the moved particles has diverged. */
-static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m,
-                                  const int dim, const bool together)
+static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *list, unsigned movers,
+                                           const struct pd_motion *m, const int dim, const bool together)
 {
     const int32_t first = together ? list[0] : -1;
-    const lanes inverse_mass = m->dt_velocity / lanes_at(p->mass, first, list);
-    lanes speed2 = lanes_of(0), place = lanes_of(0), v[DIM_MAX], x[DIM_MAX];
+    const lanes inverse_mass = m->dt_velocity / lanes_load_or_gather(p->mass, first, list);
+    lanes speed2 = lanes_broadcast(0), place = lanes_broadcast(0), v[DIM_MAX], x[DIM_MAX];
     for (int d = 0; d < dim; d++) {
-        v[d] = lanes_at(p->v[d], first, list) + lanes_at(p->f[d], first, list) * inverse_mass;
-        x[d] = lanes_at(p->x[d], first, list) + v[d] * m->dt;
-        speed2 += v[d] * v[d], place += lanes_size(x[d]);
+        v[d] = lanes_load_or_gather(p->v[d], first, list) + lanes_load_or_gather(p->f[d], first, list) * inverse_mass;
+        x[d] = lanes_load_or_gather(p->x[d], first, list) + v[d] * m->dt;
+        speed2 += v[d] * v[d], place += lanes_absolute(x[d]);
     }
     for (int d = 0; d < dim; d++) {
-        pd_store(p->v[d], list, together, movers, v[d]);
-        pd_store(p->x[d], list, together, movers, x[d]);
+        pd_store_selected(p->v[d], list, together, movers, v[d]);
+        pd_store_selected(p->x[d], list, together, movers, x[d]);
     }
     const lanes_mask diverged = has_diverged(speed2, place, square(m->fastest));
     bool any = together && lanes_any(diverged);
@@ -54,15 +57,15 @@ static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsi
     return any;
 }
 
-/* Advances those of the first n of eight listed particles that pd_movers selects by a leap-frog step. list: ascending,
- * aligned to 32 bytes; loaded: as in pd_movers. Returns true if one of them has diverged. */
+/* Advances those of the first n of eight listed particles that pd_particles_to_move selects by a leap-frog step. list:
+ * ascending, aligned to 32 bytes; loaded: as in pd_particles_to_move. Returns true if one of them has diverged. */
 static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
                                         const struct pd_motion *m, const int dim)
 {
-    const unsigned movers = pd_movers(p, list, n, loaded);
+    const unsigned movers = pd_particles_to_move(p, list, n, loaded);
     if (movers == 0) return false;
-    if (movers == UINT8_MAX && list_together(list)) return pd_step(p, list, movers, m, dim, true);
-    return pd_step(p, list, movers, m, dim, false);
+    if (movers == UINT8_MAX && list_is_consecutive(list)) return pd_leapfrog_step(p, list, movers, m, dim, true);
+    return pd_leapfrog_step(p, list, movers, m, dim, false);
 }
 
 #endif

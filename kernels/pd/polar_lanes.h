@@ -11,8 +11,8 @@
 static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
 {
     const lanes c = M[0] + M[3], s = M[2] - M[1], size2 = c * c + s * s;
-    const lanes inverse = lanes_inverse_root(size2 + POLAR_TINY);
-    R[0] = R[3] = lanes_choose(size2 > 0.0, c * inverse, lanes_of(1));
+    const lanes inverse = lanes_inverse_square_root(size2 + POLAR_TINY);
+    R[0] = R[3] = lanes_choose(size2 > 0.0, c * inverse, lanes_broadcast(1));
     R[2] = s * inverse;
     R[1] = -R[2];
 }
@@ -26,7 +26,7 @@ static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
                                R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
     const lanes determinant = R[0] * cofactor[0] + R[1] * cofactor[1] + R[2] * cofactor[2];
     *sound &= determinant > 1e-12;
-    const lanes half = lanes_choose(*sound, 0.5 / determinant, lanes_of(0));
+    const lanes half = lanes_choose(*sound, 0.5 / determinant, lanes_broadcast(0));
     for (int c = 0; c < 9; c++) R[c] = 0.5 * R[c] + cofactor[c] * half;
     return determinant;
 }
@@ -37,14 +37,14 @@ static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
  * halves it, so from 1e-8 the next excess is below round-off. */
 static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
 {
-    lanes size2 = lanes_of(POLAR_TINY);
+    lanes size2 = lanes_broadcast(POLAR_TINY);
     for (int c = 0; c < 9; c++) size2 += M[c] * M[c];
-    const lanes inverse = lanes_inverse_root(size2 * (1.0 / 3));
+    const lanes inverse = lanes_inverse_square_root(size2 * (1.0 / 3));
     lanes_mask sound = size2 > 2 * POLAR_TINY;
     for (int c = 0; c < 9; c++) R[c] = M[c] * inverse;
     for (int step = 0; step < 30; step++)
         if (!lanes_any(polar_step(R, &sound) > 1 + 1e-8) && step > 0) break;
-    for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_of(c % 4 == 0));
+    for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_broadcast(c % 4 == 0));
 }
 
 /* Computes the rotations R nearest to eight matrices M; dim: 2 or 3. */

@@ -17,7 +17,7 @@
 
 /* Computes the row of the matrix 4 (q, q0) (q, q0)^T with the largest diagonal entry, so that no division by a small
  * component follows (Shepperd 1978). Returns that diagonal entry. R: row major. */
-static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
+static ALWAYS_INLINE lanes quaternion_largest_row(const lanes *R, lanes *row)
 {
     const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};
     const lanes size[ROTATION] = {1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8], 1.0 - R[0] - R[4] + R[8],
@@ -36,20 +36,20 @@ static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
 
 /* Computes the stored numbers, rotation[ROTATION], of eight rotations R (row major) of particles whose families have
  * the spring stiffnesses `spring`, g [N/m]: in 2D g (R - 1), in 3D sqrt(2 g) times the unit quaternion of R. */
-static ALWAYS_INLINE void rotation_make(lanes *rotation, const lanes *R, lanes spring, const int dim)
+static ALWAYS_INLINE void rotation_encode(lanes *rotation, const lanes *R, lanes spring, const int dim)
 {
     if (dim == 2) {
         for (int c = 0; c < ROTATION; c++) rotation[c] = spring * (R[c] - (c % 3 == 0 ? 1.0 : 0.0));
         return;
     }
-    const lanes size = quaternion_row(R, rotation),
-                scale = spring * lanes_inverse_root(2.0 * spring * size + TURN_TINY);
+    const lanes size = quaternion_largest_row(R, rotation),
+                scale = spring * lanes_inverse_square_root(2.0 * spring * size + TURN_TINY);
     for (int c = 0; c < ROTATION; c++) rotation[c] *= scale;
 }
 
 /* Subtracts the product of the stored matrix g (R - 1) with the vector `arm` from the vector f, for eight particles. f,
- * arm: [dim]; rotation: numbers stored by rotation_make. In 2D the matrix is (a, -c; c, a). */
-static ALWAYS_INLINE void rotate_back(lanes *f, const lanes *rotation, const lanes *arm, const int dim)
+ * arm: [dim]; rotation: numbers stored by rotation_encode. In 2D the matrix is (a, -c; c, a). */
+static ALWAYS_INLINE void rotation_subtract_product(lanes *f, const lanes *rotation, const lanes *arm, const int dim)
 {
     if (dim == 2) {
         f[0] += rotation[2] * arm[1] - rotation[0] * arm[0];
@@ -67,13 +67,13 @@ static ALWAYS_INLINE void rotate_back(lanes *f, const lanes *rotation, const lan
     }
 }
 
-/* Returns true if rotate_back reads number c of a stored rotation, so that it must be loaded: in 3D all, in 2D numbers
- * 0 and 2. */
-static ALWAYS_INLINE bool rotation_reads(int c, const int dim) { return dim > 2 || c % 2 == 0; }
+/* Returns true if rotation_subtract_product reads number c of a stored rotation, so that it must be loaded: in 3D all,
+ * in 2D numbers 0 and 2. */
+static ALWAYS_INLINE bool rotation_number_is_read(int c, const int dim) { return dim > 2 || c % 2 == 0; }
 
 /* Returns true if number c of a stored rotation changes sign when the particle is reflected in a plane normal to `axis`
  * (-1: no plane). All components of a rotation vector change sign except the one along the normal. */
-static inline bool rotation_antisymmetric(int c, int axis, int dim)
+static inline bool rotation_number_changes_sign(int c, int axis, int dim)
 {
     return axis >= 0 && (dim == 2 ? c == 1 || c == 2 : c < 3 && c != axis);
 }

@@ -31,14 +31,14 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
                                             const enum pd_model model)
 {
     struct state_bond s;
-    state_bond_make(&s, p, column, x, X, dim, model);
-    const lanes w = column_weight(column), stretch = STRETCH_OF(lanes_root(s.distance2), s.inverse_length);
-    sum->stretch = column_largest(column, sum->stretch, stretch);
-    sum->press = column_smallest(column, sum->press, stretch);
-    sum->extension += state_weight(column, w, s.inverse_length, true) * stretch;
-    if (!state_rotates(model)) return;
+    state_bond_compute_vectors(&s, p, column, x, X, dim, model);
+    const lanes w = column_weight(column), stretch = STRETCH_OF(lanes_square_root(s.distance2), s.inverse_length);
+    sum->stretch = column_max_intact(column, sum->stretch, stretch);
+    sum->press = column_min_intact(column, sum->press, stretch);
+    sum->extension += state_weighted_length(column, w, s.inverse_length, true) * stretch;
+    if (!state_model_has_rotations(model)) return;
     for (int c = 0; c < dim; c++) {
-        const lanes weighted = column_weighted_reference(column, c, w, s.xi[c]);
+        const lanes weighted = column_weighted_vectors(column, c, w, s.xi[c]);
         const lanes_mask moved = (lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c];
         sum->moved |= column.kind >= COLUMN_WHOLE ? moved : moved & (w > 0.0); /* padding may point to any particle */
         for (int d = 0; d < dim; d++) sum->moment[d * dim + c] += weighted * s.y[d];
@@ -53,8 +53,8 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
 {
     lanes R[DIM_MAX * DIM_MAX];
     polar_rotation_lanes(moment, R, dim);
-    for (int c = 0; c < dim * dim; c++) R[c] = lanes_choose(moved != 0, R[c], lanes_of(c % (dim + 1) == 0));
-    rotation_make(rotation, R, spring, dim);
+    for (int c = 0; c < dim * dim; c++) R[c] = lanes_choose(moved != 0, R[c], lanes_broadcast(c % (dim + 1) == 0));
+    rotation_encode(rotation, R, spring, dim);
 }
 
 /* Moduli and weighted volumes Q of the families of eight particles; inverse and share are 0 for families without
@@ -71,11 +71,12 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
     const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
-    const lanes Q = lanes_load(b->state.weighted + g * LANES), inverse = lanes_choose(Q > 0.0, 1.0 / Q, lanes_of(0));
-    const lanes share = b->state.share > 0 ? lanes_choose(Q > 0.0, lanes_of(b->state.share), lanes_of(0))
-                                           : lanes_at(p->volume0, own, row) * inverse;
-    struct own_family f = {lanes_of(m->A), lanes_of(m->B), inverse, share};
-    if (own >= 0 && eight_same(p->material + own)) return f;
+    const lanes Q = lanes_load(b->state.weighted + g * LANES),
+                inverse = lanes_choose(Q > 0.0, 1.0 / Q, lanes_broadcast(0));
+    const lanes share = b->state.share > 0 ? lanes_choose(Q > 0.0, lanes_broadcast(b->state.share), lanes_broadcast(0))
+                                           : lanes_load_or_gather(p->volume0, own, row) * inverse;
+    struct own_family f = {lanes_broadcast(m->A), lanes_broadcast(m->B), inverse, share};
+    if (own >= 0 && eight_bytes_are_equal(p->material + own)) return f;
     for (int l = 0; l < LANES; l++) m = &b->state.modulus[p->material[row[l]]], f.A[l] = m->A, f.B[l] = m->B;
     return f;
 }
@@ -90,12 +91,12 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
                                            const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    const int rows = eight_at(g * LANES, b->rows);
+    const int rows = count_of_eight_below(g * LANES, b->rows);
     struct state *t = &b->state;
-    rows_store(t->pressure, row, rows, b->aligned[g], k->pressure);
-    rows_store(t->spring, row, rows, b->aligned[g], k->spring);
-    for (int c = 0; state_rotates(model) && c < ROTATION; c++)
-        rows_store(t->rotation[c], row, rows, b->aligned[g], k->rotation[c]);
+    row_block_store_values(t->pressure, row, rows, b->aligned[g], k->pressure);
+    row_block_store_values(t->spring, row, rows, b->aligned[g], k->spring);
+    for (int c = 0; state_model_has_rotations(model) && c < ROTATION; c++)
+        row_block_store_values(t->rotation[c], row, rows, b->aligned[g], k->rotation[c]);
 }
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
@@ -114,14 +115,15 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
 static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *row, int32_t own, lanes spring,
                                       const bool back, lanes *rotation, const int dim)
 {
-    const lanes scale = dim == 2 ? spring : lanes_root(2.0 * spring), axis = back ? -scale : scale;
+    const lanes scale = dim == 2 ? spring : lanes_square_root(2.0 * spring), axis = back ? -scale : scale;
     if (dim == 2) {
-        rotation[0] = rotation[3] = scale * lanes_at(p->end_rotation[0], own, row);
-        rotation[2] = axis * lanes_at(p->end_rotation[1], own, row);
+        rotation[0] = rotation[3] = scale * lanes_load_or_gather(p->end_rotation[0], own, row);
+        rotation[2] = axis * lanes_load_or_gather(p->end_rotation[1], own, row);
         rotation[1] = -rotation[2];
         return;
     }
-    for (int c = 0; c < ROTATION; c++) rotation[c] = (c < 3 ? axis : scale) * lanes_at(p->end_rotation[c], own, row);
+    for (int c = 0; c < ROTATION; c++)
+        rotation[c] = (c < 3 ? axis : scale) * lanes_load_or_gather(p->end_rotation[c], own, row);
 }
 
 /* Stores in particles.end_moment the moment of the bonds about those of eight material points that are set in the mask
@@ -131,20 +133,21 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)
 {
-    lanes N[DIM_MAX][DIM_MAX], rotation[ROTATION], turned = lanes_of(0);
+    lanes N[DIM_MAX][DIM_MAX], rotation[ROTATION], turned = lanes_broadcast(0);
     ends_rotate(p, row, own, spring, true, rotation, dim);
-    for (int c = 0; c < ROTATION; c++) turned += dim == 2 || c < 3 ? rotation[c] * rotation[c] : lanes_of(0);
+    for (int c = 0; c < ROTATION; c++) turned += dim == 2 || c < 3 ? rotation[c] * rotation[c] : lanes_broadcast(0);
     for (int c = 0; c < dim;
          c++) { /* N = g R^T M column by column: g times the column plus g (R^T - 1) times the column */
         lanes less[DIM_MAX], column[DIM_MAX];
-        for (int d = 0; d < dim; d++) column[d] = sum->moment[d * dim + c], less[d] = lanes_of(0);
-        rotate_back(less, rotation, column, dim);
+        for (int d = 0; d < dim; d++) column[d] = sum->moment[d * dim + c], less[d] = lanes_broadcast(0);
+        rotation_subtract_product(less, rotation, column, dim);
         for (int d = 0; d < dim; d++) N[d][c] = spring * column[d] - less[d];
     }
     const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0)); /* exactly zero where nothing has moved */
     for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        rows_store(p->end_moment[c], row, rows, own >= 0, lanes_choose(any, N[j][i] - N[i][j], lanes_of(0)));
+        row_block_store_values(p->end_moment[c], row, rows, own >= 0,
+                               lanes_choose(any, N[j][i] - N[i][j], lanes_broadcast(0)));
     }
 }
 
@@ -157,11 +160,12 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 {
     const lanes_mask end = ends_of(b, p, g);
     const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
-    const int rows = eight_at(g * LANES, b->rows);
-    k->pressure += f->A * f->share * lanes_choose(end, lanes_at(p->end_strain, own, row), lanes_of(0));
-    const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_of(0));
-    rows_store(p->end_pull, row, rows, own >= 0, pull);
-    if (!state_rotates(model)) return;
+    const int rows = count_of_eight_below(g * LANES, b->rows);
+    k->pressure +=
+        f->A * f->share * lanes_choose(end, lanes_load_or_gather(p->end_strain, own, row), lanes_broadcast(0));
+    const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_broadcast(0));
+    row_block_store_values(p->end_pull, row, rows, own >= 0, pull);
+    if (!state_model_has_rotations(model)) return;
     lanes rotation[ROTATION];
     ends_rotate(p, row, own, k->spring, false, rotation, dim);
     for (int c = 0; c < ROTATION; c++) k->rotation[c] = lanes_choose(end, rotation[c], k->rotation[c]);
@@ -178,8 +182,8 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     const struct own_family f = own_family_of(b, p, g);
     struct family_state k;
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
-    if (state_rotates(model)) family_rotation(k.rotation, sum->moment, sum->moved, k.spring, dim);
-    if (__builtin_expect(p->end_strain && !row_block_whole(b, g), 0)) {
+    if (state_model_has_rotations(model)) family_rotation(k.rotation, sum->moment, sum->moved, k.spring, dim);
+    if (__builtin_expect(p->end_strain && !row_block_is_complete(b, g), 0)) {
         const struct family_sums seen =
             *sum; /* copies for a function that is not inlined: the originals stay in registers */
         const struct own_family own = f;
@@ -200,12 +204,12 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     const int32_t own = b->aligned[g] ? row[0] : -1;
     lanes x[DIM_MAX], X[DIM_MAX];
     struct family_sums sum;
-    sum.extension = lanes_of(0), sum.stretch = lanes_of(-1), sum.press = lanes_of(0);
-    sum.moved = (lanes_mask)lanes_of(0);
-    for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_of(0);
+    sum.extension = lanes_broadcast(0), sum.stretch = lanes_broadcast(-1), sum.press = lanes_broadcast(0);
+    sum.moved = (lanes_mask)lanes_broadcast(0);
+    for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) {
-        x[d] = lanes_at(p->x[d], own, row);
-        if (state_rotates(model)) X[d] = lanes_at(p->X[d], own, row);
+        x[d] = lanes_load_or_gather(p->x[d], own, row);
+        if (state_model_has_rotations(model)) X[d] = lanes_load_or_gather(p->X[d], own, row);
     }
 #define VISIT(COLUMN) precompute_column(&sum, p, COLUMN, x, X, dim, model)
     FOR_COLUMNS(b, g, VISIT);
@@ -213,7 +217,7 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
     b->state.pressed[g] = lanes_any(sum.press < CORE_FROM - 1);
     precompute_by_family(b, p, g, &sum, dim, model);
-    if (b->state.past[g]) state_last(b, p, limit, g);
+    if (b->state.past[g]) state_blend_breaking_rows(b, p, limit, g);
 }
 
 /* Sets the states of mirror images to those of their sources, with rotations reflected at planes of symmetry. Images in
@@ -227,9 +231,9 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
         b->state.pressure[g] = has_state ? b->state.pressure[i] : 0;
         b->state.spring[g] = has_state ? b->state.spring[i] : 0;
         for (int c = 0; rotates && c < ROTATION; c++)
-            b->state.rotation[c][g] = !has_state                             ? 0
-                                      : rotation_antisymmetric(c, axis, dim) ? -b->state.rotation[c][i]
-                                                                             : b->state.rotation[c][i];
+            b->state.rotation[c][g] = !has_state                                   ? 0
+                                      : rotation_number_changes_sign(c, axis, dim) ? -b->state.rotation[c][i]
+                                                                                   : b->state.rotation[c][i];
     }
 }
 
@@ -250,27 +254,28 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
 {
     const struct state *t = &column.b->state;
     struct state_bond s;
-    state_bond_make(&s, p, column, sum->x, sum->X, dim, model);
-    const lanes inverse = lanes_inverse_root(s.distance2);
+    state_bond_compute_vectors(&s, p, column, sum->x, sum->X, dim, model);
+    const lanes inverse = lanes_inverse_square_root(s.distance2);
     const lanes w = column_weight(column);
-    const lanes pressure = sum->pressure + column_at(column, t->pressure);
-    const lanes spring = sum->spring + column_at(column, t->spring);
-    if (!state_rotates(model)) {
-        const lanes share = SHARE_OF(state_length(column, s.inverse_length), inverse);
+    const lanes pressure = sum->pressure + column_gather_neighbours(column, t->pressure);
+    const lanes spring = sum->spring + column_gather_neighbours(column, t->spring);
+    if (!state_model_has_rotations(model)) {
+        const lanes share = SHARE_OF(state_reference_length(column, s.inverse_length), inverse);
         const lanes along = w * (pressure + (spring - pressure) * share);
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
         return;
     }
-    const lanes along = state_weight(column, w, s.inverse_length, false) * pressure * inverse, weighted = w * spring;
+    const lanes along = state_weighted_length(column, w, s.inverse_length, false) * pressure * inverse,
+                weighted = w * spring;
     lanes rotation[ROTATION], arm[DIM_MAX], f[DIM_MAX];
     for (int c = 0; c < ROTATION; c++)
-        if (rotation_reads(c, dim)) rotation[c] = column_at(column, t->rotation[c]);
+        if (rotation_number_is_read(c, dim)) rotation[c] = column_gather_neighbours(column, t->rotation[c]);
     for (int d = 0; d < dim; d++) {
-        arm[d] = column_weighted_reference(column, d, w, s.xi[d]);
+        arm[d] = column_weighted_vectors(column, d, w, s.xi[d]);
         sum->arm[d] += arm[d];
         f[d] = along * s.y[d] + weighted * (s.y[d] - s.xi[d]);
     }
-    rotate_back(f, rotation, arm, dim);
+    rotation_subtract_product(f, rotation, arm, dim);
     for (int d = 0; d < dim; d++)
         sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
@@ -282,23 +287,23 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    const int rows = eight_at(g * LANES, b->rows);
+    const int rows = count_of_eight_below(g * LANES, b->rows);
     const struct state *t = &b->state;
     struct state_sums sum;
-    sum.pressure = lanes_at(t->pressure, own, row), sum.spring = lanes_at(t->spring, own, row);
+    sum.pressure = lanes_load_or_gather(t->pressure, own, row), sum.spring = lanes_load_or_gather(t->spring, own, row);
     for (int d = 0; d < dim; d++) {
-        sum.x[d] = lanes_at(p->x[d], own, row), sum.f[d] = sum.arm[d] = lanes_of(0);
-        if (state_rotates(model)) sum.X[d] = lanes_at(p->X[d], own, row);
+        sum.x[d] = lanes_load_or_gather(p->x[d], own, row), sum.f[d] = sum.arm[d] = lanes_broadcast(0);
+        if (state_model_has_rotations(model)) sum.X[d] = lanes_load_or_gather(p->X[d], own, row);
     }
 #define VISIT(COLUMN) force_column(&sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    if (state_rotates(model)) {
+    if (state_model_has_rotations(model)) {
         lanes rotation[ROTATION];
-        for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_at(t->rotation[c], own, row);
-        rotate_back(sum.f, rotation, sum.arm, dim);
+        for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_load_or_gather(t->rotation[c], own, row);
+        rotation_subtract_product(sum.f, rotation, sum.arm, dim);
     }
-    for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d]);
+    for (int d = 0; d < dim; d++) row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
 /* Computes the forces on the particles of row block g, repulsive cores included, and breaks its bonds beyond their
@@ -307,7 +312,7 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
                                              int64_t g, const int dim, const enum pd_model model)
 {
     force_row_block(b, p, g, dim, model);
-    if (__builtin_expect(b->state.pressed[g], 0)) core_row_block(b, p, g);
+    if (__builtin_expect(b->state.pressed[g], 0)) row_block_add_core_forces(b, p, g);
     if (!b->state.past[g]) return 0;
     return bond_break_row_block(b, p, limit, g);
 }
@@ -317,7 +322,7 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
     {                                                                                                                  \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < b->active.active; k++)                    \
             precompute_row_block(b, p, limit, b->active.list[k], D, PD_##M);                                           \
-        state_of_images(b, p, D, state_rotates(PD_##M));                                                               \
+        state_of_images(b, p, D, state_model_has_rotations(PD_##M));                                                   \
     }                                                                                                                  \
     static void state_precompute_##D##d_##M(struct bonds *b, struct particles *p)                                      \
     {                                                                                                                  \
@@ -335,4 +340,4 @@ STATE_VARIANTS(INSTANCE)
 bond_force_fn *const state_force_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(ENTRY)};
 
 #define PRECOMPUTE(D, M) [D][PD_##M] = state_precompute_##D##d_##M,
-state_precompute_fn *const state_precompute_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(PRECOMPUTE)};
+family_states_precompute_fn *const state_precompute_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(PRECOMPUTE)};

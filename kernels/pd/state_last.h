@@ -23,18 +23,18 @@ struct family_left {
 
 /* Computes the sums over those bonds of a row (all bonds of one particle) that stay below their limit, counts the
  * breaking bonds in `ended`, and averages their fraction of the force in `share`. */
-static inline struct family_left family_left_of(const struct bonds *b, const struct particles *p,
-                                                const struct bond_limit *limit, int64_t row)
+static inline struct family_left family_sums_without_breaking(const struct bonds *b, const struct particles *p,
+                                                              const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];
     struct family_left left = {0};
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const int32_t j = it.bond.nbr;
         const real w = it.bond.w, inverse = it.bond.inverse_length;
         if (w == 0) continue;
         const real stretch = bond_stretch_earlier(p, inverse, i, j, 0);
-        if (stretch > stretch_limit(p, limit, i, j)) {
-            left.share += bond_last_of(p, limit, inverse, 0, i, j).share;
+        if (stretch > bond_breaking_stretch(p, limit, i, j)) {
+            left.share += bond_break_moment_of(p, limit, inverse, 0, i, j).share;
             left.ended++;
             continue;
         }
@@ -49,54 +49,54 @@ static inline struct family_left family_left_of(const struct bonds *b, const str
 
 /* Replaces *value by share * *value + (1 - share) * left, the mixture of the values with and without the breaking
  * bonds. */
-static inline void state_mix(real *value, real left, real share) { *value = share * *value + (1 - share) * left; }
+static inline void state_blend(real *value, real left, real share) { *value = share * *value + (1 - share) * left; }
 
-/* Replaces the stored rotation of particle i by the mixture (state_mix) of the rotation with and without its breaking
+/* Replaces the stored rotation of particle i by the mixture (state_blend) of the rotation with and without its breaking
  * bonds. left: sums over its remaining bonds; spring: spring stiffness g of its family without the breaking bonds
  * [N/m]. */
-static inline void rotation_mix(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
+static inline void rotation_blend(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
     lanes eight[DIM_MAX * DIM_MAX] = {{0}}, kept[ROTATION]; /* eight equal lanes */
     polar_rotation(left->moment, R, dim);
-    for (int c = 0; c < dim * dim; c++) eight[c] = lanes_of(R[c]);
-    rotation_make(kept, eight, lanes_of(spring), dim);
+    for (int c = 0; c < dim * dim; c++) eight[c] = lanes_broadcast(R[c]);
+    rotation_encode(kept, eight, lanes_broadcast(spring), dim);
     for (int c = 0; c < ROTATION; c++) along += t->rotation[c][i] * kept[c][0];
     const real sign = dim == 3 && along < 0 ? -1 : 1; /* a quaternion and its negative are one rotation */
-    for (int c = 0; c < ROTATION; c++) state_mix(&t->rotation[c][i], sign * kept[c][0], left->share);
+    for (int c = 0; c < ROTATION; c++) state_blend(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* Replaces pressure, spring stiffness and rotation of the particle of a row by the mixture (state_mix) of the states
+/* Replaces pressure, spring stiffness and rotation of the particle of a row by the mixture (state_blend) of the states
  * with and without its breaking bonds. Does nothing if none of its bonds breaks, and for material points, to whose
  * state their cells contribute. */
-static inline void state_mix_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                                 int64_t row)
+static inline void state_blend_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                   int64_t row)
 {
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
     if (p->kind[i] != KIND_PD) return;
-    const struct family_left left = family_left_of(b, p, limit, row);
+    const struct family_left left = family_sums_without_breaking(b, p, limit, row);
     if (left.ended == 0) return;
     const real Q = b->state.local && b->whole[row] ? left.weighted : b->state.weighted[row];
     const real share = b->state.share > 0 ? b->state.share : Q > 0 ? p->volume0[i] / Q : 0;
     const real inverse = Q > 0 ? 1 / Q : 0, spring = m->B * share;
-    state_mix(&b->state.pressure[i], m->A * left.extension * inverse * share, left.share);
-    if (b->state.rotation[0]) rotation_mix(&b->state, i, &left, spring, p->dim);
-    state_mix(&b->state.spring[i], spring, left.share);
+    state_blend(&b->state.pressure[i], m->A * left.extension * inverse * share, left.share);
+    if (b->state.rotation[0]) rotation_blend(&b->state, i, &left, spring, p->dim);
+    state_blend(&b->state.spring[i], spring, left.share);
 }
 
 /* Copies the states of the particles of a row block (rows of eight particles), in which bonds exceed their limit, to
  * state.before; the breaking bonds use them. Then replaces the states in b->state by the mixtures that the remaining
  * bonds use in this step. */
-static inline void state_last(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                              int64_t row_block)
+static inline void state_blend_breaking_rows(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                             int64_t row_block)
 {
     struct state *t = &b->state;
     for (int64_t row = row_block * LANES; row < row_block * LANES + LANES && row < b->rows; row++) {
         const int32_t i = b->particle[row];
         t->before[0][i] = t->pressure[i], t->before[1][i] = t->spring[i];
         for (int c = 0; c < ROTATION && t->rotation[c]; c++) t->before[2 + c][i] = t->rotation[c][i];
-        if (limit->last_force == LAST_FORCE_MOMENT) state_mix_row(b, p, limit, row);
+        if (limit->last_force == LAST_FORCE_MOMENT) state_blend_row(b, p, limit, row);
     }
 }
 
@@ -106,14 +106,14 @@ static inline void state_last(struct bonds *b, const struct particles *p, const 
  * stiffness, from 2 on the stored rotation. For a mirror image it is the state of its source, reflected as in
  * state_of_images: the bond from the source to the image of the other particle breaks in the same step and must use
  * equal numbers. */
-static inline real state_before(const struct bonds *b, const struct particles *p, int c, int64_t i)
+static inline real state_before_breaking(const struct bonds *b, const struct particles *p, int c, int64_t i)
 {
     const struct state *t = &b->state;
     real sign = 1;
     for (; i >= p->n; i = t->image[i - p->n].source) {
         const int axis = t->image[i - p->n].axis;
         if (axis < 0) return 0;
-        if (c >= 2 && rotation_antisymmetric(c - 2, axis, p->dim)) sign = -sign;
+        if (c >= 2 && rotation_number_changes_sign(c - 2, axis, p->dim)) sign = -sign;
     }
     const int64_t row = b->row_of[i];
     if (row >= 0 && t->past[row / LANES]) return sign * t->before[c][i];
@@ -122,7 +122,7 @@ static inline real state_before(const struct bonds *b, const struct particles *p
 
 /* Computes the force of a state-based bond on particle i, f[dim] [N], from the states of both particles. now: true for
  * their present states, false for the states before bonds broke in this step. */
-static inline void state_pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
+static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool now, real *f, const int dim)
 {
     const struct state *t = &b->state;
@@ -134,15 +134,15 @@ static inline void state_pair_force(const struct bonds *b, const struct particle
     for (int d = 0; d < dim; d++) {
         y[d] = p->x[d][j] - p->x[d][i], xi[d] = p->X[d][j] - p->X[d][i];
         y2 += square(y[d]);
-        turned[d] = lanes_of(0), arm[d] = lanes_of(xi[d]);
+        turned[d] = lanes_broadcast(0), arm[d] = lanes_broadcast(xi[d]);
     }
     for (int end = 0; end < 2; end++) {
         lanes rotation[ROTATION];
-        pressure += now ? t->pressure[at[end]] : state_before(b, p, 0, at[end]);
-        spring += now ? t->spring[at[end]] : state_before(b, p, 1, at[end]);
+        pressure += now ? t->pressure[at[end]] : state_before_breaking(b, p, 0, at[end]);
+        spring += now ? t->spring[at[end]] : state_before_breaking(b, p, 1, at[end]);
         for (int c = 0; rotates && c < ROTATION; c++)
-            rotation[c] = lanes_of(now ? t->rotation[c][at[end]] : state_before(b, p, 2 + c, at[end]));
-        if (rotates) rotate_back(turned, rotation, arm, dim);
+            rotation[c] = lanes_broadcast(now ? t->rotation[c][at[end]] : state_before_breaking(b, p, 2 + c, at[end]));
+        if (rotates) rotation_subtract_product(turned, rotation, arm, dim);
     }
     const real length = sqrt(y2), along = r * pressure + (rotates ? 0 : (length - r) * spring);
     for (int d = 0; d < dim; d++)
@@ -152,15 +152,15 @@ static inline void state_pair_force(const struct bonds *b, const struct particle
 /* Computes the force of a bond on particle i of its row, f[dim] [N], in a bond-based or state-based model. now, for
  * state-based models: true for the present states of both particles, false for the states before bonds broke in this
  * step. */
-static inline void pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i,
-                              bool now, real *f)
+static inline void bond_force_of_any_model(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                           int32_t i, bool now, real *f)
 {
     if (!b->state.modulus)
-        bond_pair_force(b, p, bond, i, f);
+        bond_force_vector(b, p, bond, i, f);
     else if (p->dim == 2)
-        state_pair_force(b, p, bond, i, now, f, 2);
+        state_bond_force(b, p, bond, i, now, f, 2);
     else
-        state_pair_force(b, p, bond, i, now, f, 3);
+        state_bond_force(b, p, bond, i, now, f, 3);
 }
 
 #endif

@@ -40,18 +40,19 @@ struct state_bond {
 };
 
 /* Returns true if the model has rotations of the particles. */
-static ALWAYS_INLINE bool state_rotates(const enum pd_model model) { return model == PD_MOSPD; }
+static ALWAYS_INLINE bool state_model_has_rotations(const enum pd_model model) { return model == PD_MOSPD; }
 
 /* Computes vectors and lengths of the eight bonds of a column. x, X: [dim] present and reference positions of the
  * particles of the row block [m]; X is read only in models with rotations. */
-static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct particles *p, const struct column column,
-                                          const lanes *x, const lanes *X, const int dim, const enum pd_model model)
+static ALWAYS_INLINE void state_bond_compute_vectors(struct state_bond *s, const struct particles *p,
+                                                     const struct column column, const lanes *x, const lanes *X,
+                                                     const int dim, const enum pd_model model)
 {
-    s->distance2 = lanes_of(STATE_TINY);
+    s->distance2 = lanes_broadcast(STATE_TINY);
     for (int d = 0; d < dim; d++) {
-        s->y[d] = column_at(column, p->x[d]) - x[d];
+        s->y[d] = column_gather_neighbours(column, p->x[d]) - x[d];
         s->distance2 += s->y[d] * s->y[d];
-        if (state_rotates(model)) s->xi[d] = column_reference(column, p, d, X[d]);
+        if (state_model_has_rotations(model)) s->xi[d] = column_reference_vectors(column, p, d, X[d]);
     }
     s->inverse_length = column_inverse_length(column);
 }
@@ -59,21 +60,22 @@ static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct par
 /* Returns weight times reference length, w |xi| [m], of the eight bonds of column s, or w |xi|^2 [m^2] if `square` is
  * true. On a lattice |xi| is the exact length of the lattice shell, without the round-off of positions. w,
  * inverse_length: weights and inverse lengths of the bonds. */
-static ALWAYS_INLINE lanes state_weight(const struct column s, lanes w, lanes inverse_length, const bool square)
+static ALWAYS_INLINE lanes state_weighted_length(const struct column s, lanes w, lanes inverse_length,
+                                                 const bool square)
 {
-    if (s.kind >= COLUMN_WHOLE) return lanes_of(square ? s.stencil->squared : s.stencil->weighted);
+    if (s.kind >= COLUMN_WHOLE) return lanes_broadcast(square ? s.stencil->squared : s.stencil->weighted);
     const struct bond_length *known = &s.b->shell_length[s.stencil ? s.stencil->shell : s.b->common[s.number].shell];
     if (s.kind) return w * (square ? known->square : known->length);
-    const lanes r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);
-    return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));
+    const lanes r = lanes_inverse_square_root(inverse_length * inverse_length + STATE_TINY);
+    return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_broadcast(0));
 }
 
 /* Returns the reference lengths |xi| of the eight bonds of column s from their inverses [m], so that |xi|/|Y| is 1 up
  * to round-off where nothing has moved. Lengths of broken bonds may be negative. */
-static ALWAYS_INLINE lanes state_length(const struct column s, lanes inverse_length)
+static ALWAYS_INLINE lanes state_reference_length(const struct column s, lanes inverse_length)
 {
-    if (s.stencil) return lanes_of(s.stencil->length);
-    return 1.0 / (s.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_of(1)));
+    if (s.stencil) return lanes_broadcast(s.stencil->length);
+    return 1.0 / (s.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_broadcast(1)));
 }
 
 /* Computes the extension of a bond over its present length, e/|Y| = 1 - |xi|/|Y|, rounded as in STRETCH_OF

@@ -27,9 +27,10 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
     const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
     const struct state *t = &b->state;
     struct own_state s;
-    s.pressure = lanes_at(t->pressure, own, row), s.spring = lanes_at(t->spring, own, row);
-    for (int d = 0; d < dim; d++) s.x[d] = lanes_at(p->x[d], own, row), s.X[d] = lanes_at(p->X[d], own, row);
-    for (int c = 0; rotates && c < ROTATION; c++) s.rotation[c] = lanes_at(t->rotation[c], own, row);
+    s.pressure = lanes_load_or_gather(t->pressure, own, row), s.spring = lanes_load_or_gather(t->spring, own, row);
+    for (int d = 0; d < dim; d++)
+        s.x[d] = lanes_load_or_gather(p->x[d], own, row), s.X[d] = lanes_load_or_gather(p->X[d], own, row);
+    for (int c = 0; rotates && c < ROTATION; c++) s.rotation[c] = lanes_load_or_gather(t->rotation[c], own, row);
     return s;
 }
 
@@ -41,25 +42,27 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
                                             const bool rotates)
 {
     const lanes w = column_weight(column), inverse_length = column_inverse_length(column);
-    const lanes r = lanes_inverse_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_of(1)));
-    lanes xi[DIM_MAX], effective[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
+    const lanes r =
+        lanes_inverse_square_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_broadcast(1)));
+    lanes xi[DIM_MAX], effective[DIM_MAX], distance2 = lanes_broadcast(STATE_TINY), effective2 = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) {
-        y[d] = column_at(column, p->x[d]) - s->x[d], xi[d] = column_reference(column, p, d, s->X[d]);
+        y[d] = column_gather_neighbours(column, p->x[d]) - s->x[d],
+        xi[d] = column_reference_vectors(column, p, d, s->X[d]);
         distance2 += y[d] * y[d];
     }
-    const lanes inverse = lanes_inverse_root(distance2);
-    const lanes e = r * STRETCH_OF(distance2 * inverse, lanes_size(inverse_length));
+    const lanes inverse = lanes_inverse_square_root(distance2);
+    const lanes e = r * STRETCH_OF(distance2 * inverse, lanes_absolute(inverse_length));
     lanes along = r * s->pressure;
     if (!rotates) along += e * s->spring;
     lanes energy = along * e;
     for (int d = 0; d < dim; d++) T[d] = along * y[d] * inverse;
     for (int d = 0; d < dim; d++) effective[d] = s->spring * (y[d] - xi[d]);
-    if (rotates) rotate_back(effective, s->rotation, xi, dim);
+    if (rotates) rotation_subtract_product(effective, s->rotation, xi, dim);
     for (int d = 0; rotates && d < dim; d++) T[d] += effective[d], effective2 += effective[d] * effective[d];
     /* w last: a weight of exactly one leaves the sums unchanged */
     for (int d = 0; d < dim; d++) T[d] = w * T[d];
     if (rotates) energy += effective2 / s->spring;
-    return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_of(0));
+    return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_broadcast(0));
 }
 
 /* Returns the elastic energy of the families of the particles of row block g, repulsive cores included [J]; 0 if the
@@ -68,10 +71,10 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
                                            const enum pd_model model)
 {
     if (b->active.level[g] == 0) return 0;
-    const struct own_state s = own_state_of(b, p, g, dim, state_rotates(model));
-    lanes sum = lanes_of(0), T[DIM_MAX], y[DIM_MAX];
-    real total = b->state.pressed[g] ? core_row_block_energy(b, p, g) : 0;
-#define VISIT(COLUMN) sum += own_force_column(&s, COLUMN, p, T, y, dim, state_rotates(model))
+    const struct own_state s = own_state_of(b, p, g, dim, state_model_has_rotations(model));
+    lanes sum = lanes_broadcast(0), T[DIM_MAX], y[DIM_MAX];
+    real total = b->state.pressed[g] ? row_block_core_energy(b, p, g) : 0;
+#define VISIT(COLUMN) sum += own_force_column(&s, COLUMN, p, T, y, dim, state_model_has_rotations(model))
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
@@ -84,7 +87,7 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
     lanes T[DIM_MAX], y[DIM_MAX];
-    own_force_column(s, column, p, T, y, dim, state_rotates(model));
+    own_force_column(s, column, p, T, y, dim, state_model_has_rotations(model));
     for (int d = 0; d < dim; d++) sum[d] += T[d] * y[d];
     if (dim > 1) sum[dim] += 0.5 * (T[0] * y[1] + T[1] * y[0]);
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
@@ -94,10 +97,10 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
-    const struct own_state s = own_state_of(b, p, g, dim, state_rotates(model));
+    const struct own_state s = own_state_of(b, p, g, dim, state_model_has_rotations(model));
     const int32_t *row = b->particle + g * LANES;
     lanes sum[SYM_MAX];
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) sum[c] = lanes_of(0);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) sum[c] = lanes_broadcast(0);
 #define VISIT(COLUMN) stress_column(sum, &s, COLUMN, p, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
@@ -147,7 +150,7 @@ static void end_rotation(const struct particles *p, int32_t i, real *R)
                               p->end_rotation[3][i]};
     for (int c = 0; c < 3; c++) {
         real column[3] = {c == 0, c == 1, c == 2};
-        rotate_by(q, column);
+        quaternion_rotate_vector(q, column);
         for (int a = 0; a < 3; a++) R[3 * a + c] = column[a];
     }
 }
@@ -161,7 +164,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
     const int dim = p->dim;
     real M[DIM_MAX * DIM_MAX] = {0}, R[DIM_MAX * DIM_MAX], sum = 0;
     for (int pass = 0; pass < 2; pass++) {
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             const int32_t j = it.bond.nbr;
             const real w = it.bond.w;
             if (w == 0) continue;
@@ -183,7 +186,7 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
     real Q = 0, S = 0, e2 = 0;
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const real w = it.bond.w, r = fabs(1 / it.bond.inverse_length);
         real y2 = 0;
         if (w == 0) continue;

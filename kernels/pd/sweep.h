@@ -11,7 +11,7 @@
 #include "pd_move.h"
 
 enum {
-    PIECE = 64,       /* row blocks between two calls of sweep_follow */
+    PIECE = 64,       /* row blocks between two calls of sweep_move_finished_rows */
     AHEAD = 16,       /* prefetch distance in row blocks: about a microsecond */
     FETCHED = 1 << 15 /* smallest number of row blocks for prefetching (smaller bodies fit in caches): saves 15 % of a
                          step there, costs 2 % below */
@@ -28,7 +28,7 @@ struct sweep {
 
 /* Returns the part of the list of active row blocks that the calling thread processes, divided as by
  * schedule(static). */
-static ALWAYS_INLINE struct sweep sweep_make(const struct bonds *b)
+static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
 {
     const int64_t threads = omp_get_num_threads(), t = omp_get_thread_num(), all = b->active.active;
     const int64_t each = all / threads, more = all % threads;
@@ -42,18 +42,19 @@ static ALWAYS_INLINE struct sweep sweep_make(const struct bonds *b)
 
 /* Advances the particles of the k-th active row block in time by a leap-frog step, and sets s->diverged if one has
  * diverged. */
-static ALWAYS_INLINE void sweep_move(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
-                                     const struct pd_motion *m, const int dim)
+static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
+                                               const struct pd_motion *m, const int dim)
 {
     const int64_t g = s->row_block[k];
-    s->diverged |= pd_move_eight(p, b->particle + g * LANES, eight_at(g * LANES, b->rows), m->loaded, m, dim);
+    s->diverged |=
+        pd_move_eight(p, b->particle + g * LANES, count_of_eight_below(g * LANES, b->rows), m->loaded, m, dim);
 }
 
 /* Prefetches what the loop needs next after the k-th active row block: forces and breaking limits AHEAD row blocks
  * further on, positions of the farthest neighbours there, and mass and velocities of the row block that is moved next.
  * Hardware prefetching follows consecutive lines within a page, but not a dozen arrays. */
-static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds *b, const struct particles *p,
-                                      int64_t k, const int dim)
+static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bonds *b, const struct particles *p,
+                                         int64_t k, const int dim)
 {
     const int64_t next = s->next + k % PIECE;
     if (b->row_blocks < FETCHED || k + AHEAD >= s->end || next >= s->end) return;
@@ -71,20 +72,20 @@ static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds 
 
 /* Advances the particles of those row blocks (rows of bonds of eight particles) in time whose positions no later row of
  * this thread reads. The forces of the k-th active row block and of all before it must be complete. */
-static ALWAYS_INLINE void sweep_follow(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
-                                       const struct pd_motion *m, const int dim)
+static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct bonds *b, struct particles *p,
+                                                   int64_t k, const struct pd_motion *m, const int dim)
 {
     const int64_t until = k + 1 < s->all ? s->row_block[k + 1] - b->reach : INT64_MAX;
-    for (; s->next <= k && s->row_block[s->next] < until; s->next++) sweep_move(s, b, p, s->next, m, dim);
+    for (; s->next <= k && s->row_block[s->next] < until; s->next++) sweep_move_row_block(s, b, p, s->next, m, dim);
 }
 
 /* Advances the particles of the remaining row blocks of this thread in time: the first ones, whose positions rows of
  * the previous thread may read, and the last ones. To be called when all threads have finished their forces. */
-static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, struct particles *p,
-                                       const struct pd_motion *m, const int dim)
+static ALWAYS_INLINE void sweep_move_remaining_rows(struct sweep *s, const struct bonds *b, struct particles *p,
+                                                    const struct pd_motion *m, const int dim)
 {
-    for (int64_t k = s->first; k < s->early; k++) sweep_move(s, b, p, k, m, dim);
-    for (; s->next < s->end; s->next++) sweep_move(s, b, p, s->next, m, dim);
+    for (int64_t k = s->first; k < s->early; k++) sweep_move_row_block(s, b, p, k, m, dim);
+    for (; s->next < s->end; s->next++) sweep_move_row_block(s, b, p, s->next, m, dim);
 }
 
 /* Defines the body of a force kernel, with the return statement: a parallel loop over the active row blocks of B.
@@ -95,18 +96,18 @@ static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, s
     int64_t broken = 0, diverged = 0;                                                                                  \
     _Pragma("omp parallel reduction(+ : broken, diverged)")                                                            \
     {                                                                                                                  \
-        struct sweep s = sweep_make(B);                                                                                \
+        struct sweep s = sweep_of_thread(B);                                                                           \
         for (int64_t k = s.first; k < s.end; k++) {                                                                    \
             const int64_t row_block = s.row_block[k];                                                                  \
-            if (M) sweep_fetch(&s, B, P, k, D);                                                                        \
+            if (M) sweep_prefetch(&s, B, P, k, D);                                                                     \
             broken += FORCE;                                                                                           \
-            if (M && k % PIECE == 0) sweep_follow(&s, B, P, k, M, D);                                                  \
+            if (M && k % PIECE == 0) sweep_move_finished_rows(&s, B, P, k, M, D);                                      \
         }                                                                                                              \
         if (M) {                                                                                                       \
             if (omp_get_num_threads() > 1) {                                                                           \
                 _Pragma("omp barrier")                                                                                 \
             }                                                                                                          \
-            sweep_finish(&s, B, P, M, D);                                                                              \
+            sweep_move_remaining_rows(&s, B, P, M, D);                                                                 \
             diverged += s.diverged;                                                                                    \
         }                                                                                                              \
     }                                                                                                                  \

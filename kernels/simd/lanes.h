@@ -25,7 +25,7 @@ static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (cons
 static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to = a; }
 
 /* Returns a vector whose eight entries are a. */
-static ALWAYS_INLINE lanes lanes_of(real a) { return (lanes){a, a, a, a, a, a, a, a}; }
+static ALWAYS_INLINE lanes lanes_broadcast(real a) { return (lanes){a, a, a, a, a, a, a, a}; }
 
 /* Returns a vector whose lane l (entry) is from[index[l]]. index: eight numbers, aligned to 32 bytes. */
 static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
@@ -39,20 +39,21 @@ static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 }
 
 /* Returns a pointer to eight entries of a list of n from the k-th on. At the end of the list the remaining ones are
- * copied to `room` and filled up with entry k, so that fewer than eight never count as consecutive (list_together). */
-static ALWAYS_INLINE const int32_t *list_eight(const int32_t *list, int64_t k, int64_t n, int32_t room[LANES])
+ * copied to `padded` and filled up with entry k, so that fewer than eight never count as consecutive
+ * (list_is_consecutive). */
+static ALWAYS_INLINE const int32_t *list_eight_entries(const int32_t *list, int64_t k, int64_t n, int32_t padded[LANES])
 {
     if (k + LANES <= n) return list + k;
-    for (int l = 0; l < LANES; l++) room[l] = list[k + l < n ? k + l : k];
-    return room;
+    for (int l = 0; l < LANES; l++) padded[l] = list[k + l < n ? k + l : k];
+    return padded;
 }
 
 /* Returns true if the eight entries list[0 .. 7] are consecutive numbers. The entries must be strictly ascending, or
- * copies of list[0] may follow the ascending ones, as list_eight fills them up. */
-static ALWAYS_INLINE bool list_together(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
+ * copies of list[0] may follow the ascending ones, as list_eight_entries fills them up. */
+static ALWAYS_INLINE bool list_is_consecutive(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
 
 /* Loads eight values of `from`: consecutive from `first` on, or, if first < 0, at index[0 .. 7]. */
-static ALWAYS_INLINE lanes lanes_at(const real *from, int32_t first, const int32_t *index)
+static ALWAYS_INLINE lanes lanes_load_or_gather(const real *from, int32_t first, const int32_t *index)
 {
     return first >= 0 ? lanes_load(from + first) : lanes_gather(from, index);
 }
@@ -97,58 +98,58 @@ static ALWAYS_INLINE lanes lanes_min(lanes a, lanes b)
 }
 
 /* Returns |a|. */
-static ALWAYS_INLINE lanes lanes_size(lanes a)
+static ALWAYS_INLINE lanes lanes_absolute(lanes a)
 {
     const lanes_mask digits = (lanes_mask){0} + INT64_MAX;
     return (lanes)((lanes_mask)a & digits);
 }
 
 /* Returns the mask of the lanes whose bit is set. */
-static ALWAYS_INLINE lanes_mask lanes_of_bits(uint8_t bits)
+static ALWAYS_INLINE lanes_mask lanes_mask_from_bits(uint8_t bits)
 {
     const uint64_t a = bits;
     return (lanes_mask) - (-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
 }
 
 /* Returns a in lanes whose bit is set, else 0. */
-static ALWAYS_INLINE lanes lanes_keep(uint8_t bits, lanes a)
+static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_maskz_mov_pd(bits, (__m512d)a);
 #else
-    return (lanes)(lanes_of_bits(bits) & (lanes_mask)a);
+    return (lanes)(lanes_mask_from_bits(bits) & (lanes_mask)a);
 #endif
 }
 
 /* Returns the larger of a and b in lanes whose bit is set, else a. */
-static ALWAYS_INLINE lanes lanes_max_kept(uint8_t bits, lanes a, lanes b)
+static ALWAYS_INLINE lanes lanes_max_selected(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_mask_max_pd((__m512d)a, bits, (__m512d)a, (__m512d)b);
 #else
-    return lanes_choose(lanes_of_bits(bits) & lanes_negative(a - b), b, a);
+    return lanes_choose(lanes_mask_from_bits(bits) & lanes_negative(a - b), b, a);
 #endif
 }
 
 /* Returns the smaller of a and b in lanes whose bit is set, else a. */
-static ALWAYS_INLINE lanes lanes_min_kept(uint8_t bits, lanes a, lanes b)
+static ALWAYS_INLINE lanes lanes_min_selected(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_mask_min_pd((__m512d)a, bits, (__m512d)a, (__m512d)b);
 #else
-    return lanes_choose(lanes_of_bits(bits) & lanes_negative(b - a), b, a);
+    return lanes_choose(lanes_mask_from_bits(bits) & lanes_negative(b - a), b, a);
 #endif
 }
 
 /* Returns a plus units[l] units in the last place in lane l; units: aligned to 16 bytes. */
-static ALWAYS_INLINE lanes lanes_excess(real a, const int16_t *units)
+static ALWAYS_INLINE lanes lanes_add_ulps(real a, const int16_t *units)
 {
 #ifdef __AVX512F__
     const lanes_mask more = (lanes_mask)_mm512_cvtepi16_epi64(_mm_load_si128((const __m128i *)units));
 #else
     const lanes_mask more = __builtin_convertvector(*(const lanes_units *)units, lanes_mask);
 #endif
-    return (lanes)((lanes_mask)lanes_of(a) + more);
+    return (lanes)((lanes_mask)lanes_broadcast(a) + more);
 }
 
 /* Returns true if any lane of the mask is set. */
@@ -168,7 +169,7 @@ static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
 /* Estimates 1/sqrt(a). Without AVX-512: halving the exponent and mantissa bits and subtracting from a constant is
  * accurate to 3.5 % for normal numbers (the constant minimises the largest error); one step of the series below leaves
  * 6e-6. */
-static ALWAYS_INLINE lanes lanes_estimate(lanes a)
+static ALWAYS_INLINE lanes lanes_estimate_inverse_root(lanes a)
 {
 #ifdef __AVX512F__
     return (lanes)_mm512_rsqrt14_pd((__m512d)a);
@@ -181,17 +182,17 @@ static ALWAYS_INLINE lanes lanes_estimate(lanes a)
 /* Returns 1/sqrt(a) of normal numbers to full double precision, from an estimate y of 14 bits: with c = 1 - a y^2 below
  * 2^-13 the series y (1 + c/2 + 3c^2/8 + 5c^3/16) leaves 35 c^4/128 < 2^-53. Takes a third of the time of a root and a
  * division, and is shorter than two Newton steps. */
-static ALWAYS_INLINE lanes lanes_inverse_root(lanes a)
+static ALWAYS_INLINE lanes lanes_inverse_square_root(lanes a)
 {
-    const lanes y = lanes_estimate(a), c = 1.0 - (a * y) * y;
+    const lanes y = lanes_estimate_inverse_root(a), c = 1.0 - (a * y) * y;
     return y + (y * c) * (0.5 + c * (0.375 + c * 0.3125));
 }
 
 /* Returns sqrt(a) in each lane (entry of the vector), for normal numbers to full double precision, by the series of
- * lanes_inverse_root. */
-static ALWAYS_INLINE lanes lanes_root(lanes a)
+ * lanes_inverse_square_root. */
+static ALWAYS_INLINE lanes lanes_square_root(lanes a)
 {
-    const lanes y = lanes_estimate(a), root = a * y, c = 1.0 - root * y;
+    const lanes y = lanes_estimate_inverse_root(a), root = a * y, c = 1.0 - root * y;
     return root + (root * c) * (0.5 + c * (0.375 + c * 0.3125));
 }
 
@@ -199,14 +200,14 @@ static ALWAYS_INLINE lanes lanes_root(lanes a)
 
 /* Returns sqrt(a) in each lane (entry of the vector), by the square root of the C library: with vectors of two doubles
  * this is as fast as the series used for wider vectors. */
-static ALWAYS_INLINE lanes lanes_root(lanes a)
+static ALWAYS_INLINE lanes lanes_square_root(lanes a)
 {
     lanes y;
     for (int l = 0; l < LANES; l++) y[l] = sqrt(a[l]);
     return y;
 }
 
-static ALWAYS_INLINE lanes lanes_inverse_root(lanes a) { return 1.0 / lanes_root(a); }
+static ALWAYS_INLINE lanes lanes_inverse_square_root(lanes a) { return 1.0 / lanes_square_root(a); }
 
 #endif
 

@@ -82,7 +82,7 @@ static void say_contact_cost(const struct run *e, const struct cost *c)
 {
     const struct run_clock *clock = &e->clock;
     const double shorter = clock->dt / (e->scene->safety * clock->dt_critical);
-    if (scene_in_steps(e->scene) || !(c->contact > 0) || e->contact->rows == 0) return;
+    if (scene_has_load_steps(e->scene) || !(c->contact > 0) || e->contact->rows == 0) return;
     printf("contact        %lld of %lld particles are near a face; about %.1f %% of the time of the first steps",
            (long long)e->contact->rows, (long long)e->part.n, 1e2 * c->contact);
     if (e->scene->time_step == 0 && shorter < 0.999)
@@ -124,9 +124,9 @@ static void say_notches(const struct run *e)
 
 static void say_time_step(const struct run *e)
 {
-    if (scene_in_steps(e->scene))
+    if (scene_has_load_steps(e->scene))
         print_load_steps(e);
-    else if (scene_at_rest(e->scene))
+    else if (scene_is_single_equilibrium(e->scene))
         printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld steps\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
     else
@@ -168,9 +168,9 @@ static void say_cost_at_rest(const struct run *e, const struct cost *c, int thre
 static void say_cost(const struct run *e, const struct cost *c, int threads)
 {
     const char *many = threads > 1 ? "s" : "";
-    if (scene_in_steps(e->scene))
+    if (scene_has_load_steps(e->scene))
         print_load_steps_cost(e, c, threads);
-    else if (scene_at_rest(e->scene))
+    else if (scene_is_single_equilibrium(e->scene))
         say_cost_at_rest(e, c, threads);
     else {
         const bool grows = c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE;
@@ -201,7 +201,7 @@ static void say_materials(const struct run *e)
 {
     for (int m = 0; m < e->scene->materials; m++) {
         const struct material *a = &e->scene->material[m];
-        const bool in_steps = scene_in_steps(e->scene);
+        const bool in_steps = scene_has_load_steps(e->scene);
         if (in_steps)
             printf("material       %s: Young's modulus %.4g Pa", a->name, a->young);
         else
@@ -317,7 +317,7 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
     struct warnings hints = {0}, found = {0};
     int remarks = 0;
     s->active_set = false; /* cost with the whole body active */
-    engine_say_size(s);
+    engine_announce_long_set_up(s);
     status result = engine_make(&e, s, NULL);
     const double made = thread_cpu_clock() - start;
     if (result == OK) {

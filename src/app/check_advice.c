@@ -56,7 +56,7 @@ static real mirrored_edge(const struct scene *scene, const struct bond_source *s
 real solid_smallest_edge(const struct run *e, const struct solid *a)
 {
     real least = INFINITY;
-    for (int d = 0; d < e->scene->dim && solid_is(a, SOLID_BOX); d++)
+    for (int d = 0; d < e->scene->dim && solid_is_unmoved_of_kind(a, SOLID_BOX); d++)
         least = real_min(least, mirrored_edge(e->scene, &e->source, a, d));
     return real_min(least, solid_least_thickness(a, e->scene->dim));
 }
@@ -119,7 +119,7 @@ static void advise_features(const struct run *e, FILE *out)
             "accuracy       body %s: a part of %.4g m is %.3g horizons (%.3g spacings) thick; below %d horizons most "
             "particles lack neighbours beyond a face: use a spacing of %s",
             s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
-            length_in_words(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
+            length_with_unit(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
         fprintf(out, "\n");
     }
@@ -129,7 +129,7 @@ static void advise_features(const struct run *e, FILE *out)
  * of the end [m]. */
 static bool is_tip(const struct fracture_state *fracture, const real *end)
 {
-    const struct tips *t = &fracture->tips;
+    const struct crack_tips *t = &fracture->tips;
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack && arrays_equal(t->tip[k].origin, end, t->dim, sizeof *end)) return true;
     return false;
@@ -234,13 +234,13 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
     fprintf(out,
             " change%s within the time in which a wave travels %.3g spacings; waves shorter than %d spacings disperse: "
             "use a spacing of %s or a slower load\n",
-            more ? "" : "s", length, WAVE, length_in_words(s->spacing * length / WAVE, 2, s->spacing).text);
+            more ? "" : "s", length, WAVE, length_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 
 /* Writes a line for loads and pulses shorter than WAVE spacings. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
-    for (int b = 0; b < s->boundaries && scene_moves(s); b++) advise_rise(s, tables, b, out);
+    for (int b = 0; b < s->boundaries && scene_is_dynamic(s); b++) advise_rise(s, tables, b, out);
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_pulse && s->initial[k].pulse.width < WAVE * s->spacing)
             fprintf(
@@ -248,7 +248,7 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                 "accuracy       an initial pulse is %.3g spacings wide; below %d spacings it disperses: use a spacing "
                 "of %s\n",
                 s->initial[k].pulse.width / s->spacing, WAVE,
-                length_in_words(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
+                length_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
 /* Writes a line for bodies that collide so fast that oscillations behind the wave front can break or yield them. */
@@ -279,9 +279,9 @@ static int body_of(const struct scene *scene, const struct particles *part, int3
 }
 
 /* Counts the bonds near one end (0 or 1) of a crack that the crack cuts if it is longer by 1e-7 of its length, but
- * not if it is shorter by as much. Considers pairs of particles of one body within the horizon. found[room]: work
+ * not if it is shorter by as much. Considers pairs of particles of one body within the horizon. found[capacity]: work
  * array for the particles near the end. */
-static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int room)
+static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int capacity)
 {
     const struct particles *p = &e->part;
     real corner[2][2][DIM_MAX], hair[DIM_MAX];
@@ -291,12 +291,12 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     for (int d = 0; d < p->dim; d++) hair[d] = 1e-7 * (c->corner[end][d] - c->corner[!end][d]);
     for (int d = 0; d < p->dim; d++) corner[0][end][d] += hair[d], corner[1][end][d] -= hair[d];
     int64_t tied = 0;
-    const int n = cells_find_near(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, room);
+    const int n = cells_find_near(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, capacity);
     for (int k = 0; k < n; k++)
         for (int m = 0; m < k; m++) {
             real a[DIM_MAX], b[DIM_MAX], r2 = 0;
-            particle_place(p, found[k], a);
-            particle_place(p, found[m], b);
+            particle_reference_position(p, found[k], a);
+            particle_reference_position(p, found[m], b);
             for (int d = 0; d < p->dim; d++) r2 += square(a[d] - b[d]);
             if (body_of(e->scene, &e->part, found[k]) != body_of(e->scene, &e->part, found[m])) continue;
             if (r2 > square(e->source.family.cutoff)) continue;
@@ -312,7 +312,7 @@ static void hint_ties(const struct run *e, struct warnings *to)
     int32_t found[ROOM];
     for (int k = 0; k < e->scene->cracks && e->part.dim == 2 && e->scene->method != METHOD_MPM; k++) {
         int64_t tied[2];
-        if (cells_most_neighbours(&e->cells, e->source.family.cutoff) > ROOM) return;
+        if (cells_neighbour_count_bound(&e->cells, e->source.family.cutoff) > ROOM) return;
         for (int end = 0; end < 2; end++) tied[end] = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
         const bool both = tied[0] > 0 && tied[1] > 0;
         if (tied[0] > 0 || tied[1] > 0)
@@ -354,7 +354,7 @@ static void advise_separation(const struct run *e, FILE *out)
     const struct scene *s = e->scene;
     for (int d = 0; d < s->dim && s->method == METHOD_MPM && e->part.n_free > 0; d++) {
         real low, high;
-        particles_extent(&e->part, e->part.n, d, &low, &high);
+        particles_coordinate_range(&e->part, e->part.n, d, &low, &high);
         real stretch = 1;
         for (int m = 1; m <= PULL_MOMENTS; m++) {
             const real t = s->duration * m / PULL_MOMENTS;
@@ -376,7 +376,7 @@ static void advise_separation(const struct run *e, FILE *out)
 /* Adds a hint if a state-based model has the Poisson's ratio of the bond-based model. */
 static void hint_model(const struct scene *s, struct warnings *to)
 {
-    const real wanted = material_bond_poisson(s->space);
+    const real wanted = bond_based_poisson_ratio(s->space);
     if (s->model == MODEL_BOND || s->dim == 1) return;
     for (int m = 0; m < s->materials; m++)
         if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
@@ -425,8 +425,8 @@ static void hint_frame(const struct run *e, struct warnings *to)
         for (int m = 0; m < e->scene->materials; m++)
             if (scene_body_has_material(&e->scene->body[b], m))
                 strain = real_max(strain, reached / e->scene->material[m].young);
-        if (e->frame->choice[b].reference || scene_frame_not_default(e->scene, b)) continue;
-        if (!frame_allowed(e->frame, &e->part, e->grid)) continue;
+        if (e->frame->choice[b].reference || scene_why_frame_not_default(e->scene, b)) continue;
+        if (!reference_frame_is_possible(e->frame, &e->part, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
         warnings_add(
             to,
@@ -452,7 +452,7 @@ static void hint_method(const struct run *e, struct warnings *to)
     const struct scene *s = e->scene;
     const char *method = s->method == METHOD_PD ? "pd" : "adaptive";
     real weakest = INFINITY;
-    if (s->method == METHOD_MPM || !scene_moves(s) || has_notch(s)) return;
+    if (s->method == METHOD_MPM || !scene_is_dynamic(s) || has_notch(s)) return;
     if (s->bodies > 1 || s->rigids > 0) return;
     for (int m = 0; m < s->materials; m++)
         weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);

@@ -88,8 +88,8 @@ static double time_contact(struct run *e)
     int n = 0;
     while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
         const double start = thread_cpu_clock();
-        contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step, e->contact->broken,
-                       e->contact->changed);
+        contact_update_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                            e->contact->broken, e->contact->changed);
         contact_force(e->contact, &e->part, 0);
         all += spent[n++] = thread_cpu_clock() - start;
     }
@@ -125,7 +125,7 @@ static double all_steps(struct run *e)
         if (engine_step(e) != OK || stability_check(e) != OK || report_step(e) != OK) return NAN;
         if (thread_cpu_clock() - start > PATIENCE * SECONDS_WHOLE || wall_clock() - began > WALL_MOST) return NAN;
     }
-    return engine_run_baseline(e) == OK ? thread_cpu_clock() - start : NAN;
+    return engine_run_mpm_baseline(e) == OK ? thread_cpu_clock() - start : NAN;
 }
 
 /* Runs the scene with one additional override (none if key is NULL) and returns the processor time of all its steps
@@ -267,7 +267,7 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
     const int known = e->warnings.n;
     c->all_peridynamic = NAN;
     e->warnings.silent = true;
-    if (scene_in_steps(e->scene)) {
+    if (scene_has_load_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* one checkpoint after each load step */
         const status result = cost_load_steps(c, e);
         warnings_append_from(&c->found, &e->warnings, known);
@@ -275,8 +275,9 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
         c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
         return OK;
     }
-    if (scene_at_rest(e->scene)) {
-        /* conjugate gradients use central differences of forces: two evaluations per iteration (solver_tangent) */
+    if (scene_is_single_equilibrium(e->scene)) {
+        /* conjugate gradients use central differences of forces: two evaluations per iteration
+         * (static_body_tangent_product) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
         c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
         return OK;

@@ -151,7 +151,7 @@ static real share_within_cell(const struct cover *c, const struct piece *p, int6
     return (real)inside / PLACES;
 }
 
-bool cover_make(struct cover *c, const struct piece *p)
+bool piece_cover_make(struct cover *c, const struct piece *p)
 {
     const struct scene *s = p->scene;
     const bool dear = p->material == ANY_MATERIAL && is_dear(&s->body[p->body].shape);
@@ -180,7 +180,7 @@ bool cover_make(struct cover *c, const struct piece *p)
     return true;
 }
 
-void cover_free(struct cover *c)
+void piece_cover_free(struct cover *c)
 {
     memory_free(c->filled);
     memory_free(c->share);

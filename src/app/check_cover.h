@@ -28,11 +28,11 @@ struct cover {
 
 /* Computes the cells of a piece. Returns false, with nothing to release, for bodies in 1D or from a list, for
  * unbounded pieces, and for more cells than can be computed quickly. */
-bool cover_make(struct cover *c, const struct piece *piece);
+bool piece_cover_make(struct cover *c, const struct piece *piece);
 
 /* Writes the indices of a cell along the axes to at[DIM_MAX]. */
 void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *at);
 
-void cover_free(struct cover *c);
+void piece_cover_free(struct cover *c);
 
 #endif

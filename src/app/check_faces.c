@@ -35,7 +35,7 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
 
 /* Creates the grid of column heights. Returns false if the columns are too scattered for a table. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
-                      const struct face *f)
+                      const struct exposed_face *f)
 {
     const real spacing = scene->spacing;
     real all = 1, high[DIM_MAX - 1], faces = 0;
@@ -57,7 +57,7 @@ static bool ends_make(struct ends *c, const struct particles *p, const struct sc
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];
         if (!(f->normal[i] > 0)) continue;
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         c->height[place_of(c, X, spacing)] = b->side * X[b->face] / spacing;
     }
     return true;
@@ -82,7 +82,7 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
 {
     const struct region *shape = &scene->body[part->body[i]].shape;
     real X[DIM_MAX], normal[DIM_MAX] = {0}, slope2 = 0;
-    particle_place(part, i, X);
+    particle_reference_position(part, i, X);
     if (!c->height) {
         X[b->face] += 0.5 * b->side * scene->spacing;
         region_distance(shape, X, part->dim, normal);
@@ -96,7 +96,8 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
  * the area of those where the surface is inclined to the axis. from: coordinate along the axis, outward positive [m];
  * -INFINITY includes all. */
 static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
-                                       const struct boundary *b, const struct face *f, const struct ends *c, real from)
+                                       const struct boundary *b, const struct exposed_face *f, const struct ends *c,
+                                       real from)
 {
     struct elsewhere w = {.aligned = INFINITY, .last = -INFINITY};
     for (int64_t i = 0; i < part->n; i++) {
@@ -115,8 +116,8 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
 /* Returns a coordinate along the axis, outward positive [m]: if the region of the load begins there, it excludes
  * nearly all of the inclined part of the face. Returns INFINITY if no such coordinate is found. all: sums over the
  * whole face. */
-static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct face *f, const struct ends *c,
-                          const struct elsewhere *all)
+static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct exposed_face *f,
+                          const struct ends *c, const struct elsewhere *all)
 {
     for (int k = 0; k < 2 && isfinite(all->aligned); k++) {
         const real from = k == 0 ? all->aligned : all->last;
@@ -147,15 +148,15 @@ void print_face_off_axis(const struct run *e, const struct boundary *b)
     struct elsewhere w = {0};
     struct ends c = {0};
     real cut = INFINITY;
-    struct face f;
+    struct exposed_face f;
     if (s->dim == 1 || !(s->spacing > 0)) return;
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
-    load_mark_region(b, &e->part, s->spacing, selected);
-    face_make(&f, b, &e->part, selected, s->spacing, false);
+    load_mark_particles_in_region(b, &e->part, s->spacing, selected);
+    exposed_face_make(&f, b, &e->part, selected, s->spacing, false);
     if (has_normals(s, b) || ends_make(&c, &e->part, e->scene, b, &f))
         w = elsewhere_from(&e->part, e->scene, b, &f, &c, -INFINITY), cut = elsewhere_cut(e, b, &f, &c, &w);
     memory_free(c.height);
-    face_free(&f);
+    exposed_face_free(&f);
     memory_free(selected);
     if (!(w.other > SHARE_LEAST * w.area)) return;
     printf(

@@ -113,7 +113,7 @@ static double body_layers(const struct run *e, int body, double most)
     return (double)thin < SHARE_LEAST * (double)all ? INFINITY : half;
 }
 
-double count_thin_layers(const struct run *e, int body, double most)
+double count_thin_layers(const struct run *e, int body, double max_layers)
 {
     const struct scene *s = e->scene;
     real least = INFINITY;
@@ -121,8 +121,8 @@ double count_thin_layers(const struct run *e, int body, double most)
     for (int b = 0; b < s->bodies; b++) known = known && (b == body || s->body[b].joined != body);
     if (s->body[body].joined != body) return INFINITY;
     if (known) least = solid_smallest_edge(e, &s->body[body].shape.solid[0]) / s->spacing;
-    if (isfinite(least)) return least < most ? least : INFINITY;
-    return body_layers(e, body, real_min(0.5 * most, RUNS_MOST - 1));
+    if (isfinite(least)) return least < max_layers ? least : INFINITY;
+    return body_layers(e, body, real_min(0.5 * max_layers, RUNS_MOST - 1));
 }
 
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */

@@ -31,7 +31,7 @@ static int layers_at(const struct run *e, int64_t i)
         int layers = 1;
         for (int side = -1; side <= 1; side += 2) {
             real X[DIM_MAX];
-            particle_place(p, i, X);
+            particle_reference_position(p, i, X);
             for (int k = 1; k < LAYERS_MOST && layers < LAYERS_MOST; k++, layers++) {
                 X[d] += side * spacing;
                 if (!body_at(e, p->body[i], X)) break;

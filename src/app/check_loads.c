@@ -78,7 +78,7 @@ static struct instant instant_of(const struct load *l, const struct particles *p
     const struct boundary *b = l->boundary;
     real most;
     if (b->frozen) return (struct instant){duration, "at the end"};
-    if (boundary_in_time(b)) {
+    if (boundary_uses_time(b)) {
         const real worst = largest_at(l, p, load_force_at, duration);
         return (struct instant){worst, worst < duration ? "when it is largest" : "at the end"};
     }
@@ -101,7 +101,7 @@ static struct resultant resultant_at(const struct load *l, const struct particle
     for (int64_t k = 0; k < l->n; k++) {
         real f[DIM_MAX] = {0}, X[DIM_MAX] = {0};
         load_force_at(l, p, k, t, f);
-        particle_place(p, l->particle[k], X);
+        particle_reference_position(p, l->particle[k], X);
         for (int d = 0; d < DIM_MAX; d++) {
             const int u = (d + 1) % DIM_MAX, v = (d + 2) % DIM_MAX;
             r.force[d] += f[d], r.moment[d] += X[u] * f[v] - X[v] * f[u];
@@ -155,7 +155,7 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->area += area;
     f->unknown |= !has_distance(f->e->scene, body);
     if (f->unknown) return;
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     X[axis] += 0.5 * side * f->e->scene->spacing;
     const real off = region_distance(&f->e->scene->body[body].shape, X, p->dim, normal);
     f->along += area * side * normal[axis];
@@ -172,7 +172,7 @@ static void say_pressed(const struct run *e, int which)
     const real spacing = e->scene->spacing;
     struct faced f = {.e = e};
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
-    load_mark_region(l->boundary, &e->part, spacing, selected);
+    load_mark_particles_in_region(l->boundary, &e->part, spacing, selected);
     pressure_visit_faces(e->loads.load[0].boundary, e->loads.n, which, &e->part, spacing, selected, face_beside_shape,
                          &f);
     memory_free(selected);
@@ -194,7 +194,8 @@ static bool face_exact(const struct scene *s, const struct boundary *b, real *ar
     const int body = b->body >= 0 ? b->body : 0;
     const struct region *shape = &s->body[body].shape, *region = &b->region;
     if ((b->body < 0 && s->bodies > 1) || s->body[body].file || shape->n != 1 || region->n > 1) return false;
-    if (!solid_is(&shape->solid[0], SOLID_BOX) || (region->n == 1 && !solid_is(&region->solid[0], SOLID_BOX)))
+    if (!solid_is_unmoved_of_kind(&shape->solid[0], SOLID_BOX) ||
+        (region->n == 1 && !solid_is_unmoved_of_kind(&region->solid[0], SOLID_BOX)))
         return false;
     *area = b->section > 0 ? b->section : 1;
     for (int d = 0; d < s->dim; d++) {
@@ -266,7 +267,7 @@ static void say_mean_displacement(const struct particles *part, const struct loa
         return;
     }
     say_vector(mean, part->dim);
-    printf(" m%s", drives_by_place(l->boundary) ? " in the mean" : "");
+    printf(" m%s", boundary_motion_varies_in_space(l->boundary) ? " in the mean" : "");
 }
 
 /* Prints the mean displacement at its maximum and at the end, and its growth rate. */
@@ -294,7 +295,7 @@ static void say_load(const struct run *e, int which)
                                         [BOUNDARY_PRESSURE] = "pressure"};
     const struct load *l = &e->loads.load[which];
     const struct boundary *b = l->boundary;
-    const bool force = boundary_is_force(b), faces = b->side != 0;
+    const bool force = boundary_applies_force(b), faces = b->side != 0;
     printf("%-15s%s: ", force ? "load" : "support", b->name);
     if (b->kind == BOUNDARY_VELOCITY || b->kind == BOUNDARY_MIRROR)
         say_support(&e->part, l);

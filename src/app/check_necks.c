@@ -135,8 +135,8 @@ static bool chord_measure(const struct necks *k, const real *X, struct chord *ch
 {
     const real h = k->cover->spacing, most = 2 * NARROW * h;
     if (!piece_contains(k->piece, X, -WITHIN * h)) return false;
-    const real down = piece_end(k->piece, X, k->axis, -0.25 * h, most);
-    const real up = piece_end(k->piece, X, k->axis, 0.25 * h, most);
+    const real down = piece_distance_to_surface(k->piece, X, k->axis, -0.25 * h, most);
+    const real up = piece_distance_to_surface(k->piece, X, k->axis, 0.25 * h, most);
     chord->middle = X[k->axis] + 0.5 * (up - down), chord->width = up + down;
     return true;
 }
@@ -326,7 +326,7 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     const int64_t middle = neck_cell(k, &u);
     for (int d = 0; d < k->cover->dim; d++)
         if (d != p->across && d != k->axis && (middle < 0 || !is_least_across(k, middle, d, u.width))) return;
-    uneven_add(list, &u, false);
+    uneven_list_add(list, &u, false);
 }
 
 /* Sets k->seen of all cells that are connected to `cell` through runs of the same length, so that their neck is
@@ -404,7 +404,7 @@ static void length_judge(struct uneven_list *list, real low, real high, real fir
                              .filled = rows * h,
                              .at = {0.5 * (low + high)},
                              .measured = true};
-    if (fabs(u.off) > LENGTH_OFF) uneven_add(list, &u, false);
+    if (fabs(u.off) > LENGTH_OFF) uneven_list_add(list, &u, false);
 }
 
 void uneven_add_lengths(struct uneven_list *list)
@@ -418,7 +418,8 @@ void uneven_add_lengths(struct uneven_list *list)
     for (real m = 0.5; m < steps; m++) {
         X[0] = from[0] + m * step;
         if (!piece_contains(p, X, 0)) continue;
-        const real low = X[0] - piece_end(p, X, 0, -step, INFINITY), high = X[0] + piece_end(p, X, 0, step, INFINITY);
+        const real low = X[0] - piece_distance_to_surface(p, X, 0, -step, INFINITY),
+                   high = X[0] + piece_distance_to_surface(p, X, 0, step, INFINITY);
         length_judge(list, low, high, first[0]);
         while (m < steps && from[0] + m * step < high) m++;
     }

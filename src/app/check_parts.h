@@ -73,8 +73,8 @@ void print_pieces(const struct run *e);
 real solid_smallest_edge(const struct run *e, const struct solid *a);
 
 /* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. Returns INFINITY
- * if less than half of it is thinner than `most` layers, or if the body is joined to one of a lower number. */
-double count_thin_layers(const struct run *e, int body, double most);
+ * if less than half of it is thinner than `max_layers` layers, or if the body is joined to one of a lower number. */
+double count_thin_layers(const struct run *e, int body, double max_layers);
 
 /* Writes a line for each nearly incompressible body whose particles or cells are too stiff. */
 void print_incompressible_advice(const struct run *e, FILE *out);
@@ -98,7 +98,7 @@ struct length_text {
 };
 
 /* Returns a length [m] as text with `digits` digits, in the largest unit in which the spacing [m] is not below 0.1. */
-struct length_text length_in_words(real length, int digits, real spacing);
+struct length_text length_with_unit(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 

@@ -24,7 +24,7 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
         if (f->fragment[k].body != body) continue;
         if (++pieces == 1) continue;
         particles += f->fragment[k].particles;
-        free_ones += scene_at_rest(s) && !driven[k];
+        free_ones += scene_is_single_equilibrium(s) && !driven[k];
         if (first < 0) first = k;
     }
     if (pieces < 2) return;

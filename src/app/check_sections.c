@@ -214,12 +214,12 @@ static void part_judge(const struct sections *s, int32_t first, struct uneven_li
         t.slices < SLICES && (t.slices < SLICES_LEAST || goes_on_alike(s, begin->before, begin->area));
     if (t.slices == 0 || (t.even ? short_one : t.slices < SLICES_SLANTING)) return;
     const real off = t.filled / t.area - 1;
-    if (!(fabs(off) > (t.even ? OFF_LEAST : OFF_SLANTING)) || !uneven_matters(list, off)) return;
+    if (!(fabs(off) > (t.even ? OFF_LEAST : OFF_SLANTING)) || !uneven_list_would_keep(list, off)) return;
     const struct uneven u = uneven_of(s, t.middle, off);
     if (!(u.width > 0)) return;
     const bool known = s->named[s->section[t.middle].cell] & 1 << u.axis;
     if (!known) part_mark(s, t.middle, u.axis);
-    uneven_add(list, &u, known);
+    uneven_list_add(list, &u, known);
 }
 
 /* Examines the sections of a piece across each axis and adds narrow parts to the list whose particles have a wrong
@@ -240,12 +240,12 @@ static void piece_judge(struct uneven_list *list, const struct run *e)
 {
     struct cover c;
     if (e->scene->dim == 1) uneven_add_lengths(list);
-    if (e->scene->dim == 1 || !cover_make(&c, &list->piece)) return;
+    if (e->scene->dim == 1 || !piece_cover_make(&c, &list->piece)) return;
     uint8_t *named = NEW("check.named", c.cells, uint8_t);
     piece_sections(list, &c, named);
     uneven_add_necks(list, e, &c, named);
     memory_free(named);
-    cover_free(&c);
+    piece_cover_free(&c);
 }
 
 void print_section_advice(const struct run *e, FILE *out)

@@ -31,12 +31,12 @@ static int tips_of_cracks(const struct fracture_state *fracture)
 
 static bool is_sif_driven(const struct run *e)
 {
-    return tips_of_cracks(e->fracture) > 0 && sif_why_not(e, NULL) == NULL;
+    return tips_of_cracks(e->fracture) > 0 && sif_growth_why_impossible(e, NULL) == NULL;
 }
 
 /* Returns the distance over which the bodies extend from a crack tip [m]: ahead of it (side 1) or back along the
  * crack (side -1). Bodies from particle lists are ignored. */
-static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
+static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
     const real most = 2 * (particles_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
     real way = 0;
@@ -51,7 +51,7 @@ static real way_within(const struct scene *s, const struct particles *part, cons
 }
 
 /* Returns the length of the pre-crack behind a tip, inside bodies [m]; INFINITY if unknown. */
-static real crack_behind(const struct scene *s, const struct particles *part, const struct tip *tip)
+static real crack_behind(const struct scene *s, const struct particles *part, const struct crack_tip *tip)
 {
     for (int k = 0; k < s->cracks && s->dim == 2; k++)
         for (int end = 0; end < 2; end++) {
@@ -85,7 +85,7 @@ void print_load_steps(const struct run *e)
         printf("cracks         grow where bonds exceed their critical stretch, some 2 spacings in each increment%s%s\n",
                tips == 0 ? "; the scene has no pre-crack, from which a crack could be extended by the hoop stress"
                          : "; they are not extended by the hoop stress, as ",
-               tips == 0 ? "" : sif_why_not(e, NULL));
+               tips == 0 ? "" : sif_growth_why_impossible(e, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -119,7 +119,7 @@ static void advise_lengths(const struct run *e, FILE *out)
 {
     const real h = e->scene->spacing;
     for (int k = 0; k < e->fracture->tips.n; k++) {
-        const struct tip *tip = &e->fracture->tips.tip[k];
+        const struct crack_tip *tip = &e->fracture->tips.tip[k];
         const real ahead = way_within(e->scene, &e->part, tip, 1) / h,
                    behind = crack_behind(e->scene, &e->part, tip) / h;
         const bool short_crack = behind<FEW, short_way = ahead> 0 && ahead < FEW;
@@ -137,7 +137,7 @@ static int support_width(const struct scene *scene, const struct particles *part
 {
     const real h = scene->spacing;
     real low = INFINITY, high = -INFINITY, from, to;
-    particles_extent(part, part->n, axis, &from, &to);
+    particles_coordinate_range(part, part->n, axis, &from, &to);
     for (int64_t k = 0; k < l->n; k++) {
         const real X = part->X[axis][l->particle[k]];
         low = real_min(low, X), high = real_max(high, X);
@@ -168,7 +168,7 @@ static void advise_supports(const struct run *e, FILE *out)
 
 void print_load_step_advice(const struct run *e, FILE *out)
 {
-    if (!scene_in_steps(e->scene)) return;
+    if (!scene_has_load_steps(e->scene)) return;
     advise_growth(e, out);
     advise_supports(e, out);
     if (scene_bonds_break(e->scene)) advise_lengths(e, out);
@@ -188,7 +188,7 @@ static double equilibria_of_advance(const struct run *e)
     if (is_sif_driven(e)) return LED_EQUILIBRIA;
     for (int d = 0; d < s->dim && s->dim == 3; d++) {
         real low, high;
-        particles_extent(&e->part, e->part.n, d, &low, &high);
+        particles_coordinate_range(&e->part, e->part.n, d, &low, &high);
         wide = d == 0 ? (high - low) / s->spacing + 1 : fmin(wide, (high - low) / s->spacing + 1);
         at_once = s->steps.breaks;
     }
@@ -212,10 +212,10 @@ status cost_load_steps(struct cost *c, struct run *e)
 {
     const double began = thread_cpu_clock();
     const real first = e->scene->duration / e->scene->steps.number;
-    TRY(engine_equilibrium_try(e, first));
+    TRY(engine_find_trial_equilibrium(e, first));
     c->step = thread_cpu_clock() - began;
     c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
-    if (engine_stretch_ratio_worst(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
+    if (engine_largest_stretch_ratio(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->most = c->make + SLOWER * c->step * c->equilibria + c->output;
     c->run = c->make + LEAST_SHARE * (c->most - c->make), c->least = c->run, c->basis = COST_FIRST;
     return OK;

@@ -111,7 +111,7 @@ static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *t
     const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         X[axis] = 2 * at - X[axis];
         const int64_t j = particle_at(e, X);
         if (j < 0 || j == i) return false;
@@ -133,7 +133,7 @@ static bool rigid_twins(const struct particles *p, const struct scene *scene, in
         same &= fabs(a->velocity[d] - (d == axis ? -1 : 1) * b->velocity[d]) <= NEAR_ENOUGH * fabs(a->velocity[d]);
     for (int64_t i = 0; i < p->n && same; i += 1 + p->n / PLACES) {
         real X[DIM_MAX], image[DIM_MAX], normal[DIM_MAX];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         memcpy(image, X, sizeof image);
         image[axis] = 2 * at - X[axis];
         const real far = region_distance(&a->shape, X, dim, normal);
@@ -186,7 +186,7 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
  * stress-intensity factors. */
 static bool rings_clear(const struct run *e, int axis, real at)
 {
-    const struct observed seen = run_observed(e);
+    const struct observed_run seen = observed_run_of(e);
     for (int k = 0; k < e->probing->probes.n; k++) {
         real place[2], radius;
         if (!probes_sif_contour(&e->probing->probes, k, &seen, place, &radius)) continue;
@@ -201,7 +201,7 @@ bool scene_is_symmetric(const struct run *e, int axis, real *at)
     real low, high;
     for (int b = 0; b < e->loads.n; b++)
         if (e->loads.load[b].boundary->kind == BOUNDARY_MIRROR && e->loads.load[b].boundary->axis == axis) return false;
-    particles_extent(p, p->n, axis, &low, &high);
+    particles_coordinate_range(p, p->n, axis, &low, &high);
     *at = 0.5 * (low + high);
     if (high - low < e->scene->spacing || !rings_clear(e, axis, *at)) return false;
     if (!rigid_bodies_agree(e->scene, &e->part, axis, *at) || !growths_agree(e->scene, &e->part, axis, *at))

@@ -12,7 +12,7 @@ enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
 /* Returns true if a part with the relative error `off` would be in the list: it is not full, or its smallest error is
  * not clearly larger. Errors of equal parts differ by up to a tenth, as they come from samples. */
-bool uneven_matters(const struct uneven_list *list, real off)
+bool uneven_list_would_keep(const struct uneven_list *list, real off)
 {
     return list->n < UNEVEN_MOST || fabs(off) > 0.9 * fabs(list->part[list->n - 1].off);
 }
@@ -32,7 +32,7 @@ static bool same_place(const struct uneven *a, const struct uneven *b, const str
     return a->axis == b->axis && r2 < square(SAME_PLACE * s->spacing);
 }
 
-void uneven_add(struct uneven_list *list, const struct uneven *u, bool known)
+void uneven_list_add(struct uneven_list *list, const struct uneven *u, bool known)
 {
     struct uneven *part = list->part, added = *u;
     int place = list->n;
@@ -58,13 +58,13 @@ void uneven_add(struct uneven_list *list, const struct uneven *u, bool known)
     }
 }
 
-real piece_end(const struct piece *p, const real *X, int axis, real step, real most)
+real piece_distance_to_surface(const struct piece *p, const real *X, int axis, real step, real max_distance)
 {
     enum { HALVINGS = 30 };
     real Y[DIM_MAX], inside = 0;
     for (int d = 0; d < DIM_MAX; d++) Y[d] = X[d];
     for (int k = 1;; k++, inside += step) {
-        if (fabs(inside) >= most) return most;
+        if (fabs(inside) >= max_distance) return max_distance;
         Y[axis] = X[axis] + k * step;
         if (!piece_contains(p, Y, 0)) break;
     }
@@ -85,8 +85,8 @@ real piece_end(const struct piece *p, const real *X, int axis, real step, real m
 static void width_ends(const struct piece *p, const struct uneven *u, real *low, real *high)
 {
     const real h = p->scene->spacing, most = 4000 * h;
-    *low = u->at[u->axis] - piece_end(p, u->at, u->axis, -0.05 * h, most);
-    *high = u->at[u->axis] + piece_end(p, u->at, u->axis, 0.05 * h, most);
+    *low = u->at[u->axis] - piece_distance_to_surface(p, u->at, u->axis, -0.05 * h, most);
+    *high = u->at[u->axis] + piece_distance_to_surface(p, u->at, u->axis, 0.05 * h, most);
 }
 
 /* Measures the width of a part through its point u->at. Replaces u->width, which comes from areas, if the measured
@@ -157,7 +157,7 @@ static void say_spacings(const struct uneven *u, const struct piece *p, FILE *ou
     fprintf(out, said ? " divides it\n" : "; a smaller particles.spacing reduces the difference\n");
 }
 
-struct length_text length_in_words(real length, int digits, real spacing)
+struct length_text length_with_unit(real length, int digits, real spacing)
 {
     const struct length_unit unit = unit_of_spacing(spacing);
     struct length_text out;

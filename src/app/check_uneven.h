@@ -26,15 +26,15 @@ struct uneven_list {
 
 /* Returns true if a part with the relative error `off` of its section may belong to the list: the list is not full, or
  * |off| is larger than nine tenths of the smallest error in it (errors of equal parts differ a little by sampling). */
-bool uneven_matters(const struct uneven_list *list, real off);
+bool uneven_list_would_keep(const struct uneven_list *list, real off);
 
 /* Adds a part to the list, or counts it with another of equal width. known: the part has been added before, and only
  * its worst section is kept. */
-void uneven_add(struct uneven_list *list, const struct uneven *part, bool known);
+void uneven_list_add(struct uneven_list *list, const struct uneven *part, bool known);
 
 /* Measures where a line along `axis` through X leaves the piece, from X in the positive or the negative direction,
- * by steps and bisection. Returns the distance [m], or `most` if it is larger. step: signed [m]. */
-real piece_end(const struct piece *p, const real *X, int axis, real step, real most);
+ * by steps and bisection. Returns the distance [m], or `max_distance` if it is larger. step: signed [m]. */
+real piece_distance_to_surface(const struct piece *p, const real *X, int axis, real step, real max_distance);
 
 /* Prints a line for each part of the list whose width is known; if there is none of these, for the worst section. */
 void print_uneven_parts(struct uneven_list *list, FILE *out);

@@ -83,9 +83,9 @@ status manual_run_print(FILE *out);
 /* Prints the manual page cleave.1 (troff). */
 status manual_print(FILE *out);
 
-/* Finds the JSON schema of scenes of the program, installed or built, and writes its path to path[room]. Returns false
- * if there is none (schema_path.c). */
-bool schema_path(char *path, size_t room);
+/* Finds the JSON schema of scenes of the program, installed or built, and writes its path to path[capacity]. Returns
+ * false if there is none (schema_path.c). */
+bool schema_path(char *path, size_t capacity);
 
 /* Prints the kinds of `cleave new`, separated by blanks. */
 void new_kinds_print(FILE *out);

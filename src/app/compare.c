@@ -122,7 +122,7 @@ static struct difference field_difference(float *const *a, float *const *b, int 
 
 /* Prints the largest and root-mean-square difference of a field, its scale, and the position of the largest
  * difference. */
-static void print_field(const char *label, const char *unit, const struct frame *f, struct difference d)
+static void print_field(const char *label, const char *unit, const struct output_frame *f, struct difference d)
 {
     char text[KEY_LENGTH];
     snprintf(text, sizeof text, "%s%s%s%s", label, *unit ? " [" : "", unit, *unit ? "]" : "");
@@ -135,7 +135,7 @@ static void print_field(const char *label, const char *unit, const struct frame 
     putchar('\n');
 }
 
-static void print_fields(const struct frame *a, const struct frame *b)
+static void print_fields(const struct output_frame *a, const struct output_frame *b)
 {
     int64_t other_kind = 0;
     for (int64_t i = 0; i < a->n; i++) other_kind += a->kind[i] != b->kind[i];
@@ -144,13 +144,14 @@ static void print_fields(const struct frame *a, const struct frame *b)
     print_field("displacement", "m", a, field_difference(a->u, b->u, a->dim, a->n));
     print_field("velocity", "m/s", a, field_difference(a->v, b->v, a->dim, a->n));
     if (a->stress[0] && b->stress[0])
-        print_field("stress", "Pa", a, field_difference(a->stress, b->stress, frame_stresses(a->dim), a->n));
+        print_field("stress", "Pa", a,
+                    field_difference(a->stress, b->stress, frame_stress_component_count(a->dim), a->n));
     print_field("damage", "", a, field_difference(&a->damage, &b->damage, 1, a->n));
     printf("  %-28s %14lld of %lld\n", "kind differs (bond or point)", (long long)other_kind, (long long)a->n);
 }
 
 /* Returns the reason why two frames cannot be compared particle by particle; NULL if they can. */
-static const char *particles_differ(const struct frame *a, const struct frame *b)
+static const char *particles_differ(const struct output_frame *a, const struct output_frame *b)
 {
     if (a->dim != b->dim) return "the dimensions differ";
     if (a->n != b->n) return "the numbers of particles differ";
@@ -158,10 +159,13 @@ static const char *particles_differ(const struct frame *a, const struct frame *b
     return NULL;
 }
 
-static double frame_step_length(const struct frame *f) { return f->step > 0 ? f->t / (double)f->step : INFINITY; }
+static double frame_step_length(const struct output_frame *f)
+{
+    return f->step > 0 ? f->t / (double)f->step : INFINITY;
+}
 
 /* Prints the difference in time of the two frames that are compared, unless it is negligible. */
-static void print_time_apart(const struct pair *p, const struct frame *a, const struct frame *b)
+static void print_time_apart(const struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
     const bool lammps[2] = {lammps_run_exists(p->folder[0]), lammps_run_exists(p->folder[1])};
@@ -175,7 +179,7 @@ static void print_time_apart(const struct pair *p, const struct frame *a, const 
 }
 
 /* Compares two frames particle by particle and prints the differences. */
-static void compare_particles(struct pair *p, const struct frame *a, const struct frame *b)
+static void compare_particles(struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const char *why = particles_differ(a, b);
     p->dim = a->dim;
@@ -199,7 +203,7 @@ static void compare_particles(struct pair *p, const struct frame *a, const struc
 static status compare_frames(struct pair *p)
 {
     struct times t[2] = {{0}};
-    struct frame f[2] = {{0}};
+    struct output_frame f[2] = {{0}};
     int at[2];
     status s = OK;
     p->frames_differ = true;

@@ -99,7 +99,7 @@ static bool lies_in_plane(const struct check *c)
     return true;
 }
 
-static void frame_fill(struct frame *f, const struct lammps_frame *from, const struct check *c)
+static void frame_fill(struct output_frame *f, const struct lammps_frame *from, const struct check *c)
 {
     f->n = from->n, f->step = from->step, f->dim = lies_in_plane(c) ? 2 : 3;
     for (int d = 0; d < f->dim; d++) {
@@ -122,12 +122,12 @@ static void frame_fill(struct frame *f, const struct lammps_frame *from, const s
     }
 }
 
-status lammps_run_read_frame(struct frame *f, const char *folder, int number)
+status lammps_run_read_frame(struct output_frame *f, const char *folder, int number)
 {
     struct lammps_frame from;
     struct check c = {0};
     double dt;
-    *f = (struct frame){0};
+    *f = (struct output_frame){0};
     TRY(lammps_time_step(folder, &dt));
     TRY(lammps_frame_read(&from, path_join(folder, "plate.dump").text, number));
     const status s = check_read(&c, folder, from.n);

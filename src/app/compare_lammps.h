@@ -14,7 +14,7 @@ status lammps_frames_list(const char *folder, int *n, struct listed_frame **list
 
 /* Reads frame `number` of the run of LAMMPS in a folder into *f; the frame has no stress. Returns FAILED if a file of
  * the run cannot be read or is damaged. Release with frame_free. */
-status lammps_run_read_frame(struct frame *f, const char *folder, int number);
+status lammps_run_read_frame(struct output_frame *f, const char *folder, int number);
 
 /* Prints the differences from the state of Cleave in check.csv; nothing if the folder has no check.csv. */
 status lammps_check_print(const char *folder);

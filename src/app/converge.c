@@ -109,23 +109,23 @@ static status converge_place(struct converge_arguments *a)
     if (!w->folder) w->folder = a->folder;
     const status fits = w->options.overwrite ? OK : study_folder_check_scene(w->folder, scene.text);
     scene_free(&scene);
-    return fits == OK ? figures_check_replaceable(w->folder) : fits;
+    return fits == OK ? scalar_results_check_replaceable(w->folder) : fits;
 }
 
 static status converge_all(struct converge_arguments *a)
 {
     struct convergence_study s;
-    struct figure_study *figure = NULL;
+    struct scalar_result_study *figure = NULL;
     int figures = 0;
     TRY(converge_place(a));
     struct convergence_request wish = a->wish;
     wish.wanted = a->wanted, wish.wanteds = a->wanteds;
     TRY(convergence_study_run(&s, &wish));
     study_print_warnings(&s.study, stderr);
-    status done = figures_find(&s, a->wanted, a->wanteds, &figure, &figures);
-    if (done == OK) done = figures_write(&s, figure, figures);
-    if (done == OK) figures_print(&s, figure, figures);
-    if (done == OK) done = figures_draw(&s, figure, figures);
+    status done = scalar_results_find(&s, a->wanted, a->wanteds, &figure, &figures);
+    if (done == OK) done = scalar_results_write(&s, figure, figures);
+    if (done == OK) scalar_results_print(&s, figure, figures);
+    if (done == OK) done = scalar_results_draw(&s, figure, figures);
     memory_free(figure);
     convergence_study_free(&s);
     return done;

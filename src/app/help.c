@@ -90,13 +90,13 @@ static status help_misspelt(const char *word)
     return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
 }
 
-/* Joins the words after `help` by underscores into joined[room], as in names of keys: fracture energy becomes
+/* Joins the words after `help` by underscores into joined[capacity], as in names of keys: fracture energy becomes
  * fracture_energy. Returns joined, or NULL if there are no words. */
-static const char *help_word(int argc, char **argv, char *joined, size_t room)
+static const char *help_word(int argc, char **argv, char *joined, size_t capacity)
 {
     size_t used = 0;
-    for (int k = 1; k < argc && used < room; k++)
-        used += (size_t)snprintf(joined + used, room - used, "%s%s", k > 1 ? "_" : "", argv[k]);
+    for (int k = 1; k < argc && used < capacity; k++)
+        used += (size_t)snprintf(joined + used, capacity - used, "%s%s", k > 1 ? "_" : "", argv[k]);
     return argc > 1 ? joined : NULL;
 }
 

@@ -31,8 +31,8 @@ static status call(int argc, char **argv)
 {
     const struct command *c;
     if (argc < 2) return usage_print(stderr), REFUSED;
-    output_start();
-    TRY(simd_start());
+    output_configure_hdf5();
+    TRY(simd_select_kernels());
     if (wants_help(argv[1])) return usage_print(stdout), OK;
     if (!strcmp(argv[1], "--version")) return version_print(stdout), OK;
     TRY(command_find(argv[1], &c));

@@ -151,7 +151,7 @@ static status words_together(const struct plot_words *w)
     if (w->times && w->frames)
         return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: give one of them",
                           printable_name(w->times).text, printable_name(w->frames).text);
-    if (r->panels > PANELS_MAX && !picture_moves(r->format))
+    if (r->panels > PANELS_MAX && !picture_is_film(r->format))
         return status_set(REFUSED,
                           "plot: --frames %d: a picture has at most %d panels; a film (mp4, gif) has any number",
                           r->panels, PANELS_MAX);
@@ -205,7 +205,7 @@ static status draw_words(const struct plot_words *w)
     if (w->scene.scene) return scene_draw_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
     TRY(check_folder(r->folder));
     const bool one =
-        r->field || r->projection.outside || r->projection.normal >= 0 || r->out || picture_moves(r->format);
+        r->field || r->projection.outside || r->projection.normal >= 0 || r->out || picture_is_film(r->format);
     return one ? field_draw_picture(r) : run_draw_pictures(r);
 }
 

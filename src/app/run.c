@@ -32,9 +32,9 @@ static void print_position(const char *text, const real *X, int dim)
 static void print_breaks(const struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
-    const struct tip *tip = tips_longest(&e->fracture->tips);
-    const bool in_steps = scene_in_steps(e->scene), broke = !isnan(w->break_time);
-    const int64_t tied = tips_count_tied(&e->fracture->tips);
+    const struct crack_tip *tip = tips_longest(&e->fracture->tips);
+    const bool in_steps = scene_has_load_steps(e->scene), broke = !isnan(w->break_time);
+    const int64_t tied = tips_count_longest(&e->fracture->tips);
     if (broke && in_steps)
         printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
     else if (broke)
@@ -60,7 +60,7 @@ static void print_breaks(const struct run *e)
 static void print_summary(const struct run *e, const char *folder, double wall)
 {
     const struct printable_name shown = printable_name(folder);
-    const bool in_steps = scene_in_steps(e->scene);
+    const bool in_steps = scene_has_load_steps(e->scene);
     printf("%s: %lld particles, ", e->scene->name, (long long)e->part.n_body);
     if (in_steps)
         printf("%lld load steps, %lld equilibria, %.1f s\n", (long long)e->clock.step, (long long)e->statics->solutions,
@@ -98,7 +98,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
                          int threads)
 {
     double start = wall_clock();
-    engine_say_size(s);
+    engine_announce_long_set_up(s);
     TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
     const double made = wall_clock();
     TRY(open_folder(out, s, a));
@@ -115,7 +115,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
                 omp_get_num_procs());
     e->report->stop = stop_signals_install();
-    if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_restore, e));
+    if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_load_checkpoint, e));
     if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)
         fprintf(stderr, "%s holds the finished run: no step is left, and its summary is written again\n",
                 printable_name(out->folder).text);
@@ -123,7 +123,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     e->report->setup_seconds = wall_clock() - opened + made - start;
     status ran = engine_run(e);
     const double run = wall_clock();
-    if (ran == OK) ran = engine_run_baseline(e);
+    if (ran == OK) ran = engine_run_mpm_baseline(e);
     e->report->setup_seconds += wall_clock() - run;
     if (ran == OK || ran == INTERRUPTED) {
         const status temporal = output_write_temporal(out, s->text);

@@ -7,7 +7,7 @@
 
 #include "commands.h"
 
-bool schema_path(char *path, size_t room)
+bool schema_path(char *path, size_t capacity)
 {
     static const char *const beside[] = {"/../share/cleave/cleave.schema.json", "/cleave.schema.json"};
     char program[PATH_MAX], place[PATH_MAX + 64];
@@ -18,7 +18,7 @@ bool schema_path(char *path, size_t room)
     for (size_t k = 0; k < COUNT_OF(beside); k++) {
         snprintf(place, sizeof place, "%s%s", program, beside[k]);
         char *whole = realpath(place, NULL);
-        const bool there = whole && strlen(whole) < room;
+        const bool there = whole && strlen(whole) < capacity;
         if (there) strcpy(path, whole);
         free(whole);
         if (there) return true;

@@ -114,7 +114,7 @@ static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 
 static status sweep_all(struct study *s, struct sweep_arguments *a)
 {
-    TRY(study_make_of(s, a->scene, a->folder, "sweep", a->key, a->keys));
+    TRY(study_make_with_keys(s, a->scene, a->folder, "sweep", a->key, a->keys));
     TRY(study_add_combinations(s, a->key, a->keys));
     TRY(study_check(s, a->collect));
     study_print_same(s, stderr);

@@ -52,22 +52,22 @@ static void leavings_watch(void)
     watched = true;
 }
 
-void interrupt_cleanup_set(enum leaving which, const char *path, int process)
+void interrupt_cleanup_register(enum cleanup_kind kind, const char *path, int process)
 {
     leavings_watch();
-    leavings[which].process = 0;
-    leavings[which].path[0] = '\0';
-    if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[which].path, path);
+    leavings[kind].process = 0;
+    leavings[kind].path[0] = '\0';
+    if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[kind].path, path);
     if (process > 0) setpgid(process, process); /* as interrupt_cleanup_in_child, whichever is first */
-    leavings[which].process = process;
+    leavings[kind].process = process;
 }
 
-void interrupt_cleanup_block(bool hold)
+void interrupt_cleanup_block(bool block)
 {
     sigset_t these;
     sigemptyset(&these);
     for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) sigaddset(&these, ends[k]);
-    pthread_sigmask(hold ? SIG_BLOCK : SIG_UNBLOCK, &these, NULL);
+    pthread_sigmask(block ? SIG_BLOCK : SIG_UNBLOCK, &these, NULL);
 }
 
 void interrupt_cleanup_in_child(void)

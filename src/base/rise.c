@@ -8,27 +8,27 @@
  * a quantity that grows faster; empirical. */
 #define SOMETHING 0.03
 
-void growth_rate_add_sample(struct rise *r, int64_t step, real value)
+void growth_rate_add_sample(struct growth_samples *r, int64_t step, real value)
 {
     if (r->n > 0 && step < r->at[(r->n - 1) % RISE_VALUES].step + RISE_CLOSEST) return;
     r->at[r->n % RISE_VALUES].step = step;
     r->at[r->n++ % RISE_VALUES].value = value;
 }
 
-enum growth_rate growth_rate(const struct rise *r, int64_t step, real value, real *steps)
+enum growth_rate growth_rate_classify(const struct growth_samples *r, int64_t step, real value, real *tenfold_steps)
 {
     real newer = value, older = 0, least = 0;
-    *steps = INFINITY;
+    *tenfold_steps = INFINITY;
     for (int64_t k = r->n; k-- > 0 && k >= r->n - RISE_VALUES;) {
         const real most = (real)(step - r->at[k % RISE_VALUES].step);
         older = real_max(r->at[k % RISE_VALUES].value, NOTHING * value);
         if (older <= 0.1 * value) {
-            *steps = least + (most - least) * log(newer / (0.1 * value)) / log(newer / older);
+            *tenfold_steps = least + (most - least) * log(newer / (0.1 * value)) / log(newer / older);
             break;
         }
         newer = older, least = most;
     }
-    if (least >= RISE_STEPS || (*steps > RISE_STEPS && older >= SOMETHING * value && isfinite(*steps)))
+    if (least >= RISE_STEPS || (*tenfold_steps > RISE_STEPS && older >= SOMETHING * value && isfinite(*tenfold_steps)))
         return RISE_SLOW;
-    return *steps <= RISE_STEPS ? RISE_FAST : RISE_UNSURE;
+    return *tenfold_steps <= RISE_STEPS ? RISE_FAST : RISE_UNSURE;
 }

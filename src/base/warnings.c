@@ -46,7 +46,7 @@ void warnings_add_and_print(struct warnings *w, const char *text)
 }
 
 /* Stores all warnings as one text, each with its terminating zero. */
-status warnings_archive(struct warnings *w, struct archive *a)
+status warnings_save_or_load(struct warnings *w, struct archive *a)
 {
     int64_t length = 0;
     for (int k = 0; k < w->n; k++) length += (int64_t)strlen(w->text[k]) + 1;

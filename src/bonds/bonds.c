@@ -16,7 +16,7 @@ const struct bond_limit bond_limit_never = {.critical_stretch = never};
  * as peridynamic particles have. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
-    i = image_root(p, s->image, i);
+    i = image_source_particle(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
@@ -30,11 +30,11 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
 }
 
 /* Marks all particles within the cutoff of peridynamic particle or image i, and i itself: wanted [groups of eight] for
- * the groups that get rows, fresh [particles] for a new search. found [room]: working memory. */
+ * the groups that get rows, fresh [particles] for a new search. found [capacity]: working memory. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
-                        int32_t *found, int room, uint8_t *wanted, uint8_t *fresh)
+                        int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
-    const int n = find_neighbours_of(map, s, p, (int32_t)i, found, room);
+    const int n = find_neighbours_of(map, s, p, (int32_t)i, found, capacity);
     if (i < p->n) wanted[i / LANES] = fresh[i] = 1;
     for (int k = 0; k < n; k++)
         if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
@@ -45,7 +45,7 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
  * vectors, and on a lattice its neighbours are consecutive. Rows of unmarked particles in a group have no bonds. Marks
  * in `fresh` [n] the particles to be searched again: those that have become peridynamic and all within their cutoff. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
-                      const struct site_map *map, int room, uint8_t *wanted, uint8_t *fresh)
+                      const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
     const bool last = rows_reusable(old, p);
     if (!last) array_fill_bytes(fresh, 1, p->n, 1);
@@ -54,13 +54,13 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
         return;
     }
     for (int64_t r = 0; last && r < old->rows; r += LANES) wanted[old->particle[r] / LANES] = 1;
-    int32_t *found = NEW("bonds.found", room, int32_t);
+    int32_t *found = NEW("bonds.found", capacity, int32_t);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)
         if (!last || !was_whole_row(old, s, p, p->list[KIND_PD][k]))
-            mark_family(s, p, map, p->list[KIND_PD][k], found, room, wanted, fresh);
+            mark_family(s, p, map, p->list[KIND_PD][k], found, capacity, wanted, fresh);
     for (int64_t i = p->n; i < p->n_all; i++)
         if (p->kind[i] == KIND_PD && !(last && was_whole_row(old, s, p, i)))
-            mark_family(s, p, map, i, found, room, wanted, fresh);
+            mark_family(s, p, map, i, found, capacity, wanted, fresh);
     memory_free(found);
 }
 
@@ -101,12 +101,12 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     const int64_t eights = (p->n + LANES - 1) / LANES;
     int32_t row = 0;
     b->rows = 0;
-    for (int64_t e = 0; e < eights; e++) b->rows += wanted[e] ? eight_at(e * LANES, p->n) : 0;
+    for (int64_t e = 0; e < eights; e++) b->rows += wanted[e] ? count_of_eight_below(e * LANES, p->n) : 0;
     b->row_blocks = (b->rows + LANES - 1) / LANES;
     b->particle = NEW("bonds.particle", b->row_blocks * LANES, int32_t);
     b->row_of = row_of_make(old, p->n_all);
     for (int64_t e = 0; e < eights; e++)
-        for (int l = 0; wanted[e] && l < eight_at(e * LANES, p->n); l++, row++)
+        for (int l = 0; wanted[e] && l < count_of_eight_below(e * LANES, p->n); l++, row++)
             b->particle[row] = (int32_t)(e * LANES) + l, b->row_of[e * LANES + l] = row;
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
@@ -285,14 +285,14 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     if (old) b->reach = old->reach; /* covers the row blocks that are kept */
     b->stencils = stencils_make(old ? old->stencils : NULL);
     struct site_map *map = site_map_share(old ? old->site_map : NULL, s, p);
-    int most = bonds_most_neighbours(s);
+    int most = bonds_neighbour_count_bound(s);
     uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
     mark_rows(s, p, old, map, most, wanted, fresh);
     rows_list(b, old, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
-    state_start(b, s);
+    bonds_state_start(b, s);
 
     bonds_rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
     memory_free(fresh);
@@ -311,15 +311,15 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
         if (b->whole[r])
             p->damage[b->particle[r]] = b->family_volume[r] > 0 ? b->broken_volume[r] / b->family_volume[r] : 0;
     }
-    state_make(b, p, s);
-    clamped_make(b, p, s);
+    bonds_state_make(b, p, s);
+    clamped_bonds_make(b, p, s);
 #ifdef CLEAVE_ASSERT
     const char *fault = bonds_find_violation(b);
     if (fault) fprintf(stderr, "bonds_make: %s\n", fault), abort();
 #endif
 }
 
-void bonds_update_image_kinds(struct particles *p, const struct bond_source *s)
+void mirror_images_copy_kinds(struct particles *p, const struct bond_source *s)
 {
     for (int64_t k = p->n; k < p->n_all; k++) p->kind[k] = p->kind[s->image[k - p->n].source];
 }
@@ -327,7 +327,7 @@ void bonds_update_image_kinds(struct particles *p, const struct bond_source *s)
 void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     struct bonds old = *b;
-    bonds_update_image_kinds(p, s);
+    mirror_images_copy_kinds(p, s);
     particles_update_lists(p);
     bonds_make(b, &old, p, s);
     for (int64_t row = 0; row < old.rows; row++) {
@@ -365,8 +365,8 @@ void bonds_free(struct bonds *b)
     memory_free(b->plastic_path);
     memory_free(b->pair);
     memory_free(b->plastic_work);
-    state_free(b);
-    clamped_free(b);
+    bonds_state_free(b);
+    clamped_bonds_free(b);
     active_set_free(&b->active);
     memory_free(b->trigger);
     memory_free(b->family_volume);

@@ -12,7 +12,7 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {
         if (!b->changed[g]) continue;
-        const int64_t from = bond_to_write(b, g, 0, 0), n = b->column_count[g] * LANES;
+        const int64_t from = bond_index_for_writing(b, g, 0, 0), n = b->column_count[g] * LANES;
         array_copy(saving ? w : b->w + from, saving ? b->w + from : w, n, sizeof *w);
         w += n;
         if (saving) continue;
@@ -39,7 +39,7 @@ static status weights_archive(struct bonds *b, struct archive *a)
     return s;
 }
 
-status bonds_archive(struct bonds *b, struct particles *p, struct archive *a)
+status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *a)
 {
     const size_t padded = (size_t)(b->row_blocks * LANES), stored = (size_t)b->columns * LANES * sizeof(real);
     const bool whole = a->scope == ARCHIVE_ALL;

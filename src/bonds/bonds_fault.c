@@ -46,7 +46,7 @@ static const char *column_fault(const struct bonds *b, int64_t column)
 /* Returns an error text if an intact bond of a row leads farther than b->reach row blocks away, or NULL. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const int64_t to = b->row_of[it.bond.nbr];
         const int64_t away = to < 0 ? 0 : to / LANES - row / LANES;
         if (it.bond.w != 0 && (away > b->reach || -away > b->reach)) return "a bond leads farther than reach";

@@ -11,7 +11,7 @@ int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *
     const int rows = row_block_rows(b, g);
     if (first < 0 || first % LANES != 0 || row_block_rows(m->old, first / LANES) != rows) return -1;
     for (int l = 0; l < rows; l++)
-        if (m->old->row_of[particle[l]] != first + l || !row_lasts(m, particle[l])) return -1;
+        if (m->old->row_of[particle[l]] != first + l || !row_is_still_valid(m, particle[l])) return -1;
     return first / LANES;
 }
 

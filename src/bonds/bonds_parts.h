@@ -25,19 +25,19 @@ struct pair_table {
     int materials;
 };
 
-/* Allocates the arrays of `row` (the bonds of one particle under construction) for up to `room` bonds. Release with
+/* Allocates the arrays of `row` (the bonds of one particle under construction) for up to `capacity` bonds. Release with
  * row_buffer_free. */
-void row_buffer_make(struct row *row, int room);
+void row_buffer_make(struct row *row, int capacity);
 
 /* Releases the arrays of `row`. */
 void row_buffer_free(struct row *row);
 
 /* Lists the neighbours of particle or image i within the cutoff in `found`, in ascending order and without those behind
- * a void, whose bond would cross it. room: capacity of `found`; l: map from lattice sites to particles, used where
- * possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds `room`, the list
- * is incomplete. */
+ * a void, whose bond would cross it. capacity: capacity of `found`; l: map from lattice sites to particles, used where
+ * possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds `capacity`, the
+ * list is incomplete. */
 int find_neighbours_of(const struct site_map *l, const struct bond_source *source, const struct particles *p, int32_t i,
-                       int32_t *found, int room);
+                       int32_t *found, int capacity);
 
 /* Inputs from which rows (all bonds of one particle each) are made. */
 struct row_maker {
@@ -53,7 +53,7 @@ struct row_maker {
 /* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
  * such a row exists, and either that m->fresh[i] is 0, or that the row has the complete family and the particle is
  * peridynamic. */
-static inline bool row_lasts(const struct row_maker *m, int64_t i)
+static inline bool row_is_still_valid(const struct row_maker *m, int64_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
     return before >= 0 && ((m->old->whole[before] && m->p->kind[i] == KIND_PD) || !m->fresh[i]);
@@ -108,7 +108,7 @@ real bond_test_stretch(const struct bond_source *s, const struct particles *p, i
 /* Chooses how the bonds of eight particles are arranged in columns. Returns true for columns in which all neighbours
  * have one index distance, as on a lattice, since these need little padding; false for rows packed without gaps.
  * offsets: number of distinct index distances; longest: largest number of bonds of a row. */
-static inline bool columns_by_offset(int offsets, int longest) { return offsets <= longest + longest / 3; }
+static inline bool columns_use_offsets(int offsets, int longest) { return offsets <= longest + longest / 3; }
 
 /* Bonds of eight consecutive particles of a lattice without a search for neighbours. Entry k of each array describes
  * the bonds whose neighbour has the index of the particle plus offset[k]; lane l (0 to 7) is the l-th of the eight
@@ -136,7 +136,7 @@ bool regular_bonds_find(const struct site_map *l, const struct particles *p, int
 
 /* Lists the neighbours of the eight particles i to i + 7 as regular_bonds_find does, without regard to pre-cracks.
  * Returns false also if they are not all particles of the body, if l has no sites, or if a void is near one of them. */
-bool regular_bonds_find_clear(const struct site_map *l, const struct bond_source *s, const struct particles *p,
+bool regular_bonds_find_uncut(const struct site_map *l, const struct bond_source *s, const struct particles *p,
                               int64_t i, struct regular_bonds *to);
 
 /* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
@@ -173,7 +173,7 @@ int regular_bonds_count(const struct regular_bonds *bonds);
 struct pair_table pair_table_make(const struct bond_source *s);
 
 /* Returns the number of rows in row block g: eight, except for the last row block. */
-static inline int row_block_rows(const struct bonds *b, int64_t g) { return eight_at(g * LANES, b->rows); }
+static inline int row_block_rows(const struct bonds *b, int64_t g) { return count_of_eight_below(g * LANES, b->rows); }
 
 /* Working memory of one thread for the eight rows of a row block. */
 struct row_block_buffer {
@@ -187,9 +187,9 @@ struct row_block_buffer {
     int32_t reach;                /* largest index distance so far */
 };
 
-/* Allocates the working memory g in which one thread makes row blocks. room: largest number of bonds of a row; map: map
- * of lattice sites. Release with row_block_buffer_free. */
-void row_block_buffer_make(struct row_block_buffer *g, int room, const struct site_map *map);
+/* Allocates the working memory g in which one thread makes row blocks. capacity: largest number of bonds of a row; map:
+ * map of lattice sites. Release with row_block_buffer_free. */
+void row_block_buffer_make(struct row_block_buffer *g, int capacity, const struct site_map *map);
 
 /* Releases the working memory g. */
 void row_block_buffer_free(struct row_block_buffer *g);
@@ -198,19 +198,19 @@ void row_block_buffer_free(struct row_block_buffer *g);
  * rows. *by_offset: set to true if each column has one index distance, to false if rows are packed without gaps. */
 int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset);
 
-/* Fills the columns of row block `row_block` of b from the first `rows` rows of bonds in `room`, and sets breaking
+/* Fills the columns of row block `row_block` of b from the first `rows` rows of bonds in `buffer`, and sets breaking
  * limits, family volumes and alignment of the row block. by_offset: result of row_block_count_columns. */
-void row_block_fill(struct bonds *b, struct row_block_buffer *room, int64_t row_block, int rows, bool by_offset,
+void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block, int rows, bool by_offset,
                     const struct particles *p);
 
 /* Fills row block `row_block` of b from the bonds in room->regular, which were found without a search, because its
  * eight particles are consecutive on one lattice. */
-void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int64_t row_block,
+void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                             const struct row_maker *maker);
 
-/* Stores the columns in `room` as columns of row block `row_block`, or, if their bonds equal those of a known stencil,
- * makes the row block follow that stencil and stores nothing. Called after the columns were filled. */
-void row_block_store(struct bonds *b, struct row_block_buffer *room, int64_t row_block, const struct particles *p);
+/* Stores the columns in `buffer` as columns of row block `row_block`, or, if their bonds equal those of a known
+ * stencil, makes the row block follow that stencil and stores nothing. Called after the columns were filled. */
+void row_block_store(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block, const struct particles *p);
 
 /* Allocates b->shell_length and computes the bond lengths spacing sqrt(k) of a lattice. spacing: lattice spacing
  * [m]. */
@@ -238,12 +238,13 @@ void stencil_free(struct stencil *p);
 /* Appends the column `from` of the row block whose first particle is i to the stencil `to`. Bonds with w = 0 and
  * inverse_length = 0 do not exist. Returns false, without a usable stencil, if the neighbours are not consecutive, or
  * bonds differ in length or are cut. */
-bool stencil_add(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
-                 const struct column_copy *from);
+bool stencil_add_column(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
+                        const struct column_copy *from);
 
 /* Returns the stencil in the table `all` that is equal to `stencil`, after comparing with `likely` first; adds a copy
  * to the table if there is none. Returns NULL if the table is full. */
-const struct stencil *stencil_find(struct stencils *all, const struct stencil *stencil, const struct stencil *likely);
+const struct stencil *stencil_find_or_add(struct stencils *all, const struct stencil *stencil,
+                                          const struct stencil *likely);
 
 /* Sets the stencil of row block `row_block` to that of the row block that contains particle `cached`, so that
  * `row_block` needs no stored columns; its breaking limits and family volumes are copied, too. cached = -1: uses the
@@ -255,20 +256,20 @@ void bond_column_write(const struct bonds *b, int64_t column, const struct colum
 
 /* Sets the moduli and normalisation in b->state, and allocates its weighted volumes, before rows are filled
  * (bonds_state.c). Does nothing for bond-based models. */
-void state_start(struct bonds *b, const struct bond_source *source);
+void bonds_state_start(struct bonds *b, const struct bond_source *source);
 
 /* Allocates the arrays of b->state that depend on the rows, stores the sources of mirror images, and computes the
  * weighted volumes; call after all rows were made. Does nothing for bond-based models. */
-void state_make(struct bonds *b, const struct particles *p, const struct bond_source *source);
+void bonds_state_make(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Releases the arrays of b->state. */
-void state_free(struct bonds *b);
+void bonds_state_free(struct bonds *b);
 
 /* Lists in b->clamped the bonds to mirror images in clamped planes, planes of symmetry along which motion is prevented,
  * too. To be called after all rows were made (bonds_clamped.c). */
-void clamped_make(struct bonds *b, const struct particles *p, const struct bond_source *source);
+void clamped_bonds_make(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Releases the lists in b->clamped. */
-void clamped_free(struct bonds *b);
+void clamped_bonds_free(struct bonds *b);
 
 #endif

@@ -10,12 +10,12 @@
  * broken bond; the scalar test that follows is exact. */
 #define TRIGGER_MARGIN 1e-9
 
-void row_buffer_make(struct row *row, int room)
+void row_buffer_make(struct row *row, int capacity)
 {
-    row->nbr = BARE("bonds.row", room + 1, int32_t); /* room for one more: row_copy may write it */
-    row->inverse_length = BARE("bonds.row", room + 1, real);
-    row->w = BARE("bonds.row", room + 1, real);
-    row->plastic = BARE("bonds.row", room + 1, struct bond_plasticity);
+    row->nbr = BARE("bonds.row", capacity + 1, int32_t); /* room for one more: row_copy may write it */
+    row->inverse_length = BARE("bonds.row", capacity + 1, real);
+    row->w = BARE("bonds.row", capacity + 1, real);
+    row->plastic = BARE("bonds.row", capacity + 1, struct bond_plasticity);
 }
 
 void row_buffer_free(struct row *row)
@@ -29,13 +29,14 @@ void row_buffer_free(struct row *row)
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
 /* Lists the particles and images within the cutoff of particle i that belong to its body, in ascending order, in found
- * [room]. Returns their number; if it exceeds `room`, the list is incomplete. */
-static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
+ * [capacity]. Returns their number; if it exceeds `capacity`, the list is incomplete. */
+static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found,
+                         int capacity)
 {
     real X[DIM_MAX];
-    particle_place(p, i, X);
-    int n = cells_find_near(s->cells, p, X, s->family.cutoff, i, found, room), kept = 0;
-    if (n > room) return n;
+    particle_reference_position(p, i, X);
+    int n = cells_find_near(s->cells, p, X, s->family.cutoff, i, found, capacity), kept = 0;
+    if (n > capacity) return n;
     for (int k = 0; k < n; k++)
         if (p->body[found[k]] == p->body[i]) found[kept++] = found[k];
     return kept;
@@ -46,31 +47,31 @@ static int family_search(const struct bond_source *s, const struct particles *p,
 static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
 {
     int kept = 0;
-    if (!voids_near(s->voids, i)) return n;
+    if (!particle_is_beside_void(s->voids, i)) return n;
     for (int k = 0; k < n; k++)
         if (!void_separates_particles(s->voids, p, i, found[k])) found[kept++] = found[k];
     return kept;
 }
 
 int find_neighbours_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
-                       int32_t *found, int room)
+                       int32_t *found, int capacity)
 {
     int n = l && l->at && i < p->n ? site_map_find_neighbours(l, p, i, found) : -1;
-    if (n < 0) n = family_search(s, p, i, found, room);
-    return n > room ? n : family_seen(s, p, i, found, n);
+    if (n < 0) n = family_search(s, p, i, found, capacity);
+    return n > capacity ? n : family_seen(s, p, i, found, n);
 }
 
-int bonds_most_neighbours(const struct bond_source *s)
+int bonds_neighbour_count_bound(const struct bond_source *s)
 {
     if (s->room > 0) return s->room;
-    return cells_most_neighbours(s->cells, s->family.cutoff);
+    return cells_neighbour_count_bound(s->cells, s->family.cutoff);
 }
 
 bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
-    particle_place(p, i, a);
-    particle_place(p, j, b);
+    particle_reference_position(p, i, a);
+    particle_reference_position(p, j, b);
     for (int c = 0; c < cracks; c++)
         if (crack_cuts(&crack[c], a, b, p->dim)) return true;
     return false;
@@ -79,7 +80,7 @@ bool cracks_separate_particles(const struct crack *crack, int cracks, const stru
 bool cracks_near_particle(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (int c = 0; c < s->cracks; c++)
         if (crack_may_cut_near(&s->crack[c], X, s->family.cutoff, p->dim)) return true;
     return false;
@@ -87,7 +88,7 @@ bool cracks_near_particle(const struct bond_source *s, const struct particles *p
 
 bool cuts_near_particle(const struct bond_source *s, const struct particles *p, int64_t i)
 {
-    return voids_near(s->voids, i) || cracks_near_particle(s, p, i);
+    return particle_is_beside_void(s->voids, i) || cracks_near_particle(s, p, i);
 }
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
@@ -102,16 +103,16 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
     if (s->neighbour_volume) /* volume method, Le & Bobaru 2018 */
         weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
-    if (s->surface) weight *= surface_factor(s->surface, i, xi);
+    if (s->surface) weight *= surface_weight_factor(s->surface, i, xi);
     return weight;
 }
 
 /* Finds the neighbours with which particle i has bonds: of a peridynamic particle the whole family, of a material point
  * the peridynamic neighbours only. Stores the volume of the family. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
-                       const struct particles *p, int32_t i, int room)
+                       const struct particles *p, int32_t i, int capacity)
 {
-    int n = find_neighbours_of(map, s, p, i, row->nbr, room), kept = 0;
+    int n = find_neighbours_of(map, s, p, i, row->nbr, capacity), kept = 0;
     row->family_volume = 0;
     for (int k = 0; k < n; k++) {
         row->family_volume += p->volume0[row->nbr[k]];
@@ -123,13 +124,13 @@ static void row_search(struct row *row, const struct site_map *map, const struct
 /* Returns the elastic strain C^-1 sigma of material point i along the unit vector e [1]. */
 static real elastic_strain_along(const struct particles *p, const struct material *m, int64_t i, const real *e)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim, n = symmetric_component_count(dim);
     real compliance[SYM_MAX * SYM_MAX], sum = 0;
     material_compliance(&m[p->material[i]], dim, compliance);
     for (int s = 0; s < n; s++) {
         int a, b;
         real strain = 0;
-        symmetric_axes(dim, s, &a, &b);
+        symmetric_component_axes(dim, s, &a, &b);
         for (int t = 0; t < n; t++) strain += compliance[s * n + t] * p->stress[t][i];
         sum += (s < dim ? 1 : 2) * e[a] * e[b] * strain;
     }
@@ -158,8 +159,8 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
  * reduced (TRIGGER_MARGIN). */
 real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
 {
-    return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * bond_strength(p, i, j) *
-           (1 - TRIGGER_MARGIN);
+    return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] *
+           bond_strength_factor(p, i, j) * (1 - TRIGGER_MARGIN);
 }
 
 /* Computes lengths and weights of the bonds found by row_search. Bonds that a pre-crack cuts get weight 0 and a
@@ -239,7 +240,7 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 
 void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i)
 {
-    if (row_lasts(m, i))
+    if (row_is_still_valid(m, i))
         row_copy_neighbours(row, m->old, m->old->row_of[i]);
     else
         row_search(row, m->map, m->source, m->p, i, m->room);
@@ -248,7 +249,7 @@ void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i)
 void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
-    if (row_lasts(m, i)) {
+    if (row_is_still_valid(m, i)) {
         row_copy(row, m->old, before);
         return;
     }

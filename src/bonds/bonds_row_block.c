@@ -39,7 +39,7 @@ int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle,
     for (int l = 0; l < rows; l++)
         if (g->row[l].n > longest) longest = g->row[l].n;
     int offsets = row_block_offsets(g, particle, rows);
-    *by_offset = columns_by_offset(offsets, longest);
+    *by_offset = columns_use_offsets(offsets, longest);
     return *by_offset ? offsets : longest;
 }
 
@@ -82,20 +82,20 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
-void row_block_fill(struct bonds *b, struct row_block_buffer *room, int64_t g, int rows, bool by_offset,
+void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g, int rows, bool by_offset,
                     const struct particles *p)
 {
     const int32_t *particle = b->particle + g * LANES;
     int used[LANES] = {0}, columns = b->column_count[g];
     for (int k = 0; k < columns; k++) {
-        struct column_copy *column = &room->column[k];
+        struct column_copy *column = &buffer->column[k];
         for (int l = 0; l < LANES; l++) {
-            const struct row *row = &room->row[l];
-            const int64_t other = by_offset ? particle[l] + (l < rows ? room->offset[k] : 0) : particle[l];
+            const struct row *row = &buffer->row[l];
+            const int64_t other = by_offset ? particle[l] + (l < rows ? buffer->offset[k] : 0) : particle[l];
             /* padding may point to any particle */
             column->nbr[l] = other < 0 || other >= p->n_all ? particle[l] : (int32_t)other;
             column->inverse_length[l] = column->w[l] = 0;
-            if (l >= rows || !row_has(room, particle, l, used[l], by_offset, k)) continue;
+            if (l >= rows || !row_has(buffer, particle, l, used[l], by_offset, k)) continue;
             const int n = used[l]++;
             column->nbr[l] = row->nbr[n], column->inverse_length[l] = row->inverse_length[n], column->w[l] = row->w[n];
             if (b->plastic_stretch)
@@ -106,8 +106,8 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *room, int64_t g, i
         for (int l = 1; l < LANES; l++) consecutive = consecutive && column->nbr[l] == column->nbr[0] + l;
         column->first = consecutive ? column->nbr[0] : -1;
     }
-    row_block_note(b, room, g, rows);
-    row_block_store(b, room, g, p);
+    row_block_note(b, buffer, g, rows);
+    row_block_store(b, buffer, g, p);
 }
 
 /* Makes the stencil of row block g from its columns in `room`. Returns false if the row block must store its columns:
@@ -118,17 +118,18 @@ static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int
     room->stencil.columns = 0;
     if (!b->aligned[g] || columns == 0 || b->plastic_stretch || b->changed[g]) return false;
     for (int k = 0; k < columns; k++)
-        if (!stencil_add(&room->stencil, b, p, b->particle[g * LANES], &room->column[k])) return false;
+        if (!stencil_add_column(&room->stencil, b, p, b->particle[g * LANES], &room->column[k])) return false;
     return true;
 }
 
-void row_block_store(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
+void row_block_store(struct bonds *b, struct row_block_buffer *buffer, int64_t g, const struct particles *p)
 {
-    b->stencil[g] = stencil_of(b, room, g, p) ? stencil_find(b->stencils, &room->stencil, room->likely) : NULL;
+    b->stencil[g] =
+        stencil_of(b, buffer, g, p) ? stencil_find_or_add(b->stencils, &buffer->stencil, buffer->likely) : NULL;
     b->implicit[g] = b->stencil[g] != NULL;
-    if (b->implicit[g]) room->likely = b->stencil[g];
+    if (b->implicit[g]) buffer->likely = b->stencil[g];
     for (int k = 0; k < b->column_count[g] && !b->implicit[g]; k++)
-        bond_column_write(b, b->column[g] + k, &room->column[k]);
+        bond_column_write(b, b->column[g] + k, &buffer->column[k]);
 }
 
 /* Returns which of the particles i .. i + 7 are peridynamic, one bit each. */
@@ -149,7 +150,7 @@ bool row_block_find_regular(const struct site_map *map, const struct bond_source
     const uint8_t own = peridynamic(p, i);
     if (own == UINT8_MAX && to->full) {
         array_fill_bytes(to->bonds, UINT8_MAX, to->n, 1);
-        return columns_by_offset(to->n, to->n);
+        return columns_use_offsets(to->n, to->n);
     }
     for (int k = 0; k < to->n; k++) {
         const unsigned family = (2u << to->to[k]) - (1u << to->from[k]);
@@ -158,7 +159,7 @@ bool row_block_find_regular(const struct site_map *map, const struct bond_source
         columns += to->bonds[k] != 0;
     }
     for (int l = 0; l < LANES; l++) longest = bonds[l] > longest ? bonds[l] : longest;
-    return columns_by_offset(columns, longest);
+    return columns_use_offsets(columns, longest);
 }
 
 int regular_bonds_count_columns(const struct regular_bonds *bonds)
@@ -211,9 +212,9 @@ static bool whole_families(const struct regular_bonds *bonds)
 
 /* Fills row block g from the bonds in room->regular, which the site map gives, without making single rows. If a recent
  * row block had the same bonds and families are whole, its stencil and sums are used. */
-void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct row_maker *m)
+void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, int64_t g, const struct row_maker *m)
 {
-    const struct regular_bonds *bonds = &room->regular;
+    const struct regular_bonds *bonds = &buffer->regular;
     const real *volume = m->p->volume0;
     const int32_t i = b->particle[g * LANES];
     const bool follows =
@@ -225,23 +226,23 @@ void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int6
     for (int k = 0; k < bonds->n; k++) {
         const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
         for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? volume[j + l] : 0;
-        if (bonds->bonds[k]) fill_column(&room->column[columns++], m, i, j, bonds->bonds[k]);
+        if (bonds->bonds[k]) fill_column(&buffer->column[columns++], m, i, j, bonds->bonds[k]);
     }
     for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
     b->aligned[g] = true;
-    row_block_store(b, room, g, m->p);
+    row_block_store(b, buffer, g, m->p);
 }
 
-/* Allocates working memory for row blocks whose rows have up to `room` bonds, for the worst case, of which little is
- * ever touched: the arrays are not cleared. */
-void row_block_buffer_make(struct row_block_buffer *g, int room, const struct site_map *map)
+/* Allocates working memory for row blocks whose rows have up to `capacity` bonds, for the worst case, of which little
+ * is ever touched: the arrays are not cleared. */
+void row_block_buffer_make(struct row_block_buffer *g, int capacity, const struct site_map *map)
 {
-    g->room = room;
-    for (int l = 0; l < LANES; l++) row_buffer_make(&g->row[l], room);
-    g->offset = BARE("bonds.offset", (int64_t)LANES * room + 1, int32_t);
+    g->room = capacity;
+    for (int l = 0; l < LANES; l++) row_buffer_make(&g->row[l], capacity);
+    g->offset = BARE("bonds.offset", (int64_t)LANES * capacity + 1, int32_t);
     regular_bonds_make(&g->regular, map);
-    stencil_make(&g->stencil, LANES * room + 1);
-    g->column = BARE("bonds.column_copy", (int64_t)LANES * room + 1, struct column_copy);
+    stencil_make(&g->stencil, LANES * capacity + 1);
+    g->column = BARE("bonds.column_copy", (int64_t)LANES * capacity + 1, struct column_copy);
 }
 
 void row_block_buffer_free(struct row_block_buffer *g)

@@ -26,7 +26,7 @@ int64_t lattice_site_of(const struct site_map *l, const struct particles *p, int
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
         real k;
-        if (!lattice_site(p->X[d][i], l->low[d], l->spacing, &k)) return -1;
+        if (!lattice_contains_coordinate(p->X[d][i], l->low[d], l->spacing, &k)) return -1;
         site += l->stride[d] * (l->reach + (int64_t)k);
     }
     return site;
@@ -38,7 +38,7 @@ static int64_t box_sites(struct site_map *l, const struct particles *p)
     real site_map = 1;
     for (int d = 0; d < p->dim; d++) {
         real high;
-        particles_extent(p, p->n_all, d, &l->low[d], &high);
+        particles_coordinate_range(p, p->n_all, d, &l->low[d], &high);
         l->stride[d] = (int64_t)site_map;
         site_map *= nearbyint((high - l->low[d]) / l->spacing) + 1 + 2 * l->reach;
         if (!(site_map <= SPARSE_MOST * (real)p->n_all + 4096)) return 0;
@@ -91,7 +91,7 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
 static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
     real low, high;
-    particles_extent(p, p->n, d, &low, &high);
+    particles_coordinate_range(p, p->n, d, &low, &high);
     const real power = exp2(ceil(log2(real_max(fabs(low), fabs(high))))), unit = power * 0x1p-53,
                site_map = nearbyint((high - low) / l->spacing);
     if (site_map == 0) return low == high;
@@ -143,10 +143,10 @@ void site_map_free(struct site_map *l)
     *l = (struct site_map){0};
 }
 
-struct site_map *site_map_share(struct site_map *of, const struct bond_source *s, const struct particles *p)
+struct site_map *site_map_share(struct site_map *existing, const struct bond_source *s, const struct particles *p)
 {
-    struct site_map *l = of ? of : NEW("bonds.sites", 1, struct site_map);
-    if (!of) site_map_make(l, s, p);
+    struct site_map *l = existing ? existing : NEW("bonds.sites", 1, struct site_map);
+    if (!existing) site_map_make(l, s, p);
     l->users++;
     return l;
 }
@@ -217,20 +217,20 @@ bool regular_bonds_find(const struct site_map *l, const struct particles *p, int
         number += 2 * l->row[k].half + (l->row[k].site != 0);
     }
     to->full = is_full(to);
-    if (to->full) return columns_by_offset(to->n, to->n);
+    if (to->full) return columns_use_offsets(to->n, to->n);
     int bonds[LANES] = {0}, longest = 0;
     for (int k = 0; k < to->n; k++)
         for (int lane = 0; lane < LANES; lane++) bonds[lane] += lane >= to->from[k] && lane <= to->to[k];
     for (int lane = 0; lane < LANES; lane++) longest = bonds[lane] > longest ? bonds[lane] : longest;
-    return columns_by_offset(to->n, longest);
+    return columns_use_offsets(to->n, longest);
 }
 
-bool regular_bonds_find_clear(const struct site_map *l, const struct bond_source *s, const struct particles *p,
+bool regular_bonds_find_uncut(const struct site_map *l, const struct bond_source *s, const struct particles *p,
                               int64_t i, struct regular_bonds *to)
 {
     if (!l->at || i + LANES > p->n || !regular_bonds_find(l, p, i, to)) return false;
     for (int lane = 0; lane < LANES; lane++)
-        if (voids_near(s->voids, i + lane)) return false;
+        if (particle_is_beside_void(s->voids, i + lane)) return false;
     return true;
 }
 
@@ -273,7 +273,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
         r[l] = same && l > 0 ? r[0] : sqrt(r2);
         inverse[l] = same && l > 0 ? inverse[0] : 1 / r[l];
     }
-    for (int l = 0; l < LANES && !family_plain(f); l++) {
+    for (int l = 0; l < LANES && !family_has_equal_weights(f); l++) {
         real one[DIM_MAX];
         for (int d = 0; d < dim; d++) one[d] = xi[d][l];
         w[l] = same && l > 0 ? w[0] : family_bond_weight(f, one, r[l]);
@@ -289,7 +289,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
     for (int l = 0; l < LANES && s->surface; l++) {
         real one[DIM_MAX];
         for (int d = 0; d < dim; d++) one[d] = xi[d][l];
-        w[l] *= surface_factor(s->surface, i + l, one);
+        w[l] *= surface_weight_factor(s->surface, i + l, one);
     }
 }
 

@@ -7,7 +7,7 @@
 real state_intact_weighted_volume(const struct bonds *b, int64_t row)
 {
     real Q = 0;
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
         if (it.bond.w != 0) Q += it.bond.w / square(it.bond.inverse_length);
     return Q;
 }
@@ -50,7 +50,7 @@ static void state_weigh_new(struct bonds *b, const struct particles *p, const st
         if (b->state.weighted[g * LANES] == 0) row_block_weigh(b, p, s, g);
 }
 
-void state_start(struct bonds *b, const struct bond_source *s)
+void bonds_state_start(struct bonds *b, const struct bond_source *s)
 {
     if (!s->modulus) return;
     b->state.modulus = s->modulus;
@@ -59,7 +59,7 @@ void state_start(struct bonds *b, const struct bond_source *s)
     b->state.weighted = NEW("state.weighted", b->row_blocks * LANES, real);
 }
 
-void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s)
+void bonds_state_make(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     if (!s->modulus) return;
     const int64_t room = p->n_all + LANES;
@@ -75,7 +75,7 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
     state_weigh_new(b, p, s);
 }
 
-void state_free(struct bonds *b)
+void bonds_state_free(struct bonds *b)
 {
     memory_free(b->state.weighted);
     memory_free(b->state.past);

@@ -55,8 +55,8 @@ static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct
     return same;
 }
 
-bool stencil_add(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
-                 const struct column_copy *from)
+bool stencil_add_column(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
+                        const struct column_copy *from)
 {
     struct stencil_column *column = &to->column[to->columns];
     const real *inverse = from->inverse_length, *w = from->w;
@@ -125,7 +125,8 @@ static const struct stencil *stencil_store(struct stencils *all, const struct st
     return stored;
 }
 
-const struct stencil *stencil_find(struct stencils *all, const struct stencil *stencil, const struct stencil *likely)
+const struct stencil *stencil_find_or_add(struct stencils *all, const struct stencil *stencil,
+                                          const struct stencil *likely)
 {
     const struct stencil *known;
     if (likely && stencils_equal(likely, stencil)) return likely;

@@ -13,9 +13,9 @@
 
 /* Returns the sum of the volumes of the neighbours of particle i times their weights in the family f [m^3]. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
-                        const struct site_map *map, int64_t i, int32_t *found, int room)
+                        const struct site_map *map, int64_t i, int32_t *found, int capacity)
 {
-    const int n = find_neighbours_of(map, s, p, (int32_t)i, found, room);
+    const int n = find_neighbours_of(map, s, p, (int32_t)i, found, capacity);
     real volume = 0;
     for (int k = 0; k < n; k++) {
         real xi[DIM_MAX];
@@ -46,14 +46,14 @@ static void whole_volumes(real *volume, int64_t n, real full)
         if (fabs(volume[i] - full) <= WHOLE * full) volume[i] = full;
 }
 
-void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
+void bonds_compute_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
 {
-    const int most = bonds_most_neighbours(s);
+    const int most = bonds_neighbour_count_bound(s);
     struct family plain = s->family; /* shell weights are left out: the surface correction counts volumes */
     struct site_map map = {0};
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
     plain.influence = INFLUENCE_ONE;
-    if (family_plain(&plain)) site_map_make(&map, s, p);
+    if (family_has_equal_weights(&plain)) site_map_make(&map, s, p);
 #pragma omp parallel
     {
         int32_t *found = NEW("bonds.found", most, int32_t);
@@ -61,7 +61,7 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
         regular_bonds_make(&bonds, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
-            if (regular_bonds_find_clear(&map, s, p, first, &bonds)) {
+            if (regular_bonds_find_uncut(&map, s, p, first, &bonds)) {
                 const int64_t cached = stencil_cache_find_row(&bonds, NULL, first);
                 if (cached >= 0)
                     memcpy(volume + first, volume + cached, LANES * sizeof *volume);
@@ -87,23 +87,23 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
     for (int k = 0; k < row->n; k++) {
         real n[DIM_MAX] = {0};
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][row->nbr[k]] - p->X[d][i]) * row->inverse_length[k];
-        spring_bound_add(&bound, stiffness * row->w[k] * row->inverse_length[k], n, p->dim);
+        spring_bound_add_spring(&bound, stiffness * row->w[k] * row->inverse_length[k], n, p->dim);
     }
-    return spring_bound_of(&bound, p->dim);
+    return spring_bound_eigenvalue(&bound, p->dim);
 }
 
 real bonds_row_stiffness_bound(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int64_t i = b->particle[row];
     struct spring_bound bound = {{{0}}, 0};
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
         real n[DIM_MAX] = {0};
         if (bond.w == 0) continue;
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond.nbr] - p->X[d][i]) * bond.inverse_length;
-        spring_bound_add(&bound, b->stiffness * bond.w * bond.inverse_length, n, p->dim);
+        spring_bound_add_spring(&bound, b->stiffness * bond.w * bond.inverse_length, n, p->dim);
     }
-    return spring_bound_of(&bound, p->dim);
+    return spring_bound_eigenvalue(&bound, p->dim);
 }
 
 /* Sums of the springs on eight consecutive particles, from which bounds of their frequencies follow: stiffness matrix
@@ -151,7 +151,7 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
         struct spring_bound one = {.total = bounds->total[l]};
         for (int a = 0; a < p->dim; a++)
             for (int c = 0; c < p->dim; c++) one.block[a][c] = bounds->block[a][c][l];
-        largest = real_max(largest, spring_bound_of(&one, p->dim) / p->mass[i + l]);
+        largest = real_max(largest, spring_bound_eigenvalue(&one, p->dim) / p->mass[i + l]);
     }
     return largest;
 }
@@ -237,7 +237,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     all.kind = kind;
     struct site_map map;
     const struct row_maker maker = {
-        .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_most_neighbours(s)};
+        .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_neighbour_count_bound(s)};
     site_map_make(&map, s, p);
     uint8_t *needed = first_of_classes(s->surface, &map, p->n);
 #pragma omp parallel reduction(max : largest)

@@ -11,7 +11,7 @@ static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
         const struct bond bond = bond_read(b, row / LANES, k, lane);
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
         if (bond.w == 0 && bond.inverse_length < 0) return;
-        const int64_t q = bond_to_write(b, row / LANES, k, lane);
+        const int64_t q = bond_index_for_writing(b, row / LANES, k, lane);
         b->w[q] = 0;
         b->inverse_length[q] = -fabs(b->inverse_length[q]);
         bonds_update_common_of_bond(b, row, q);
@@ -19,21 +19,21 @@ static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
     }
 }
 
-void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
-                           const int32_t *now)
+void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bonds *old,
+                           const struct particles *old_particles, const int32_t *new_index)
 {
     for (int64_t from = 0; from < old->rows; from++) {
-        const int32_t i = now[old->particle[from]], row = i < 0 ? -1 : b->row_of[i];
+        const int32_t i = new_index[old->particle[from]], row = i < 0 ? -1 : b->row_of[i];
         if (row < 0) continue;
         b->broken_volume[row] = old->broken_volume[from];
         b->fracture_energy[row] = old->fracture_energy[from];
         b->plastic_work[row] = old->plastic_work[from];
         b->broken[row] = old->broken[from];
         if (!old->changed[from / LANES]) continue;
-        for (struct bond_iterator it = bonds_of_row(old, from); bond_next(&it);)
-            if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, now[it.bond.nbr]);
+        for (struct bond_iterator it = bond_iterator_of_row(old, from); bond_next(&it);)
+            if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, new_index[it.bond.nbr]);
     }
-    for (int64_t j = 0; j < was->n; j++)
-        if (now[j] >= 0) p->damage[now[j]] = was->damage[j];
+    for (int64_t j = 0; j < old_particles->n; j++)
+        if (new_index[j] >= 0) p->damage[new_index[j]] = old_particles->damage[j];
     b->clamped.stale = true;
 }

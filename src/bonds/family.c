@@ -49,7 +49,7 @@ real family_bond_weight(const struct family *f, const real *xi, real r)
 {
     int dim = space_dim(f->space);
     real fourth = 0;
-    if (family_plain(f)) return f->shell_weight[0];
+    if (family_has_equal_weights(f)) return f->shell_weight[0];
     r = true_length(f, r);
     for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
     /* mean of n1^4 + n2^4 + n3^4 over all directions: 1, 3/4, 3/5 */

@@ -64,13 +64,13 @@ static real layer_work(const struct state_modulus *m, const struct family *f, re
     return work;
 }
 
-real family_separation_work(const struct family *f, const struct state_modulus *m, bool local)
+real family_separation_work(const struct family *f, const struct state_modulus *m, bool present_family)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing);
     const int64_t room = (int64_t)reach * (2 * reach + 1) * (space_dim(f->space) > 2 ? 2 * reach + 1 : 1);
     struct crossing *c = NEW("separation.crossing", room, struct crossing);
     real work = 0;
-    for (int layer = 0; layer < reach; layer++) work += layer_work(m, f, (layer + 0.5) * f->spacing, local, c);
+    for (int layer = 0; layer < reach; layer++) work += layer_work(m, f, (layer + 0.5) * f->spacing, present_family, c);
     memory_free(c);
     return 2 * f->spacing * work;
 }

@@ -20,7 +20,7 @@ static void tables_make(struct surface_weights *to, const struct near_faces *b, 
             const int64_t entry = (int64_t) class * n + k, group = a->group_of[entry];
             const real r = b->offset.length[k] * f->spacing;
             to->factor[entry] = group >= 0 ? factor[group] : 1;
-            if (alike_neighbour(a, b, class, k) >= 0)
+            if (bond_class_neighbour(a, b, class, k) >= 0)
                 to->weighted[class] += to->factor[entry] * b->offset.share[k] * square(r);
         }
 }
@@ -29,10 +29,10 @@ status surface_weights_make(struct surface_weights *to, const struct particles *
                             bool rotates)
 {
     struct near_faces b;
-    struct face_targets f;
+    struct surface_fit_targets f;
     struct bond_classes a;
     TRY(near_faces_make(&b, p, s, to->apart));
-    face_targets_make(&f, &b, rotates);
+    surface_fit_targets_make(&f, &b, rotates);
     bond_classes_make(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);
     const real left = surface_fit_factors(factor, &b, &f, &a, rotates, SURFACE_PRODUCTS);
@@ -50,7 +50,7 @@ status surface_weights_make(struct surface_weights *to, const struct particles *
     tables_make(to, &b, &a, &s->family, factor);
     memory_free(factor);
     bond_classes_free(&a);
-    face_targets_free(&f);
+    surface_fit_targets_free(&f);
     near_faces_free(&b);
     return OK;
 }

@@ -52,7 +52,7 @@ static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, 
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
     for (int k = 0; k < b->offset.n; k++) {
-        const int32_t j = neighbour_of(b, t, k);
+        const int32_t j = near_face_neighbour_of(b, t, k);
         uint64_t word = 0;
         if (j >= 0) {
             const struct seen seen = mirrored_source_of(b, j);
@@ -80,7 +80,7 @@ static uint64_t colour_around(const struct near_faces *b, const struct kinds *s,
     const struct offsets *o = &b->offset;
     uint64_t hash = mixed(HASH_START, s->colour[((int64_t)s->of[t] << o->dim) + mirrors]);
     for (int k = 0; k < o->n; k++)
-        hash = mixed(hash, colour_seen(b, s, neighbour_of(b, t, o->mirrored[mirrors * o->n + k]), mirrors));
+        hash = mixed(hash, colour_seen(b, s, near_face_neighbour_of(b, t, o->mirrored[mirrors * o->n + k]), mirrors));
     return hash;
 }
 
@@ -109,7 +109,7 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 {
     const int dim = b->offset.dim;
     uint64_t *hash = NEW("surface.hash", b->n, uint64_t), *factor = NEW("surface.hash", b->offset.n, uint64_t);
-    for (int k = 0; k < b->offset.n; k++) factor[k] = splitmix(0, (uint64_t)k);
+    for (int k = 0; k < b->offset.n; k++) factor[k] = hash_add_word(0, (uint64_t)k);
 #pragma omp parallel for schedule(static)
     for (int64_t t = 0; t < b->n; t++) hash[t] = kinds_around(b, s, factor, t);
     struct kinds fine = {.of = NEW("surface.kind", b->n, int32_t)};
@@ -212,8 +212,8 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
     for (int32_t kind = 0; kind < n; kind++)
         for (int k = 0; k < b->offset.n; k++) {
             const int64_t t = first[kind];
-            const int32_t j = neighbour_of(b, t, k);
-            if (j < 0 || (b->whole[b->particle[t]] && is_whole(b, j))) continue;
+            const int32_t j = near_face_neighbour_of(b, t, k);
+            if (j < 0 || (b->whole[b->particle[t]] && particle_family_is_complete(b, j))) continue;
             const struct seen seen = mirrored_source_of(b, j);
             const int64_t other = entry_of(a, b, b->place[seen.particle], reverse_offset(b, &seen, k));
             groups_join(parent, entry_of(a, b, t, k), other);

@@ -74,7 +74,7 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
     for (int d = o->dim - 1; d >= 0; d--) {
         const real xi = (p->X[d][j] - p->X[d][i]) / spacing;
         if (!(fabs(xi) < o->reach + 0.5)) return -1;
-        const int step = nearest_step(xi);
+        const int step = nearest_integer(xi);
         if (!(fabs(xi - step) < 1e-6)) return -1;
         place = place * (2 * o->reach + 1) + o->reach + step;
     }
@@ -85,7 +85,7 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 struct seen source_of_image(const struct near_faces *b, int64_t j)
 {
-    struct seen to = {image_root(b->p, b->source->image, j), 0};
+    struct seen to = {image_source_particle(b->p, b->source->image, j), 0};
     for (int d = 0; d < b->p->dim; d++)
         if (fabs(b->p->X[d][j] - b->p->X[d][to.particle]) > 0.25 * b->source->family.spacing) to.mirrors |= 1 << d;
     return to;
@@ -109,7 +109,7 @@ struct search {
 /* Allocates the working memory of a search over the map of lattice sites. Release with search_free. */
 static void search_make(struct search *search, const struct near_faces *b, const struct site_map *map)
 {
-    const int room = bonds_most_neighbours(b->source);
+    const int room = bonds_neighbour_count_bound(b->source);
     *search = (struct search){.map = map, .found = NEW("surface.found", room, int32_t), .room = room};
     regular_bonds_make(&search->regular, map);
 }
@@ -125,7 +125,7 @@ static void search_free(struct search *search)
 static void search_turn(struct search *search, const struct near_faces *b, int64_t first)
 {
     search->first = first;
-    search->eight = regular_bonds_find_clear(search->map, b->source, b->p, first, &search->regular);
+    search->eight = regular_bonds_find_uncut(search->map, b->source, b->p, first, &search->regular);
 }
 
 /* Finds the neighbours of particle i, one of the eight, from their regular families, as neighbours_find does. near: a
@@ -213,11 +213,11 @@ static void near_mark(uint8_t *near, const struct near_faces *b, const struct si
         for (int64_t first = 0; first < p->n_all; first += LANES) {
             const int64_t end = first + LANES < p->n_all ? first + LANES : p->n_all;
             bool whole = true;
-            for (int64_t i = first; i < end; i++) whole = whole && is_whole(b, i);
+            for (int64_t i = first; i < end; i++) whole = whole && particle_family_is_complete(b, i);
             if (whole) continue;
             search_turn(&search, b, first);
             for (int64_t i = first; i < end; i++) {
-                if (is_whole(b, i)) continue;
+                if (particle_family_is_complete(b, i)) continue;
                 const int l = (int)(i - first);
                 near_put(b, near, i);
                 for (int k = 0; search.eight && k < regular->n; k++)
@@ -280,7 +280,7 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
 static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;
-    const int room = bonds_most_neighbours(s);
+    const int room = bonds_neighbour_count_bound(s);
     int32_t *found = NEW("surface.found", room, int32_t);
     apart[0] = apart[1] = -1;
     for (int64_t i = 0; i < b->p->n && apart[0] < 0; i++) {

@@ -21,7 +21,7 @@ enum { CHAIN = 3 }; /* layers over which area and dipole of a face are distribut
 
 /* Face of a particle, as seen from another one through mirrors: area vector [spacings^(dim-1)], position of its centre
  * [spacings] and length of the area vector. */
-struct face {
+struct exposed_face {
     real area[DIM_MAX], centre[DIM_MAX], size;
 };
 
@@ -34,14 +34,14 @@ struct raw_faces {
 /* Returns true if particle t has no neighbour up or down an axis. */
 static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
 {
-    return neighbour_of(b, t, b->offset.axis[axis][up]) < 0;
+    return near_face_neighbour_of(b, t, b->offset.axis[axis][up]) < 0;
 }
 
 /* Returns the face of particle or image j, of area 0 if it is near no face. */
-static struct face face_seen(const struct raw_faces *raw, int64_t j)
+static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
-    struct face f = {{0}, {0}, 0};
+    struct exposed_face f = {{0}, {0}, 0};
     const struct seen seen = mirrored_source_of(b, j);
     const int64_t t = b->place[seen.particle];
     if (t < 0) return f;
@@ -65,7 +65,7 @@ struct mean_face {
 
 /* Adds a face, times `weight`, to the sum of areas and to the sums of size, first and second moments of positions
  * relative to `from`. */
-static void mean_add(const struct face *f, const real *from, real weight, int dim, real *area, real *sums)
+static void mean_add(const struct exposed_face *f, const real *from, real weight, int dim, real *area, real *sums)
 {
     real x[DIM_MAX];
     for (int d = 0; d < dim; d++) area[d] += weight * f->area[d], x[d] = f->centre[d] - from[d];
@@ -82,13 +82,13 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 {
     const struct near_faces *b = raw->body;
     const int dim = b->p->dim;
-    const struct face own = face_seen(raw, b->particle[t]);
+    const struct exposed_face own = face_seen(raw, b->particle[t]);
     real area[DIM_MAX] = {0}, sums[4 + 9] = {0}, size = 0;
     struct mean_face mean = {{0}, 0};
     mean_add(&own, own.centre, 1, dim, area, sums);
     for (int k = 0; k < b->offset.n; k++) {
-        if (neighbour_of(b, t, k) < 0) continue;
-        const struct face other = face_seen(raw, neighbour_of(b, t, k));
+        if (near_face_neighbour_of(b, t, k) < 0) continue;
+        const struct exposed_face other = face_seen(raw, near_face_neighbour_of(b, t, k));
         if (other.size > 0 && dot(own.area, other.area, dim) > -1e-9)
             mean_add(&other, own.centre, nearness(&b->offset, k), dim, area, sums);
     }
@@ -164,14 +164,14 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
 /* Computes N (x) N of particle t as the mean over the faces of its family, weighted by nearness, and reduced where
  * fewer faces are near than at a plane face (`plane`: sum of weights there). rotates: of a model with rotations,
  * without this reduction. */
-static void normals_gather(struct face_targets *f, const struct near_faces *b, const struct smooth_faces *s, real plane,
-                           bool rotates, int64_t t)
+static void normals_gather(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth_faces *s,
+                           real plane, bool rotates, int64_t t)
 {
     const int dim = b->p->dim;
     real sum[DIM_MAX][DIM_MAX] = {{0}}, trace = 0;
     if (s->at[t] >= 0) array_copy(sum, s->smooth[s->at[t]].square, 1, sizeof sum);
     for (int k = 0; k < b->offset.n; k++) {
-        const int32_t j = neighbour_of(b, t, k);
+        const int32_t j = near_face_neighbour_of(b, t, k);
         if (j < 0) continue;
         const struct seen seen = mirrored_source_of(b, j);
         const int64_t near = b->place[seen.particle], other = near < 0 ? -1 : s->at[near];
@@ -190,8 +190,8 @@ static void normals_gather(struct face_targets *f, const struct near_faces *b, c
  * is extrapolated from the middles of the layers to the face. The weights of the dipole have sum 0: without rotations
  * the difference 1, -1 of the first two layers; with rotations 2, -3, 1, a one-sided first derivative of second order
  * at the face. up: the end in positive direction. */
-static void face_spread(struct face_targets *f, const struct near_faces *b, const struct smooth *smooth, int64_t t,
-                        int axis, int up, bool rotates)
+static void face_spread(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth *smooth,
+                        int64_t t, int axis, int up, bool rotates)
 {
     static const real area[2][2] = {{1}, {1.5, -0.5}}, first[2] = {1, -1}, second[CHAIN] = {2, -3, 1};
     struct seen chain[CHAIN] = {{b->particle[t], 0}};
@@ -228,7 +228,7 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
     return n;
 }
 
-void face_targets_make(struct face_targets *f, const struct near_faces *b, bool rotates)
+void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_faces *b, bool rotates)
 {
     const int dim = b->p->dim, most = rotates ? THIN_ROTATING : THIN;
     struct raw_faces raw = {b, (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};
@@ -255,7 +255,7 @@ void face_targets_make(struct face_targets *f, const struct near_faces *b, bool 
     memory_free(smooth.smooth);
 }
 
-void face_targets_free(struct face_targets *f)
+void surface_fit_targets_free(struct surface_fit_targets *f)
 {
     memory_free(f->area);
     memory_free(f->dipole);

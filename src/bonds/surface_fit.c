@@ -149,18 +149,18 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
 
-/* Inverts a symmetric positive definite matrix of n rows in place by Gauss-Jordan elimination. room: numbers from one
- * row to the next. */
-static void invert(real *a, int n, int room)
+/* Inverts a symmetric positive definite matrix of n rows in place by Gauss-Jordan elimination. capacity: numbers from
+ * one row to the next. */
+static void invert(real *a, int n, int capacity)
 {
     for (int k = 0; k < n; k++) {
-        real *row = a + k * room;
+        real *row = a + k * capacity;
         const real pivot = 1 / row[k];
         row[k] = 1;
         for (int c = 0; c < n; c++) row[c] *= pivot;
         for (int r = 0; r < n; r++) {
             if (r == k) continue;
-            real *other = a + r * room;
+            real *other = a + r * capacity;
             const real factor = other[k];
             other[k] = 0;
             for (int c = 0; c < n; c++) other[c] -= factor * row[c];
@@ -184,17 +184,17 @@ static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], re
     invert(&P[0][0], m->strains, STRAINS);
 }
 
-/* Adds the matrix sum_k by_k^T P by_k to `to` [n][room]. by: `rows` matrices with rows for the strains and n columns,
- * `room` apart. */
-static void quadratic(const real *by, int rows, int strains, int n, int room, real (*P)[STRAINS], real *to)
+/* Adds the matrix sum_k by_k^T P by_k to `to` [n][capacity]. by: `rows` matrices with rows for the strains and n
+ * columns, `capacity` apart. */
+static void quadratic(const real *by, int rows, int strains, int n, int capacity, real (*P)[STRAINS], real *to)
 {
     for (int k = 0; k < rows; k++)
         for (int l = 0; l < strains; l++) {
             real half[FOURTHS] = {0};
             for (int q = 0; q < strains; q++)
-                for (int y = 0; y < n; y++) half[y] += P[l][q] * by[(k * STRAINS + q) * room + y];
+                for (int y = 0; y < n; y++) half[y] += P[l][q] * by[(k * STRAINS + q) * capacity + y];
             for (int x = 0; x < n; x++)
-                for (int y = 0; y < n; y++) to[x * room + y] += by[(k * STRAINS + l) * room + x] * half[y];
+                for (int y = 0; y < n; y++) to[x * capacity + y] += by[(k * STRAINS + l) * capacity + x] * half[y];
         }
 }
 
@@ -206,7 +206,7 @@ struct class_goal {
 };
 
 /* Adds area, dipole and N (x) N of particle t, reflected by `mirrors`, with weight `share`. */
-static void class_goal_add(struct class_goal *to, int dim, const struct face_targets *f, int64_t t, int mirrors,
+static void class_goal_add(struct class_goal *to, int dim, const struct surface_fit_targets *f, int64_t t, int mirrors,
                            real share)
 {
     to->dipole += share * f->dipole[t];
@@ -218,8 +218,8 @@ static void class_goal_add(struct class_goal *to, int dim, const struct face_tar
 }
 
 /* Computes the mean targets of all classes. */
-static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b, const struct face_targets *f,
-                        const struct bond_classes *a)
+static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b,
+                        const struct surface_fit_targets *f, const struct bond_classes *a)
 {
     for (int64_t t = 0; t < b->n; t++) {
         const int32_t class = a->class_of[t];
@@ -251,13 +251,13 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
         }
     for (int x = 0; x < m->fourth.n; x++) c->goal[m->thirds + x] = (1 + alpha * goal->dipole) * m->full[x];
     for (int k = 0; k < b->offset.n; k++) { /* less the bonds that do not change */
-        if (alike_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t) class * b->offset.n + k] >= 0) continue;
+        if (bond_class_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t) class * b->offset.n + k] >= 0) continue;
         for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
     }
 }
 
 /* Returns the sum of the quadratic form of a class over the moments of each of its bonds that may change. */
-static real class_squares(const struct fit *q, const struct moments *m, int32_t class)
+static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];
     real sum = 0;
@@ -275,7 +275,7 @@ static real class_squares(const struct fit *q, const struct moments *m, int32_t 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
 /* Sorts the entries by group, and counts the bonds of each group: half of the members of its entries. */
-static void group_entries(struct fit *q, real *bonds)
+static void group_entries(struct surface_fit_problem *q, real *bonds)
 {
     const struct bond_classes *a = q->alike;
     const int64_t entries = (int64_t)a->classes * q->offsets;
@@ -295,7 +295,7 @@ static void group_entries(struct fit *q, real *bonds)
 }
 
 /* Computes the weight of the prior of each group, and inverts the quadratic forms of the classes. */
-static void prior_make(struct fit *q, const struct moments *m)
+static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 {
     const struct bond_classes *a = q->alike;
     real *squares = NEW("surface.squares", a->classes, real), sum = 0, all = 0;
@@ -320,10 +320,10 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     const struct offsets *o = &b->offset;
     const struct particles *p = b->p;
     const int32_t i = b->particle[t];
-    const bool across = voids_near(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
+    const bool across = particle_is_beside_void(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
     if (!across && !cracks_near_particle(b->source, p, i)) return false;
     for (int k = 0; k < o->n; k++) {
-        const int32_t j = neighbour_of(b, t, k);
+        const int32_t j = near_face_neighbour_of(b, t, k);
         if (j < 0) continue;
         const struct seen seen = mirrored_source_of(b, j);
         for (int l = 0; l < o->n && b->place[seen.particle] >= 0; l++) {
@@ -334,7 +334,7 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
                 within = within && abs(at) <= o->reach;
                 place = place * (2 * o->reach + 1) + o->reach + at;
             }
-            if (within && o->number[place] >= 0 && neighbour_of(b, t, o->number[place]) < 0) return true;
+            if (within && o->number[place] >= 0 && near_face_neighbour_of(b, t, o->number[place]) < 0) return true;
         }
     }
     return false;
@@ -344,7 +344,7 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
 static int neighbours(const struct near_faces *b, int64_t t)
 {
     int n = 0;
-    for (int k = 0; k < b->offset.n; k++) n += neighbour_of(b, t, k) >= 0;
+    for (int k = 0; k < b->offset.n; k++) n += near_face_neighbour_of(b, t, k) >= 0;
     return n;
 }
 
@@ -358,14 +358,14 @@ static bool may_break(const struct bond_limit *limit)
 
 /* Fixes the factors of the bonds of a class: to the factor of the volume method (Le & Bobaru 2018), or to 1 if `one`.
  */
-static void class_fix(struct fit *q, const struct near_faces *b, int32_t class, bool one)
+static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;
     const int n = b->offset.n, own = neighbours(b, a->member[class]);
     for (int k = 0; k < n; k++) {
         const int64_t g = a->group_of[(int64_t) class * n + k];
         if (g < 0) continue;
-        const int64_t other = b->place[mirrored_source_of(b, alike_neighbour(a, b, class, k)).particle];
+        const int64_t other = b->place[mirrored_source_of(b, bond_class_neighbour(a, b, class, k)).particle];
         const real both = own + neighbours(b, other);
         q->low[g] = q->high[g] = one ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST);
     }
@@ -375,7 +375,8 @@ static void class_fix(struct fit *q, const struct near_faces *b, int32_t class, 
  * models with rotations to 1. If bonds may break, those at ends of cracks break next and get factor 1, for which G_c is
  * calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts come last, so that a bond between
  * both does not depend on the order of its particles. */
-static void plain_parts(struct fit *q, const struct near_faces *b, const struct face_targets *f, bool rotates)
+static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
+                        bool rotates)
 {
     const struct bond_classes *a = q->alike;
     const bool breaks = may_break(&b->source->limit);
@@ -386,7 +387,8 @@ static void plain_parts(struct fit *q, const struct near_faces *b, const struct 
 }
 
 /* Sets the bounds of all factors. */
-static void bounds_make(struct fit *q, const struct near_faces *b, const struct face_targets *f, bool rotates)
+static void bounds_make(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
+                        bool rotates)
 {
     const int64_t groups = q->alike->groups;
     q->low = NEW("surface.low", groups, real), q->high = NEW("surface.high", groups, real);
@@ -394,12 +396,13 @@ static void bounds_make(struct fit *q, const struct near_faces *b, const struct 
     plain_parts(q, b, f, rotates);
 }
 
-real surface_fit_factors(real *factor, const struct near_faces *b, const struct face_targets *f,
+real surface_fit_factors(real *factor, const struct near_faces *b, const struct surface_fit_targets *f,
                          const struct bond_classes *a, bool rotates, int products)
 {
     struct moments m;
     moments_make(&m, &b->offset);
-    struct fit q = {.alike = a, .offsets = b->offset.n, .thirds = m.thirds, .fourths = m.width - m.thirds, .of = m.of};
+    struct surface_fit_problem q = {
+        .alike = a, .offsets = b->offset.n, .thirds = m.thirds, .fourths = m.width - m.thirds, .of = m.of};
     const real alpha = rotates ? ROTATIONS : face_moment(&m, &b->offset);
     q.class = BARE("surface.class", a->classes, struct class_fit);
     struct class_goal *goal = NEW("surface.goal", a->classes, struct class_goal);
@@ -410,7 +413,7 @@ real surface_fit_factors(real *factor, const struct near_faces *b, const struct 
     memory_free(goal);
     prior_make(&q, &m);
     bounds_make(&q, b, f, rotates);
-    const real left = surface_solve(&q, factor, products);
+    const real left = surface_fit_solve(&q, factor, products);
     memory_free(m.of);
     memory_free(q.class);
     memory_free(q.first);

@@ -56,7 +56,7 @@ static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis &
 
 /* Returns the particle or image at offset number k from the t-th particle near faces, -1 if there is none or the bond
  * is cut. */
-static inline int32_t neighbour_of(const struct near_faces *b, int64_t t, int k)
+static inline int32_t near_face_neighbour_of(const struct near_faces *b, int64_t t, int k)
 {
     return b->neighbour[t * b->offset.n + k];
 }
@@ -67,7 +67,7 @@ static inline int32_t neighbour_of(const struct near_faces *b, int64_t t, int k)
 static inline struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset)
 {
     const int32_t own = b->offset.mirrored[from->mirrors * b->offset.n + offset];
-    const int32_t j = neighbour_of(b, b->place[from->particle], own);
+    const int32_t j = near_face_neighbour_of(b, b->place[from->particle], own);
     if (j < 0) return (struct seen){-1, 0};
     struct seen to = mirrored_source_of(b, j);
     to.mirrors ^= from->mirrors;
@@ -75,9 +75,9 @@ static inline struct seen mirrored_neighbour(const struct near_faces *b, const s
 }
 
 /* Returns true if no neighbour of particle j, or of the source particle of image j, is missing. */
-static inline bool is_whole(const struct near_faces *b, int64_t j)
+static inline bool particle_family_is_complete(const struct near_faces *b, int64_t j)
 {
-    return b->whole[j < b->p->n ? j : image_root(b->p, b->source->image, j)];
+    return b->whole[j < b->p->n ? j : image_source_particle(b->p, b->source->image, j)];
 }
 
 /* Returns the offset number of a bond in reverse direction. offset: offset number of the bond at its first particle;
@@ -96,7 +96,7 @@ void near_faces_free(struct near_faces *b);
 
 /* Properties of the faces near each particle [n], from which the targets for the weights of its bonds follow
  * (surface_fit.c). */
-struct face_targets {
+struct surface_fit_targets {
     real (*area)[DIM_MAX]; /* [n] area of the faces in the particle's cell times outward normal, extrapolated from
                               layers to the face [spacing^(dim-1)] */
     real *dipole; /* [n] relative increase tau of the target of the fourth moment of the bonds, over the constant alpha
@@ -108,11 +108,11 @@ struct face_targets {
 enum { THIN = 4, THIN_ROTATING = 5 };
 
 /* Computes, for the particles `near` near faces, the outward areas, moments and normals to which bond weights are
- * fitted, into f. rotates: true for the model with particle rotations. Release with face_targets_free. */
-void face_targets_make(struct face_targets *f, const struct near_faces *near, bool rotates);
+ * fitted, into f. rotates: true for the model with particle rotations. Release with surface_fit_targets_free. */
+void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_faces *near, bool rotates);
 
 /* Releases all arrays of f. */
-void face_targets_free(struct face_targets *f);
+void surface_fit_targets_free(struct surface_fit_targets *f);
 
 /* Classes of particles near faces whose neighbours have equal relative positions, up to reflections along axes, and
  * groups of bonds that share one factor on their weight; factors are stored by class and offset. */
@@ -133,10 +133,11 @@ void bond_classes_make(struct bond_classes *a, const struct near_faces *near);
 
 /* Returns the particle or image at offset number k from the first member of a class of particles with equal
  * surroundings, in the orientation of the class, to which the mirrors of that member map it; -1 if there is none. */
-static inline int32_t alike_neighbour(const struct bond_classes *a, const struct near_faces *b, int32_t class, int k)
+static inline int32_t bond_class_neighbour(const struct bond_classes *a, const struct near_faces *b, int32_t class,
+                                           int k)
 {
     const int64_t t = a->member[class];
-    return neighbour_of(b, t, b->offset.mirrored[a->mirrors[t] * b->offset.n + k]);
+    return near_face_neighbour_of(b, t, b->offset.mirrored[a->mirrors[t] * b->offset.n + k]);
 }
 
 /* Releases all arrays of a. */
@@ -153,7 +154,7 @@ struct class_fit {
 
 /* The least-squares problem of the factors f: sum over classes of (M - goal) Q (M - goal), M being the sum of f times
  * the moments of the bonds of the class, plus sum prior (f - 1)^2, within bounds. */
-struct fit {
+struct surface_fit_problem {
     const struct bond_classes *alike;
     int offsets, thirds, fourths; /* neighbours of a full family; third and fourth moments of a bond */
     const real *of;               /* [offsets (thirds + fourths)] moments of a bond */
@@ -162,18 +163,18 @@ struct fit {
     real *prior, *low, *high;     /* [groups] weight of (f - 1)^2; bounds of f, equal if f is given */
 };
 
-/* Largest number of products of surface_solve; most bodies take 60 to 250, thin ones with cracks in space 700. */
+/* Largest number of products of surface_fit_solve; most bodies take 60 to 250, thin ones with cracks in space 700. */
 enum { SURFACE_PRODUCTS = 1000 };
 
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
  * the factors [groups]. products: largest number of products with the matrix of the dual problem, fewer in large
  * bodies. Returns the residual that is left, over that of factors of 1 [1]. */
-real surface_solve(const struct fit *q, real *factor, int products);
+real surface_fit_solve(const struct surface_fit_problem *q, real *factor, int products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
  * factor: [classes->groups] [1]; targets: targets of the fit; rotates: true for the model with particle rotations.
- * products: as in surface_solve. Returns the residual that is left, over the first one [1]. */
-real surface_fit_factors(real *factor, const struct near_faces *near, const struct face_targets *targets,
+ * products: as in surface_fit_solve. Returns the residual that is left, over the first one [1]. */
+real surface_fit_factors(real *factor, const struct near_faces *near, const struct surface_fit_targets *targets,
                          const struct bond_classes *classes, bool rotates, int products);
 
 #endif

@@ -24,7 +24,7 @@ enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2, TOGETHER = 4 };
 
 /* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
 struct descent {
-    const struct fit *fit;
+    const struct surface_fit_problem *fit;
     int64_t n;
     int width, products, most, systems; /* systems: number of linear systems so far */
     real *multiplier, *residual, *step, *left, *weighed, *direction, *image, *next, *next_residual;
@@ -60,8 +60,8 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* Computes the products of the moments of the bonds of a class with the vector `by`. changes: skips pairs of opposite
  * bonds without a mark, unless NULL. */
-static ALWAYS_INLINE void class_back(const struct fit *q, const uint8_t *changes, const real *by, real *value,
-                                     const int thirds, const int fourths)
+static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
+                                     real *value, const int thirds, const int fourths)
 {
     for (int k = 0; k < q->offsets / 2; k++) { /* opposite bonds have opposite third moments and equal fourth moments */
         if (changes && !changes[k]) continue;
@@ -78,8 +78,8 @@ static ALWAYS_INLINE void class_back(const struct fit *q, const uint8_t *changes
 
 /* Subtracts the sum of the moments of the bonds of a class, times x of their groups, from `to`. changes: skips pairs of
  * opposite bonds without a mark, for which x is 0, unless NULL. */
-static ALWAYS_INLINE void class_sum(const struct fit *q, const uint8_t *changes, const int64_t *group, const real *x,
-                                    real *to, const int thirds, const int fourths)
+static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
+                                    const real *x, real *to, const int thirds, const int fourths)
 {
     real sum[MOMENTS] = {0};
     for (int k = 0; k < q->offsets / 2; k++) {
@@ -105,7 +105,7 @@ static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of,
 }
 
 /* Returns the marks of the pairs of bonds of a class, in the array `changes` of all classes; NULL if that is NULL. */
-static const uint8_t *marks_of(const struct fit *q, const uint8_t *changes, int32_t class)
+static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_t *changes, int32_t class)
 {
     return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
 }
@@ -113,7 +113,7 @@ static const uint8_t *marks_of(const struct fit *q, const uint8_t *changes, int3
 /* Computes `value` of the bonds from the vector x: of all, or, if `changes` is not NULL, of pairs with a mark. */
 static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 {
-    const struct fit *q = d->fit;
+    const struct surface_fit_problem *q = d->fit;
     const bool solid = q->thirds == THIRDS;
 #pragma omp parallel for schedule(static)
     for (int32_t class = 1; class < q->alike->classes; class ++) {
@@ -132,7 +132,7 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {
-    const struct fit *q = d->fit;
+    const struct surface_fit_problem *q = d->fit;
     const bool solid = q->thirds == THIRDS;
 #pragma omp parallel for schedule(static)
     for (int32_t class = 1; class < q->alike->classes; class ++) {
@@ -153,7 +153,7 @@ static void all_sum(const struct descent *d, const uint8_t *changes, const real 
 /* Returns the sum of `value` over the entries of a group. */
 static real group_sum(const struct descent *d, int64_t g)
 {
-    const struct fit *q = d->fit;
+    const struct surface_fit_problem *q = d->fit;
     real sum = 0;
     for (int64_t k = q->first[g]; k < q->first[g + 1]; k++) sum += d->value[q->entry[k]];
     return sum;
@@ -162,7 +162,7 @@ static real group_sum(const struct descent *d, int64_t g)
 /* Computes the factors from multipliers x, and R from both. */
 static void residual_make(struct descent *d, const real *x, real *residual)
 {
-    const struct fit *q = d->fit;
+    const struct surface_fit_problem *q = d->fit;
     all_back(d, NULL, x);
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < q->alike->groups; g++)
@@ -174,7 +174,7 @@ static void residual_make(struct descent *d, const real *x, real *residual)
 /* Computes the image of `direction` under the matrix of the linear system. */
 static void image_make(struct descent *d)
 {
-    const struct fit *q = d->fit;
+    const struct surface_fit_problem *q = d->fit;
     all_back(d, d->changes, d->direction);
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < q->alike->groups; g++) d->change[g] = d->between[g] ? -group_sum(d, g) / q->prior[g] : 0;
@@ -240,7 +240,7 @@ static real block_weight(const struct descent *d, int32_t class, int k)
 /* Computes the Cholesky factor of the block of a class. */
 static void block_make(const struct descent *d, int32_t class)
 {
-    const struct fit *q = d->fit;
+    const struct surface_fit_problem *q = d->fit;
     const struct class_fit *c = &q->class[class];
     const int width = d->width, thirds = q->thirds;
     real block[BLOCK], (*all)[TOGETHER] = d->block + (int64_t)(class / TOGETHER) * BLOCK;
@@ -375,7 +375,7 @@ static real descend(struct descent *d)
     return left;
 }
 
-real surface_solve(const struct fit *q, real *factor, int products)
+real surface_fit_solve(const struct surface_fit_problem *q, real *factor, int products)
 {
     const int width = q->thirds + q->fourths;
     const int64_t classes = q->alike->classes, n = classes * width;

@@ -34,7 +34,7 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
                                   .cracks = source->cracks,
                                   .shape = shape};
     c->rigid = rigid, c->rigids = rigids;
-    if (!contact_works(c)) return;
+    if (!contact_is_possible(c)) return;
     contact_profile_make(&c->law.profile, space_dim(family.space));
     if (law.distance == DISTANCE_SPACING)
         family_make(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
@@ -94,7 +94,7 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
     static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2}, squeezed[DIM_MAX + 1] = {0, 2, 4, 26.0 / 3};
     const int n = c->law.materials;
     real volume = 0, most = 0;
-    if (!contact_works(c)) return INFINITY;
+    if (!contact_is_possible(c)) return INFINITY;
     for (int64_t i = 0; i < p->n; i++) volume = real_max(volume, p->volume0[i]);
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++)
@@ -112,7 +112,7 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
 static void found_join(struct contact_found *all, const struct contact_found *own)
 {
     const int64_t touching = all->touching + own->touching;
-    if (own->touching > 0) contact_found_add(all, own->overlap, own->deepest);
+    if (own->touching > 0) contact_found_add_overlap(all, own->overlap, own->deepest);
     all->touching = touching;
 }
 
@@ -128,7 +128,7 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
         struct contact_found own = {0, 0, INT32_MAX};
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
-            if (!contact_follows(c, row) || (faces && !c->touch && c->face[row].far > reach)) continue;
+            if (!contact_may_act_on_row(c, row) || (faces && !c->touch && c->face[row].far > reach)) continue;
             if (faces)
                 contact_face_evaluate(c, p, row, dt, &own);
             else
@@ -146,19 +146,19 @@ static void faces_force(struct contact *c, struct particles *p, real dt)
     {
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
-            if (!contact_follows(c, row)) continue;
+            if (!contact_may_act_on_row(c, row)) continue;
             contact_face_add_force(c, p, row);
             if (c->spring) contact_face_advance_spring(c, p, row, dt);
         }
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < (c->spring ? c->rows : 0); row++)
-            if (contact_follows(c, row)) contact_face_add_friction(c, p, row);
+            if (contact_may_act_on_row(c, row)) contact_face_add_friction(c, p, row);
     }
 }
 
 void contact_allocate_forces(struct contact *c, const struct particles *p)
 {
-    for (int d = 0; d < p->dim && contact_works(c); d++)
+    for (int d = 0; d < p->dim && contact_is_possible(c); d++)
         if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
 }
 
@@ -215,7 +215,7 @@ real contact_energy(const struct contact *c, const struct particles *p)
 
 /* Saves an array to the archive if a->saving, else allocates *array and restores it. name: of the entry; count: number
  * of elements of `size` bytes. */
-status contact_archive_array(struct archive *a, const char *name, void **array, int64_t count, size_t size)
+status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size)
 {
     if (!a->saving) {
         memory_free(*array);
@@ -236,11 +236,11 @@ static status contact_check(const struct contact *c, const struct particles *p)
 
 /* Saves or restores the state of contact. The list of pairs, which determines which pairs act and where their contact
  * begins, is restored without a search. Returns FAILED if the archive has no valid list. */
-status contact_archive(struct contact *c, const struct particles *p, struct archive *a)
+status contact_save_or_load(struct contact *c, const struct particles *p, struct archive *a)
 {
     int64_t numbers[] = {c->made,   c->n,       c->rows,       c->pairs,        c->searched,
                          c->broken, c->changed, c->pairs_most, c->overlap_said, c->due};
-    if (!contact_works(c)) return OK;
+    if (!contact_is_possible(c)) return OK;
     ARCHIVE_VALUE(a, "contact/numbers", numbers);
     ARCHIVE_VALUE(a, "contact/overlap_most", c->overlap_most);
     ARCHIVE_VALUE(a, "contact/began", c->began);
@@ -251,28 +251,28 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     if (!c->made) return OK;
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
         return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact");
-    TRY(contact_archive_array(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
+    TRY(contact_array_save_or_load(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
     archive_renumber(a, c->particle, c->n);
     for (int d = 0; d < p->dim; d++) {
         char name[] = "contact/at_x";
         name[sizeof name - 2] = (char)('x' + d);
-        TRY(contact_archive_array(a, name, (void **)&c->at[d], c->n, sizeof *c->at[d]));
+        TRY(contact_array_save_or_load(a, name, (void **)&c->at[d], c->n, sizeof *c->at[d]));
     }
-    TRY(contact_archive_array(a, "contact/first", (void **)&c->first, c->rows + 1, sizeof *c->first));
-    TRY(contact_archive_array(a, "contact/other", (void **)&c->other, c->pairs, sizeof *c->other));
+    TRY(contact_array_save_or_load(a, "contact/first", (void **)&c->first, c->rows + 1, sizeof *c->first));
+    TRY(contact_array_save_or_load(a, "contact/other", (void **)&c->other, c->pairs, sizeof *c->other));
     if (c->law.form == CONTACT_PAIR)
-        TRY(contact_archive_array(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
+        TRY(contact_array_save_or_load(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
     else {
-        TRY(contact_archive_array(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
-        TRY(contact_archive_array(a, "contact/balance", (void **)&c->balance, c->rows, sizeof *c->balance));
+        TRY(contact_array_save_or_load(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
+        TRY(contact_array_save_or_load(a, "contact/balance", (void **)&c->balance, c->rows, sizeof *c->balance));
     }
     if (c->law.friction > 0) {
         ARCHIVE_VALUE(a, "contact/friction_work", c->friction_work);
-        TRY(contact_archive_array(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
+        TRY(contact_array_save_or_load(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
         if (!a->saving) contact_reactions_make(c);
     }
-    TRY(contact_rigid_archive(c, a));
-    TRY(contact_selection_archive(c, a));
+    TRY(contact_rigid_save_or_load(c, a));
+    TRY(contact_selection_save_or_load(c, a));
     if (a->saving) return OK;
     TRY(contact_check(c, p));
     contact_list_compute_arrays(c, p);

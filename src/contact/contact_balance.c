@@ -14,7 +14,7 @@
 /* largest part against the rate, relative to the change of the contact force in a step [1]; empirical */
 #define BALANCE_DRAG 0.1 /* force against the rate over the change of the contact force in the step [1]; empirical */
 
-real contact_balance_force(struct contact_balance *b, real stiffness, real gap, bool advance)
+real contact_energy_correction(struct contact_balance *b, real stiffness, real gap, bool advance)
 {
     if (!advance) return b->drag;
     const real was = b->gap;
@@ -26,7 +26,7 @@ real contact_balance_force(struct contact_balance *b, real stiffness, real gap, 
     return b->drag;
 }
 
-struct contact_balance contact_balance_begin(const struct contact_balance *before, real gap)
+struct contact_balance contact_energy_correction_begin(const struct contact_balance *before, real gap)
 {
     struct contact_balance to = {.gap = gap, .older = gap};
     if (!before) return to;

@@ -130,17 +130,17 @@ void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t
 {
     struct contact_face *face = &c->face[row];
     face->push = face->lift = 0;
-    if (!contact_touches(contact_marks(c), row, true)) return;
+    if (!contact_is_active(contact_selection_marks(c), row, true)) return;
     const struct face_field field = face_field_at(c, p, p->x, row);
     const struct face_gap at = face_gap(c, &field, face->zero);
-    const bool touches = contact_touches(contact_marks(c), row, at.gap < 0);
+    const bool touches = contact_is_active(contact_selection_marks(c), row, at.gap < 0);
     const real force = 0.5 * face->stiffness * (touches ? at.gap : 0) +
-                       contact_balance_force(&c->balance[row], face->stiffness, at.gap, dt > 0);
+                       contact_energy_correction(&c->balance[row], face->stiffness, at.gap, dt > 0);
     face->mean = field.mean;
     if (!touches) return;
     face->push = force * at.slope;
     face->lift = at.leans ? force / field.density : 0;
-    contact_found_add(found, -at.gap * c->size[row], c->particle[row]);
+    contact_found_add_overlap(found, -at.gap * c->size[row], c->particle[row]);
 }
 
 real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row)
@@ -152,7 +152,8 @@ real contact_face_gap(const struct contact *c, const struct particles *p, int64_
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row)
 {
     const real gap = contact_face_gap(c, p, row);
-    return contact_touches(contact_marks(c), row, gap < 0) ? 0.25 * c->face[row].stiffness * square(gap) : 0;
+    return contact_is_active(contact_selection_marks(c), row, gap < 0) ? 0.25 * c->face[row].stiffness * square(gap)
+                                                                       : 0;
 }
 
 /* Returns the derivative of the energy of entry k by the weight of entry l. */
@@ -190,7 +191,7 @@ void contact_face_add_force(const struct contact *c, struct particles *p, int64_
         const int64_t l = c->other[q];
         if (c->face[row].push == 0 && c->face[c->root[l]].push == 0) continue;
         const real own = field_share(c, p->dim, row, l, &reach), back = field_share(c, p->dim, l, row, &reach);
-        const real r2 = contact_apart(c, p, row, l, apart);
+        const real r2 = contact_distance_vector(c, p, row, l, apart);
         if (r2 >= square(reach) || r2 == 0) continue;
         const real r = sqrt(r2), slope = kernel_slope(r / reach) / (reach * r);
         const real pull = (face_pull(c, row, l) * own + face_pull(c, l, row) * back) * slope;
@@ -209,7 +210,8 @@ void contact_face_spring(const struct contact *c, const struct particles *p, int
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
         real apart[DIM_MAX], reach;
-        const real share = field_share(c, p->dim, row, l, &reach), r = sqrt(contact_apart(c, p, row, l, apart));
+        const real share = field_share(c, p->dim, row, l, &reach),
+                   r = sqrt(contact_distance_vector(c, p, row, l, apart));
         if (r >= reach || !(r > 0)) continue;
         const real by_weight = at.slope - (at.leans ? (c->rise[l] - field.mean) / field.density : 0);
         const real pull = by_weight * share * kernel_slope(r / reach) / (reach * r);
@@ -292,5 +294,6 @@ void contact_face_set_height(struct contact *c, const struct contact *before, in
     const real zero = real_min(1 + c->rise[row], least) - face_notch(c, p, row);
     face->zero = overlap > 0 ? height + overlap : real_min(zero, height);
     face->far = real_max(0, least_gap(c, &now, row));
-    c->balance[row] = contact_balance_begin(was < 0 ? NULL : &before->balance[was], face_gap(c, &now, face->zero).gap);
+    c->balance[row] =
+        contact_energy_correction_begin(was < 0 ? NULL : &before->balance[was], face_gap(c, &now, face->zero).gap);
 }

@@ -80,7 +80,7 @@ static void rows_touch(const struct contact *c, const struct particles *p, struc
     int32_t *list = BARE("contact.list", c->rows, int32_t);
     int64_t n = 0;
     for (int64_t row = 0; row < c->rows; row++)
-        if (contact_follows(c, row)) list[n++] = c->particle[row];
+        if (contact_may_act_on_row(c, row)) list[n++] = c->particle[row];
     loads_set_contact_particles(l, p, list, n);
     active_rows_activate(b, p, l, list, n);
     memory_free(list);

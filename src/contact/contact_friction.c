@@ -16,17 +16,18 @@ static void lay_down(real *spring, const real *normal, int dim)
     for (int d = 0; d < dim; d++) spring[d] = (spring[d] - out * normal[d]) * sqrt(before / after);
 }
 
-void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most)
+void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip, real k,
+                            real slip_force)
 {
     real along[DIM_MAX], before[DIM_MAX], length2 = 0, stored = 0, work = 0;
     lay_down(s->length, normal, dim);
     for (int d = 0; d < dim; d++) {
-        along[d] = slid[d] - dot(slid, normal, dim) * normal[d];
+        along[d] = slip[d] - dot(slip, normal, dim) * normal[d];
         before[d] = s->length[d];
         s->length[d] += along[d];
         length2 += square(s->length[d]);
     }
-    const real share = k * sqrt(length2) > most ? most / (k * sqrt(length2)) : 1;
+    const real share = k * sqrt(length2) > slip_force ? slip_force / (k * sqrt(length2)) : 1;
     for (int d = 0; d < dim; d++) {
         s->length[d] *= share;
         s->drag[d] = -k * s->length[d];

@@ -34,7 +34,7 @@ struct contact_found {
 
 /* Adds one contact of particle i to the sums of a step: counts it, and stores overlap and particle if the overlap [m]
  * is the largest so far; of equal overlaps the particle with the lowest index is stored. */
-static inline void contact_found_add(struct contact_found *to, real overlap, int32_t i)
+static inline void contact_found_add_overlap(struct contact_found *to, real overlap, int32_t i)
 {
     const bool first = overlap == to->overlap && i < to->deepest;
     if (overlap > to->overlap || first) to->overlap = overlap, to->deepest = i;
@@ -43,7 +43,8 @@ static inline void contact_found_add(struct contact_found *to, real overlap, int
 
 /* Computes the vector between the present positions of two particles, from entry l to entry k of the contact list
  * c->particle, dim components [m]. Returns its square [m^2]. */
-static inline real contact_apart(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real *apart)
+static inline real contact_distance_vector(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
+                                           real *apart)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     real r2 = 0;
@@ -63,11 +64,17 @@ static inline real contact_stiffness(const struct contact *c, const struct parti
 }
 
 /* Returns true if contact is possible in this run: between particles or with rigid bodies. */
-static inline bool contact_works(const struct contact *c) { return c->law.between != CONTACT_NONE || c->rigids > 0; }
+static inline bool contact_is_possible(const struct contact *c)
+{
+    return c->law.between != CONTACT_NONE || c->rigids > 0;
+}
 
 /* Returns true if contact forces may act on the particle number `row` of the contact list in this step, as
  * contact_activate_more and contact_activate_particles have determined. */
-static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_SOURCE; }
+static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
+{
+    return c->followed[row] >= ROW_SOURCE;
+}
 
 /* Activates further particles of the contact list, after neighbours that were at rest have started to move: marks them
  * as loaded in `loads` and their bonds as active in b. To be called in steps without a search for pairs. */
@@ -76,17 +83,20 @@ void contact_activate_more(struct contact *c, const struct particles *p, struct 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium (contact_select): one
  * per particle of the contact list for the form `surface`, one per pair for the form `pair`. Returns NULL if
  * overlapping contacts act. */
-static inline const uint8_t *contact_marks(const struct contact *c) { return c->by_overlap ? NULL : c->touch; }
+static inline const uint8_t *contact_selection_marks(const struct contact *c)
+{
+    return c->by_overlap ? NULL : c->touch;
+}
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
  * (contact_select), one per particle listed near this body. Returns NULL if overlapping contacts act. */
-static inline const uint8_t *contact_near_marks(const struct contact *c, int body)
+static inline const uint8_t *contact_rigid_selection_marks(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
 }
 
 /* Returns true if contact number k acts: if marks[k] is not 0, or, if marks is NULL, if the contact `overlaps`. */
-static inline bool contact_touches(const uint8_t *marks, int64_t k, bool overlaps)
+static inline bool contact_is_active(const uint8_t *marks, int64_t k, bool overlaps)
 {
     return marks ? marks[k] != 0 : overlaps;
 }
@@ -114,11 +124,11 @@ void contact_selection_activate_all(struct contact *c);
 
 /* Saves the selection of contacts for equilibria (contact_select) to the archive if a->saving, else restores it.
  * Returns FAILED if the archive cannot be read or written or a stored size differs. */
-status contact_selection_archive(struct contact *c, struct archive *a);
+status contact_selection_save_or_load(struct contact *c, struct archive *a);
 
 /* Returns the distance by which the list of pairs extends beyond the contact distance [m], so that it stays complete
  * while particles move by less than half of it. */
-static inline real contact_skin(const struct contact *c)
+static inline real contact_list_margin(const struct contact *c)
 {
     return (c->marked ? STATIC_SKIN : CONTACT_SKIN) * c->law.spacing;
 }
@@ -178,11 +188,11 @@ void contact_face_set_height(struct contact *c, const struct contact *before, in
  * contact begins or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy
  * 1/4 stiffness gap^2. b: state of this contact, updated if `advance`, i.e. if a time step was done since the last
  * call; otherwise the last force is returned again. */
-real contact_balance_force(struct contact_balance *b, real stiffness, real gap, bool advance);
+real contact_energy_correction(struct contact_balance *b, real stiffness, real gap, bool advance);
 
 /* Returns the state with which contact_balance starts for a contact on a new list. gap: present gap; before: state of
  * the contact on the previous list, whose account of energy errors is continued; NULL if the contact was not listed. */
-struct contact_balance contact_balance_begin(const struct contact_balance *before, real gap);
+struct contact_balance contact_energy_correction_begin(const struct contact_balance *before, real gap);
 
 /* Contribution of particle l of a face to the density of the face at particle k (form `surface`): weight [1];
  * derivative of the contact energy of k by their distance, divided by the distance [N/m]; vector from l to k [m]. */
@@ -195,11 +205,11 @@ struct contact_weight {
 struct contact_weight contact_face_weight(const struct contact *c, const struct particles *p, int64_t entry,
                                           int64_t other, real lag);
 
-/* Advances a friction spring by a step. normal: outward unit vector of the face, 0 if contact has ended; slid:
+/* Advances a friction spring by a step. normal: outward unit vector of the face, 0 if contact has ended; slip:
  * displacement of the particle relative to the face in the step, dim components [m]; stiffness: stiffness of the spring
- * [N/m]; most: force at which the spring slides [N], 0 after separation. */
-void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slid, real stiffness,
-                            real most);
+ * [N/m]; slip_force: force at which the spring slides [N], 0 after separation. */
+void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip, real stiffness,
+                            real slip_force);
 
 /* Advances the friction spring of particle number `row` of the contact list by a time step dt [s], by the contact law
  * of form `surface`. First of two passes over the particles; contact_face_add_friction adds the forces. */
@@ -231,7 +241,8 @@ void contact_friction_carry_over(struct contact *c, const struct contact *before
 
 /* Lists for each rigid body the particles within `skin` [m] of its surface, with the gaps at which contact begins and
  * the friction springs. before: the previous list, from which known particles keep gap and spring. */
-void contact_rigid_find(struct contact *c, const struct contact *before, const struct particles *p, real skin);
+void contact_rigid_list_particles(struct contact *c, const struct contact *before, const struct particles *p,
+                                  real skin);
 
 /* Frees the lists of particles near rigid bodies. */
 void contact_rigid_free(struct contact *c);
@@ -247,11 +258,11 @@ void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct
 
 /* Saves the lists of particles near rigid bodies to the archive if a->saving, else restores them. Returns FAILED, with
  * a message, if the archive cannot be read or written, or if a restored list has indices or counts that do not fit. */
-status contact_rigid_archive(struct contact *c, struct archive *a);
+status contact_rigid_save_or_load(struct contact *c, struct archive *a);
 
 /* Saves an array to the archive if a->saving, else allocates *array and restores it. name: of the entry; count: number
  * of elements of `size` bytes. Returns FAILED if the archive cannot be read or written or the stored size differs. */
-status contact_archive_array(struct archive *a, const char *name, void **array, int64_t count, size_t size);
+status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size);
 
 /* Returns the elastic energy of the contacts with all rigid bodies at the present positions [J]. */
 real contact_rigid_energy(const struct contact *c, const struct particles *p);

@@ -13,8 +13,8 @@ struct contact_pair {
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     struct contact_pair pair = {0};
-    const real r2 = contact_apart(c, p, row, c->other[q], pair.apart);
-    if (!contact_touches(contact_marks(c), q, r2 < square(c->distance[q]))) return pair;
+    const real r2 = contact_distance_vector(c, p, row, c->other[q], pair.apart);
+    if (!contact_is_active(contact_selection_marks(c), q, r2 < square(c->distance[q]))) return pair;
     pair.r = sqrt(r2);
     pair.overlap = c->distance[q] - pair.r;
     pair.k = contact_stiffness(c, p, row, c->other[q]);
@@ -29,7 +29,7 @@ void contact_pair_add_force(const struct contact *c, struct particles *p, int64_
         const struct contact_pair pair = contact_pair(c, p, row, q);
         if (pair.overlap == 0 || !(pair.r > 0)) continue;
         for (int d = 0; d < p->dim; d++) f[d] += pair.k * pair.overlap / pair.r * pair.apart[d];
-        contact_found_add(found, pair.overlap, i);
+        contact_found_add_overlap(found, pair.overlap, i);
     }
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
@@ -47,7 +47,7 @@ real contact_pair_energy(const struct contact *c, const struct particles *p, int
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     real apart[DIM_MAX];
-    return sqrt(contact_apart(c, p, row, c->other[q], apart)) - c->distance[q];
+    return sqrt(contact_distance_vector(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
 /* Returns the distance at which contact between list entries k and l begins [m]: the smaller of the distance in the
@@ -61,6 +61,6 @@ real contact_pair_distance(const struct contact *c, const struct particles *p, i
     const real mean = 0.5 * (c->size[k] + c->size[l]);
     if (c->law.distance == DISTANCE_LAMMPS) return real_min(NEAR_LAMMPS * sqrt(reference2), FAR_LAMMPS * mean);
     const real nominal = real_min(sqrt(reference2), mean) - contact_notch_width(c, p, k, l);
-    const real r = sqrt(contact_apart(c, p, k, l, apart));
+    const real r = sqrt(contact_distance_vector(c, p, k, l, apart));
     return real_min(nominal, isnan(was) ? r : real_max(was, r));
 }

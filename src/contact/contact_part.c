@@ -34,8 +34,8 @@ static void put_contact(const struct contact *c, const struct grid_method *mpm, 
 static status contact_state(struct run *e, struct archive *a)
 {
     struct contact *c = e->contact;
-    c->marked = scene_in_steps(e->scene);
-    TRY(contact_archive(c, &e->part, a));
+    c->marked = scene_has_load_steps(e->scene);
+    TRY(contact_save_or_load(c, &e->part, a));
     if (!a->saving && c->made && !c->touch) contact_activate_particles(c, &e->part, &e->bonds, &e->loads);
     return OK;
 }

@@ -87,14 +87,14 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         /* an iterate of an equilibrium has moved into the body: contact acts from gap 0 */
         const bool deep = c->marked && before->made && was < 0;
         near->zero[near->n] = deep ? 0 : real_min(0, real_max(zero, gap));
-        near->balance[near->n] =
-            contact_balance_begin(was >= 0 ? &before->near[body].balance[was] : NULL, gap - near->zero[near->n]);
+        near->balance[near->n] = contact_energy_correction_begin(was >= 0 ? &before->near[body].balance[was] : NULL,
+                                                                 gap - near->zero[near->n]);
         near->n++;
     }
     memory_free(found);
 }
 
-void contact_rigid_find(struct contact *c, const struct contact *before, const struct particles *p, real skin)
+void contact_rigid_list_particles(struct contact *c, const struct contact *before, const struct particles *p, real skin)
 {
     c->near = c->rigids > 0 ? NEW("contact.bodies", c->rigids, struct contact_near) : NULL;
     for (int b = 0; b < c->rigids; b++) {
@@ -130,7 +130,7 @@ real contact_rigid_gap(const struct contact *c, const struct particles *p, int b
  * the marks determine which contacts act. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
-    const uint8_t *marks = contact_near_marks(c, body);
+    const uint8_t *marks = contact_rigid_selection_marks(c, body);
     if (marks && !marks[q]) return 0;
     const real overlap = -contact_rigid_gap(c, p, body, q, normal);
     return marks ? overlap : real_max(0, overlap);
@@ -155,7 +155,7 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     const struct contact_near *near = &c->near[body];
     real normal[DIM_MAX];
     const real k = 4 * contact_stiffness(c, p, near->row[q], near->row[q]);
-    contact_balance_force(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
+    contact_energy_correction(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
 }
 
 /* Computes the force on the particle of list entry q [N]. Returns the overlap [m]. */
@@ -224,7 +224,7 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
         const real overlap = push_of(c, p, body, q, f);
         if (overlap == 0) continue;
         for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
-        contact_found_add(all, overlap, i);
+        contact_found_add_overlap(all, overlap, i);
         all->touching++; /* a pair with only one of its two rows */
     }
     reproducible_sums(near->n, RIGID_TERMS, rigid_block, &s, sum);
@@ -262,7 +262,7 @@ real contact_rigid_energy(const struct contact *c, const struct particles *p)
     return energy;
 }
 
-status contact_rigid_archive(struct contact *c, struct archive *a)
+status contact_rigid_save_or_load(struct contact *c, struct archive *a)
 {
     if (c->rigids > 0 && !a->saving) {
         contact_rigid_free(c);
@@ -281,14 +281,14 @@ status contact_rigid_archive(struct contact *c, struct archive *a)
                               "have %lld at most: start again with --overwrite",
                               (long long)near->n, (long long)c->rows);
         snprintf(name, sizeof name, "contact/near_row_%d", b);
-        TRY(contact_archive_array(a, name, (void **)&near->row, near->n, sizeof *near->row));
+        TRY(contact_array_save_or_load(a, name, (void **)&near->row, near->n, sizeof *near->row));
         snprintf(name, sizeof name, "contact/near_zero_%d", b);
-        TRY(contact_archive_array(a, name, (void **)&near->zero, near->n, sizeof *near->zero));
+        TRY(contact_array_save_or_load(a, name, (void **)&near->zero, near->n, sizeof *near->zero));
         snprintf(name, sizeof name, "contact/near_spring_%d", b);
         if (c->law.friction > 0)
-            TRY(contact_archive_array(a, name, (void **)&near->spring, near->n, sizeof *near->spring));
+            TRY(contact_array_save_or_load(a, name, (void **)&near->spring, near->n, sizeof *near->spring));
         snprintf(name, sizeof name, "contact/near_balance_%d", b);
-        TRY(contact_archive_array(a, name, (void **)&near->balance, near->n, sizeof *near->balance));
+        TRY(contact_array_save_or_load(a, name, (void **)&near->balance, near->n, sizeof *near->balance));
         for (int64_t q = 0; q < near->n; q++)
             if (near->row[q] < 0 || near->row[q] >= c->rows)
                 return status_set(FAILED, "cannot resume: particles near a rigid body are none of the checkpoint");

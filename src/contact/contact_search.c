@@ -51,8 +51,8 @@ real contact_notch_width(const struct contact *c, const struct particles *p, int
     const int32_t i = c->particle[k], j = c->particle[l];
     real widest = 0, a[DIM_MAX], b[DIM_MAX];
     if (p->body[i] != p->body[j]) return 0;
-    particle_place(p, i, a);
-    particle_place(p, j, b);
+    particle_reference_position(p, i, a);
+    particle_reference_position(p, j, b);
     for (int n = 0; n < c->law.cracks; n++) {
         const struct crack *notch = &c->law.crack[n];
         if (notch->width > widest && crack_cuts(notch, a, b, p->dim)) widest = notch->width;
@@ -91,8 +91,9 @@ void contact_list_compute_arrays(struct contact *c, const struct particles *p)
     c->size = BARE("contact.size", c->n, real);
     for (int64_t k = 0; k < c->n; k++) {
         c->size[k] = contact_spacing(&c->law, p, c->particle[k]);
-        c->rise[k] = contact_rise(&c->law, p, image_root(p, c->law.image, c->particle[k]), c->size[k]);
-        c->root[k] = (int32_t)(k < c->rows ? k : contact_list_find(c, image_root(p, c->law.image, c->particle[k])));
+        c->rise[k] = contact_rise(&c->law, p, image_source_particle(p, c->law.image, c->particle[k]), c->size[k]);
+        c->root[k] =
+            (int32_t)(k < c->rows ? k : contact_list_find(c, image_source_particle(p, c->law.image, c->particle[k])));
     }
 }
 
@@ -110,7 +111,8 @@ static void list_exposed(struct contact *c, const struct particles *p, const str
         if (is_exposed(p, b, least_volume, everywhere, p->list[KIND_PD][k])) c->particle[c->n++] = p->list[KIND_PD][k];
     c->rows = c->n;
     for (int64_t i = p->n; i < p->n_all; i++)
-        if (p->kind[i] == KIND_PD && is_exposed(p, b, least_volume, everywhere, image_root(p, c->law.image, i)))
+        if (p->kind[i] == KIND_PD &&
+            is_exposed(p, b, least_volume, everywhere, image_source_particle(p, c->law.image, i)))
             c->particle[c->n++] = (int32_t)i;
     for (int d = 0; d < p->dim; d++) {
         memory_free(c->at[d]);
@@ -146,7 +148,7 @@ static void pair_add(struct pair_list *to, int32_t other)
 }
 
 /* Appends the pairs of row k. marks: one bit per particle, 0 before and after. */
-static void row_pairs(const struct contact_search *s, struct near *near, uint64_t *marks, int64_t k,
+static void row_pairs(const struct contact_search *s, struct neighbour_list *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {
     const struct particles *p = s->p;
@@ -179,7 +181,7 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
     c->first = NEW("contact.first", c->rows + 1, int64_t);
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
         struct pair_list own = {0};
         uint64_t *marks = NEW("contact.marks", s->p->n_all / 64 + 1, uint64_t);
         int64_t put = 0;
@@ -238,7 +240,7 @@ static real search_reach(const struct contact *c)
     real most = 0;
     for (int64_t k = 0; k < c->n; k++) most = real_max(most, c->size[k]);
     const real pairs = c->law.distance == DISTANCE_LAMMPS ? FAR_LAMMPS : 1;
-    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_skin(c);
+    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_list_margin(c);
 }
 
 /* Finds the exposed particles and the pairs that may come into contact, at the present positions, and transfers the
@@ -260,7 +262,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
     contact_springs_copy(c, &before);
-    contact_rigid_find(c, &before, p, contact_skin(c));
+    contact_rigid_list_particles(c, &before, p, contact_list_margin(c));
     contact_friction_carry_over(c, &before);
     before.law.stiffness = NULL; /* the new list keeps the law and the recorded forces */
     memset(before.push, 0, sizeof before.push);
@@ -285,7 +287,7 @@ static real largest_displacement(const struct contact *c, const struct particles
 /* Returns true if a particle or rigid body has moved by half the skin. */
 static bool has_come_far(const struct contact *c)
 {
-    const real far = 0.5 * contact_skin(c);
+    const real far = 0.5 * contact_list_margin(c);
     return !(c->moved < far) || contact_rigid_has_moved(c, far);
 }
 
@@ -295,7 +297,7 @@ void contact_request_search(struct contact *c, const struct bonds *b, const stru
                             int64_t n)
 {
     const real least_volume = first_layer_share(family) * family->full;
-    if (!contact_works(c)) return;
+    if (!contact_is_possible(c)) return;
     for (int64_t k = 0; k < n && !c->due; k++) {
         const int64_t row = b->row_of[list[k]];
         c->due = c->law.distance == DISTANCE_LAMMPS ||
@@ -309,16 +311,16 @@ bool contact_search_needed(struct contact *c, const struct particles *p)
     return !c->made || has_come_far(c);
 }
 
-void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                    const struct family *family, int64_t step, int64_t broken, int64_t changed)
+void contact_update_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+                         const struct family *family, int64_t step, int64_t broken_bonds, int64_t changed)
 {
-    if (!contact_works(c)) return;
-    const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
+    if (!contact_is_possible(c)) return;
+    const bool new_faces = broken_bonds != c->broken && step - c->searched >= BREAKS_WAIT;
     const bool come = contact_search_needed(c, p);
     if (c->due || new_faces || come) {
         search_pairs(c, p, b, family);
         c->made = true, c->due = false, c->moved = 0;
-        c->searched = step, c->broken = broken;
+        c->searched = step, c->broken = broken_bonds;
     } else if (changed == c->changed) {
         contact_activate_more(c, p, b, l);
         return;

@@ -42,7 +42,7 @@ static bool mark_set(uint8_t *touch, real gap, real close)
  * bodies, 0 between faces of one body, since faces of a crack coincide without force. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
-    return p->body[c->particle[row]] != p->body[image_root(p, c->law.image, c->particle[l])] ? close : 0;
+    return p->body[c->particle[row]] != p->body[image_source_particle(p, c->law.image, c->particle[l])] ? close : 0;
 }
 
 /* Sets the marks of the contacts of a row from their gaps (mark_set). Returns the number of marks that have changed. */
@@ -69,30 +69,31 @@ static void balances_rest(struct contact *c)
         for (int64_t q = 0; q < c->near[b].n; q++) c->near[b].balance[q].drag = 0;
 }
 
-int64_t contact_select(struct contact *c, const struct particles *p, real close)
+int64_t contact_select(struct contact *c, const struct particles *p, real gap_limit)
 {
     int64_t changed = 0;
     real normal[DIM_MAX];
 #pragma omp parallel for schedule(static) reduction(+ : changed)
-    for (int64_t row = 0; row < c->rows; row++) changed += mark_row(c, p, row, close);
+    for (int64_t row = 0; row < c->rows; row++) changed += mark_row(c, p, row, gap_limit);
     for (int b = 0; b < c->rigids; b++)
         for (int64_t q = 0; q < c->near[b].n; q++)
-            changed += mark_set(&c->near[b].touch[q], contact_rigid_gap(c, p, b, q, normal) / c->law.spacing, close);
+            changed +=
+                mark_set(&c->near[b].touch[q], contact_rigid_gap(c, p, b, q, normal) / c->law.spacing, gap_limit);
     return changed;
 }
 
-int64_t contact_search(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                       const struct family *family, real close)
+int64_t contact_search_and_select(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+                                  const struct family *family, real gap_limit)
 {
     c->due = true;
-    contact_update(c, p, b, l, family, c->searched, c->broken, c->changed);
+    contact_update_list(c, p, b, l, family, c->searched, c->broken, c->changed);
     marks_room(c);
     contact_selection_activate_all(c);
     balances_rest(c);
-    return contact_select(c, p, close);
+    return contact_select(c, p, gap_limit);
 }
 
-real contact_list_reach(const struct contact *c) { return 0.5 * contact_skin(c); }
+real contact_list_safe_distance(const struct contact *c) { return 0.5 * contact_list_margin(c); }
 
 void contact_use_selection(struct contact *c, bool use) { c->by_overlap = !use; }
 
@@ -126,7 +127,7 @@ static void pair_terms(struct visit *v, int64_t row)
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
         real apart[DIM_MAX] = {0};
-        const real r = sqrt(contact_apart(c, v->p, row, l, apart));
+        const real r = sqrt(contact_distance_vector(c, v->p, row, l, apart));
         if (!c->touch[q] || !(r > 0)) continue;
         t->n = 2, t->stiffness = 0.5 * contact_stiffness(c, v->p, row, l);
         t->particle[0] = c->particle[row], t->particle[1] = c->particle[l];
@@ -173,19 +174,19 @@ void contact_visit_springs(const struct contact *c, const struct particles *p,
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
 /* Saves the selection of contacts for equilibria (contact_select) to the archive if a->saving, else restores it. */
-status contact_selection_archive(struct contact *c, struct archive *a)
+status contact_selection_save_or_load(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;
     if (!c->marked) return OK;
     ARCHIVE_VALUE(a, "contact/marks", marks);
     if (!a->saving) memory_free(c->touch), c->touch = NULL;
     if (!marks) return OK;
-    TRY(contact_archive_array(a, "contact/touch", (void **)&c->touch,
-                              c->law.form == CONTACT_SURFACE ? c->rows : c->pairs, 1));
+    TRY(contact_array_save_or_load(a, "contact/touch", (void **)&c->touch,
+                                   c->law.form == CONTACT_SURFACE ? c->rows : c->pairs, 1));
     for (int b = 0; b < c->rigids; b++) {
         char name[64];
         snprintf(name, sizeof name, "contact/near_touch_%d", b);
-        TRY(contact_archive_array(a, name, (void **)&c->near[b].touch, c->near[b].n, 1));
+        TRY(contact_array_save_or_load(a, name, (void **)&c->near[b].touch, c->near[b].n, 1));
     }
     return OK;
 }

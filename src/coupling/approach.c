@@ -83,7 +83,7 @@ static void mark_listed(struct particles *p, const int32_t *list, int64_t n, rea
     cells_make(&cells, &places, reach);
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < n; k++) {
             bool foreign = false;

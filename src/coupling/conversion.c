@@ -20,13 +20,13 @@ static void list_add(struct index_list *l, int64_t i)
 }
 
 /* Finds the particles and images within the cutoff of particle i. map: of the bonds, NULL: none. */
-static void family_find(struct near *near, const struct bond_source *s, const struct site_map *map,
+static void family_find(struct neighbour_list *near, const struct bond_source *s, const struct site_map *map,
                         const struct particles *p, int64_t i)
 {
     if (map && map->at) {
         if (near->room < map->most) {
             memory_free(near->at);
-            *near = (struct near){BARE("convert.near", map->most, int32_t), 0, map->most};
+            *near = (struct neighbour_list){BARE("convert.near", map->most, int32_t), 0, map->most};
         }
         near->n = site_map_find_neighbours(map, p, (int32_t)i, near->at);
         if (near->n >= 0) return;
@@ -37,7 +37,8 @@ static void family_find(struct near *near, const struct bond_source *s, const st
 /* ---- before the first step --------------------------------------------------------------------------------------- */
 
 /* Returns true if a pre-crack cuts a bond of particle i. */
-static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const struct near *near)
+static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i,
+                       const struct neighbour_list *near)
 {
     for (int k = 0; k < near->n; k++)
         if (p->body[near->at[k]] == p->body[i] && cracks_separate_particles(s->crack, s->cracks, p, i, near->at[k]))
@@ -49,11 +50,11 @@ void convert_cut_particles(struct particles *p, const struct bond_source *source
 {
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
             real X[DIM_MAX];
-            particle_place(p, i, X);
+            particle_reference_position(p, i, X);
             if (region && region_contains(region, X, p->dim, ON_SURFACE * source->family.spacing)) p->kind[i] = KIND_PD;
             if (!cracks_near_particle(source, p, i)) continue;
             family_find(&near, source, NULL, p, i);
@@ -61,7 +62,7 @@ void convert_cut_particles(struct particles *p, const struct bond_source *source
         }
         memory_free(near.at);
     }
-    bonds_update_image_kinds(p, source);
+    mirror_images_copy_kinds(p, source);
     particles_update_lists(p);
 }
 
@@ -81,7 +82,7 @@ static bool triggers(const struct conversion_rule *rule, const struct particles 
 /* Returns true if particle i has a bond, intact or not, to a material point. */
 static bool conversion_meets_points(const struct bonds *b, const struct particles *p, int64_t i)
 {
-    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
         if (p->kind[it.bond.nbr] == KIND_MPM) return true;
     return false;
 }
@@ -93,7 +94,7 @@ static void list_stiffened(struct index_list *l, const struct bond_source *s, co
 {
     if (!s->modulus || !s->local) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_LOST_BOND))) continue;
+        if (!(load_eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_LOST_BOND))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++)
             if (p->kind[i] == KIND_PD && p->flag[i] & FLAG_LOST_BOND && conversion_meets_points(b, p, i))
                 list_add(l, i);
@@ -116,9 +117,9 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
                            real t)
 {
     struct index_list triggered = {0};
-    struct near near = {0};
+    struct neighbour_list near = {0};
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(MARKS))) continue;
+        if (!(load_eight_bytes(p->flag + first) & EIGHT_TIMES(MARKS))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) {
             if (triggers(rule, p, i)) list_add(&triggered, i);
             p->flag[i] &= (uint8_t)~MARKS;
@@ -134,7 +135,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
         if (!rule->block) continue;
         family_find(&near, source, map, p, i);
         for (int m = 0; m < near.n; m++) {
-            const int64_t j = image_root(p, source->image, near.at[m]);
+            const int64_t j = image_source_particle(p, source->image, near.at[m]);
             if (p->body[j] == p->body[i]) become_peridynamic(p, changed, j);
         }
     }
@@ -156,12 +157,12 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
                       const struct site_map *map, const struct index_list *changed)
 {
     struct index_list exposed = {0};
-    struct near near = {0};
+    struct neighbour_list near = {0};
     if (!sync) return;
     for (int64_t k = 0; k < changed->n; k++) {
         family_find(&near, source, map, p, changed->at[k]);
         list_once(&exposed, p, changed->at[k]);
-        for (int m = 0; m < near.n; m++) list_once(&exposed, p, image_root(p, source->image, near.at[m]));
+        for (int m = 0; m < near.n; m++) list_once(&exposed, p, image_source_particle(p, source->image, near.at[m]));
     }
     for (int64_t k = 0; k < exposed.n; k++) p->flag[exposed.at[k]] &= (uint8_t)~FLAG_LISTED;
     if (exposed.n > 0) sync->sync(sync->context, exposed.at, exposed.n);
@@ -196,7 +197,7 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
     return converted;
 }
 
-status conversion_archive(struct conversion *c, struct archive *a)
+status conversion_save_or_load(struct conversion *c, struct archive *a)
 {
     ARCHIVE_VALUE(a, "conversion", *c);
     return OK;

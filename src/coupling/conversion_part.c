@@ -7,8 +7,8 @@
 #include "mesh/mesh_part.h"
 #include "rigid/rigid_part.h"
 
-void bonded_points_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
-                          const struct material *material)
+void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *r,
+                                 struct particles *p, const struct material *material)
 {
     if (!p->end_strain) return;
     bonded_points_strain_from_stress(partial, p, material);
@@ -19,8 +19,8 @@ void bonded_points_update(const struct partial_stress *partial, const struct ref
  * grid give no information; cells of the mesh record whether a point of theirs is marked. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
-    return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_in_steps(s) || p->low_since ||
-           r->levels.returned || mesh_stressed(&r->mesh);
+    return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
+           r->levels.returned || mesh_exceeds_conversion_stress(&r->mesh);
 }
 
 /* Updates the motion of n listed points of the mesh. context: the run. */
@@ -45,7 +45,7 @@ bool conversion_prepare(struct run *e)
         flag_points_near_bodies(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
                                 APPROACH_REACH * e->scene->spacing);
     }
-    return slits_flag_approaching(e);
+    return flag_points_at_closing_slits(e);
 }
 
 void conversion_update_mesh(struct run *e, int64_t converted)
@@ -54,22 +54,22 @@ void conversion_update_mesh(struct run *e, int64_t converted)
     const bool due = converted > 0 || partial->touches > 0;
     const bool anew = due && frame_update_after_conversion(e->frame, &e->part, converted, partial, &e->damped);
     if (anew) frame_find_exposed_points(e->frame, &e->part, &e->bonds, &e->loads);
-    if (converted > 0 || (due && !anew)) bonded_points_update(partial, e->frame, &e->part, e->scene->material);
+    if (converted > 0 || (due && !anew)) bonded_points_update_strain(partial, e->frame, &e->part, e->scene->material);
     partial->touches = 0;
 }
 
-int64_t conversion_apply(struct run *e, int64_t broken, bool marked, bool fades)
+int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade)
 {
     const struct conversion_sync sync = {sync_listed, e, meet_others};
     struct coupling_state *c = e->coupling;
-    if (!marked && broken == 0 && !c->approaches && !may_convert(e->scene, &e->part, e->frame)) return 0;
+    if (!faces_examined && broken_bonds == 0 && !c->approaches && !may_convert(e->scene, &e->part, e->frame)) return 0;
     frame_levels_postpone_conversion(&e->frame->levels, &e->part);
     const int64_t converted =
         convert_flagged_points(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
                                c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
-    if (converted > 0) interface_make(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
+    if (converted > 0) interface_rebuild(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
     /* where bonds fade; for broken bonds convert_flagged_points() has updated the partial stresses */
-    if (c->uses_partial && e->scene->growths > 0 && (broken > 0 || converted > 0 || fades))
+    if (c->uses_partial && e->scene->growths > 0 && (broken_bonds > 0 || converted > 0 || bonds_fade))
         partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
     conversion_update_mesh(e, converted);
     return converted;
@@ -86,18 +86,18 @@ static void bonded_make(struct coupling_state *c, const struct particles *p, con
     if (!c->flip || p->n_free == 0) return;
     if (!c->bonded) c->bonded = NEW("engine.bonded", p->n, uint8_t);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) c->bonded[i] = p->kind[i] == KIND_MPM && bonds_has(b, i);
+    for (int64_t i = 0; i < p->n; i++) c->bonded[i] = p->kind[i] == KIND_MPM && particle_has_intact_bond(b, i);
 }
 
-void interface_make(struct coupling_state *c, const struct particles *p, const struct bonds *b,
-                    const struct bond_source *source)
+void interface_rebuild(struct coupling_state *c, const struct particles *p, const struct bonds *b,
+                       const struct bond_source *source)
 {
     bonded_make(c, p, b);
     if (p->n_free == 0) interface_zone_free(&c->zone);
     if (!c->partial.gives_all && c->flip && p->n_free > 0) interface_zone_make(&c->zone, p, source);
 }
 
-void coupling_partial_make(struct run *e)
+void coupling_compute_partial_stress(struct run *e)
 {
     struct coupling_state *c = e->coupling;
     e->coupling_kind = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
@@ -105,15 +105,15 @@ void coupling_partial_make(struct run *e)
     c->partial.gives_all = e->coupling_kind != COUPLING_PARTIAL_STRESS;
     c->uses_partial = !c->partial.gives_all || e->part.end_strain;
     if (c->uses_partial) partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    interface_make(c, &e->part, &e->bonds, &e->source);
+    interface_rebuild(c, &e->part, &e->bonds, &e->source);
 }
 
-status coupling_frame_make(struct run *e, bool still)
+status coupling_make_mesh(struct run *e, bool motion_set_later)
 {
     struct coupling_state *c = e->coupling;
     const struct mesh_source cuts = {
         .partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit, .slits = c->notches.slits};
-    TRY(frame_make(e, &cuts, still));
+    TRY(reference_frame_make(e, &cuts, motion_set_later));
     c->partial.touches = 0; /* the mesh includes the present partial stresses */
     return OK;
 }

@@ -57,8 +57,8 @@ static void put_conversion(const struct run *e, struct json *j)
 /* The material points of PD-MPM bonds follow from the mesh; they are no part of the state. */
 static status coupling_state_of(struct run *e, struct archive *a)
 {
-    if (!a->saving) bonded_points_update(&e->coupling->partial, e->frame, &e->part, e->scene->material);
-    return conversion_archive(&e->coupling->conversion, a);
+    if (!a->saving) bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, e->scene->material);
+    return conversion_save_or_load(&e->coupling->conversion, a);
 }
 
 const struct part part_coupling = {PART(coupling, coupling_state), .free = coupling_free_all, .summary = put_conversion,

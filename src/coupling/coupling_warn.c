@@ -45,8 +45,8 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
 {
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
-    if (!scene_bodies_meet(s) || approaches || scene_accepts(s, ACCEPT_CONTACT)) return;
-    if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_at_rest(s))) return;
+    if (!scene_bodies_can_meet(s) || approaches || scene_accepts(s, ACCEPT_CONTACT)) return;
+    if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_is_single_equilibrium(s))) return;
     if (s->method == METHOD_PD)
         warnings_add(to,
                      "contact.between: none: peridynamic bodies have no contact and pass through each other%s; "
@@ -79,7 +79,7 @@ static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
  * together. Returns the number of such pairs of bodies. */
 static int touching(const struct particles *p, const struct cells *cells, int bodies, real reach, bool *touch)
 {
-    struct near near = {0};
+    struct neighbour_list near = {0};
     int pairs = 0;
     for (int64_t i = 0; i < p->n; i++) {
         particles_find_near(&near, cells, p, i, reach, false);

@@ -26,7 +26,7 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 {
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(dynamic, 64)
         for (int64_t k = 0; k < n; k++) {
             particles_find_near_unordered(&near, s->cells, p, list[k], radius, false);
@@ -68,7 +68,7 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
 /* Finds the neighbours of member k in pairs with at least one point of the interface zone. to: NULL, or set to them, as
  * members in ascending order. Returns their number. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
-                        const uint8_t *mark, const int32_t *slot, int64_t k, struct near *near, int32_t *to)
+                        const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {
     const int32_t i = r->particle[k];
     int64_t n = 0;
@@ -91,7 +91,7 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
     int64_t most = 1;
 #pragma omp parallel reduction(max : most)
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->n; k++) {
             const int64_t n = pairs_of(r, p, s, mark, slot, k, &near, count ? NULL : r->neighbour + r->start[k]);
@@ -190,7 +190,7 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
 
 /* Returns half of the energy that damping removed [J]: -1/2 times the changes of momentum times the present velocities
  * of the members. The other half is computed with the velocities before the step. */
-real interface_damp_end(const struct interface_zone *r, const struct particles *p)
+real interface_damped_second_half(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */
     for (int64_t k = 0; k < r->n; k++)
@@ -198,7 +198,7 @@ real interface_damp_end(const struct interface_zone *r, const struct particles *
     return lost;
 }
 
-real interface_damp_begin(struct interface_zone *r, struct particles *p, real share)
+real interface_zone_damp_velocities(struct interface_zone *r, struct particles *p, real strength)
 {
 #pragma omp parallel
     {
@@ -206,9 +206,9 @@ real interface_damp_begin(struct interface_zone *r, struct particles *p, real sh
         /* 0 for members outside the interface zone */
         for (int64_t k = 0; k < r->points; k++) difference_make(r, p, k);
 #pragma omp for schedule(static)
-        for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, share);
+        for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, strength);
     }
-    const real lost = interface_damp_end(r, p);
+    const real lost = interface_damped_second_half(r, p);
     for (int64_t k = 0; k < r->n; k++)
         for (int d = 0; d < p->dim; d++) p->v[d][r->particle[k]] += r->change[k * p->dim + d] / p->mass[r->particle[k]];
     return lost;

@@ -66,7 +66,7 @@ static struct crack_edges crack_edges_of(const struct crack *c, const struct par
 static bool in_zone(const struct crack_edges *zone, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (int e = 0; e < zone->crack->n && e < EDGES_MAX; e++) {
         const real *from, *to;
         crack_end_of(zone->crack, e, p->dim, &from, &to);
@@ -81,8 +81,8 @@ static bool in_zone(const struct crack_edges *zone, const struct particles *p, i
 static bool parted(const struct crack *c, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
-    particle_place(p, i, a);
-    particle_place(p, j, b);
+    particle_reference_position(p, i, a);
+    particle_reference_position(p, j, b);
     return crack_cuts(c, a, b, p->dim);
 }
 
@@ -90,7 +90,7 @@ static bool parted(const struct crack *c, const struct particles *p, int64_t i, 
 static bool near_crack(const struct crack *c, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     return crack_may_cut_near(c, X, s->family.cutoff, p->dim);
 }
 
@@ -107,7 +107,7 @@ struct flanks {
 };
 
 /* Returns true if the crack cuts a bond of particle i to a listed neighbour of its body. */
-static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct near *near)
+static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct neighbour_list *near)
 {
     for (int k = 0; k < near->n; k++)
         if (p->body[near->at[k]] == p->body[i] && parted(c, p, i, near->at[k])) return true;
@@ -120,7 +120,7 @@ static struct flanks flanks_of(const struct crack_edges *zone, const struct part
     int64_t particles = 0, elsewhere = 0;
 #pragma omp parallel reduction(+ : particles, elsewhere)
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
             if (!near_crack(zone->crack, p, s, i) || in_zone(zone, p, i)) continue;
@@ -159,8 +159,8 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
 
 /* Stores the share of the family volume of particle i that is beyond slits in n->lost[i]. Returns true if a nearest
  * neighbour of the particle is beyond a slit. */
-static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source, struct near *near,
-                      int64_t i)
+static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source,
+                      struct neighbour_list *near, int64_t i)
 {
     real all = 0, lost = 0;
     bool faces = false;
@@ -179,7 +179,7 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
 /* Returns true if particle i is beside a void so narrow that its faces face each other within a family. */
 static bool beside_void(const struct bond_source *source, int64_t i)
 {
-    return voids_near(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
+    return particle_is_beside_void(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
 }
 
 /* Stores for every particle the share of its family beyond slits (n->lost), and lists the particles beside a slit or a
@@ -190,7 +190,7 @@ static void faces_find(struct notches *n, const struct particles *p, const struc
     n->lost = NEW("notch.lost", p->n, real);
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             faces[i] = (near_slit(n, p, source, i) && face_find(n, p, source, &near, i)) || beside_void(source, i);
@@ -202,7 +202,7 @@ static void faces_find(struct notches *n, const struct particles *p, const struc
     n->faces = 0;
     for (int64_t i = 0; i < p->n; i++) {
         if (!faces[i]) continue;
-        n->depth[n->faces] = beside_void(source, i) ? voids_particle_depth(source->voids, p, i) : 0;
+        n->depth[n->faces] = beside_void(source, i) ? voids_surface_distance_bound(source->voids, p, i) : 0;
         n->face[n->faces++] = (int32_t)i;
     }
     memory_free(faces);
@@ -287,7 +287,7 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
-void notches_flag_approaching(const struct notches *n, struct particles *p, real spacing, real ahead)
+void notches_flag_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead)
 {
     struct particles places = {.n = n->faces, .n_all = n->faces, .dim = p->dim};
     struct cells cells;
@@ -299,7 +299,7 @@ void notches_flag_approaching(const struct notches *n, struct particles *p, real
     cells_make(&cells, &places, MEET_REACH * spacing);
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < n->faces; k++) {
             const int32_t i = n->face[k];
@@ -307,7 +307,7 @@ void notches_flag_approaching(const struct notches *n, struct particles *p, real
             particles_find_near(&near, &cells, &places, k, MEET_REACH * spacing, false);
             for (int q = 0; q < near.n && !(p->flag[i] & FLAG_NEAR); q++) {
                 const int32_t j = n->face[near.at[q]];
-                const real after = distance_ahead(p, i, j, ahead);
+                const real after = distance_ahead(p, i, j, time_ahead);
                 if (after < MEET_REACH * spacing && after < meeting_distance(n, p, k, near.at[q], spacing))
                     p->flag[i] |= FLAG_NEAR;
             }

@@ -24,7 +24,7 @@ static const char *scene_obstacle(const struct scene *s)
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
-    if (!why && !frame_in_use(r)) why = "there are no material points in the reference frame";
+    if (!why && !reference_frame_in_use(r)) why = "there are no material points in the reference frame";
     if (!why && grid_mirror_off_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
 }
@@ -55,27 +55,27 @@ status precracks_apply(struct run *e)
     initial_pd_region_make(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
                            tips);
     notches_convert(n, &e->part, &e->source);
-    voids_convert_beside(&e->part, e->source.voids, mesh_ignores_voids(g, s));
+    convert_particles_beside_voids(&e->part, e->source.voids, mesh_ignores_voids(g, s));
     convert_cut_particles(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
     return OK;
 }
 
-void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t room)
+void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t capacity)
 {
     if (n->notch[crack].slit)
-        snprintf(text, room, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / spacing);
+        snprintf(text, capacity, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / spacing);
     else
-        snprintf(text, room, "cut bonds: %s", n->notch[crack].reason);
+        snprintf(text, capacity, "cut bonds: %s", n->notch[crack].reason);
 }
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
 /* Marks material points beside slits whose faces approach each other (FLAG_NEAR). */
-bool slits_flag_approaching(struct run *e)
+bool flag_points_at_closing_slits(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;
     if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
     frame_update_listed_points(e->frame, &e->part, &e->loads, n->face, n->faces);
-    notches_flag_approaching(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+    notches_flag_closing_faces(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
     return true;
 }

@@ -5,9 +5,9 @@
 
 #include "bonds/bonds.h"
 
-/* Returns the share of the length of the segment from a to b that is inside a cube [1]. X: middle of the cube; half:
- * half of its edge [m]. */
-real segment_share_in_cube(const real *a, const real *b, const real *X, real half, int dim);
+/* Returns the share of the length of the segment from a to b that is inside a cube [1]. X: middle of the cube;
+ * half_edge: half of its edge [m]. */
+real segment_share_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim);
 
 /* Reflection that maps the particle `root` of the body to one of its mirror images, by one or several mirrors: X'_d =
  * sign_d X_d + offset_d. */
@@ -32,9 +32,9 @@ struct response bond_response_of(const struct particles *p, const struct bonds *
                                  int32_t i, const struct bond *bond);
 
 /* Adds to the tensor T [J] the contribution of the bond from xp, a material point, to xm, in proportion to the share of
- * its length inside the cell with middle X and half edge `half`: T_abcd = l e_b dF_a/deps_cd, with that length l, the
- * unit vector e along the bond and its force F; symmetric in ab and in cd. response: derivative of the force. */
-void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half,
+ * its length inside the cell with middle X and half edge `half_edge`: T_abcd = l e_b dF_a/deps_cd, with that length l,
+ * the unit vector e along the bond and its force F; symmetric in ab and in cd. response: derivative of the force. */
+void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half_edge,
                              struct response response, int dim);
 
 /* Limits the tensor T of material point i [J], by which state-based bonds reduce the stiffness of its cell, so that the
@@ -63,7 +63,7 @@ struct partial_table *partial_table_make(const struct particles *p, const struct
 void partial_table_free(struct partial_table *t);
 
 /* Returns true if the table is not empty. */
-bool partial_table_exists(const struct partial_table *t);
+bool partial_table_is_filled(const struct partial_table *t);
 
 /* Returns true if the table can be used for every particle: all have the volume of a lattice cell. */
 bool partial_table_covers_all(const struct partial_table *t);
@@ -78,7 +78,7 @@ void partial_table_update(struct partial_table *t, const struct particles *p, co
 
 /* Computes the tensor T of point i [J] from the table and the stored responses of the bonds of the material points
  * around it. near: working memory. */
-void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
-                       const struct bond_source *source, int64_t i, struct near *near, real *T);
+void partial_table_sum_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
+                              const struct bond_source *source, int64_t i, struct neighbour_list *near, real *T);
 
 #endif

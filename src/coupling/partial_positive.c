@@ -16,12 +16,12 @@ static bool own_bonds(real *zeta, const struct particles *p, const struct bonds 
 {
     const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;
     bool any = false;
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
         if (bond.w == 0) continue;
-        for (int c = 0; c < symmetric_count(p->dim); c++) {
+        for (int c = 0; c < symmetric_component_count(p->dim); c++) {
             int a, d;
-            symmetric_axes(p->dim, c, &a, &d);
+            symmetric_component_axes(p->dim, c, &a, &d);
             zeta[c] +=
                 bond.w * (p->X[a][bond.nbr] - p->X[a][i]) * (p->X[d][bond.nbr] - p->X[d][i]) / b->state.weighted[row];
         }
@@ -91,7 +91,7 @@ static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQ
  * eigenvalue. C: elastic constants of the material m; V: volume of the point. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
 {
-    const int n = symmetric_count(dim);
+    const int n = symmetric_component_count(dim);
     real H[SYM_MAX * SYM_MAX], kept[SYM_MAX * SYM_MAX];
     for (int c = 0; c < n; c++)
         for (int d = 0; d < n; d++) {
@@ -110,7 +110,7 @@ static void stay_below(real *T, const struct material *m, int dim, real V, real 
 bool partial_tensor_limit_state(real *T, real *L, const struct particles *p, const struct bonds *b,
                                 const struct bond_source *s, int64_t i)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim, n = symmetric_component_count(dim);
     const struct state_modulus *m = &s->modulus[p->material[i]];
     const struct material *material = &s->material[p->material[i]];
     const real V = p->volume0[i];

@@ -25,17 +25,17 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the share of the segment a-b inside the cube of half edge `half` round X [1]. */
-real segment_share_in_cube(const real *a, const real *b, const real *X, real half, int dim)
+/* Returns the share of the segment a-b inside the cube of half edge `half_edge` round X [1]. */
+real segment_share_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim)
 {
     real in = 0, out = 1;
     for (int d = 0; d < dim; d++) {
         real from = a[d] - X[d], along = b[d] - a[d];
-        if (fabs(along) < 1e-14 * half) {
-            if (fabs(from) >= half) return 0;
+        if (fabs(along) < 1e-14 * half_edge) {
+            if (fabs(from) >= half_edge) return 0;
             continue;
         }
-        real t0 = (-half - from) / along, t1 = (half - from) / along;
+        real t0 = (-half_edge - from) / along, t1 = (half_edge - from) / along;
         in = real_max(in, real_min(t0, t1));
         out = real_min(out, real_max(t0, t1));
     }
@@ -62,20 +62,20 @@ struct reflection mirror_reflection_of(const struct bond_source *s, const struct
 /* Returns 1 for equal indices, else 0 (Kronecker's delta). */
 static bool same(int a, int b) { return a == b; }
 
-void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half, struct response k,
+void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half_edge, struct response k,
                              int dim)
 {
-    real share = segment_share_in_cube(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
+    real share = segment_share_in_cube(xp, xm, X, half_edge, dim), e[DIM_MAX], length = 0;
     if (share == 0) return;
     for (int d = 0; d < dim; d++) e[d] = xm[d] - xp[d], length += square(e[d]);
     length = sqrt(length);
     for (int d = 0; d < dim; d++) e[d] /= length;
-    const int n = symmetric_count(dim);
+    const int n = symmetric_component_count(dim);
     for (int s = 0; s < n; s++)
         for (int t = 0; t < n; t++) {
             int a, b, c, d;
-            symmetric_axes(dim, s, &a, &b);
-            symmetric_axes(dim, t, &c, &d);
+            symmetric_component_axes(dim, s, &a, &b);
+            symmetric_component_axes(dim, t, &c, &d);
             real turned = e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) + e[a] * e[d] * same(b, c) +
                           e[a] * e[c] * same(b, d);
             T[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] + k.pressure * e[a] * e[b] * same(c, d) +
@@ -87,7 +87,7 @@ void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real
  * gets Q of a full family. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
-    const int32_t row = b->row_of[image_root(p, s->image, i)];
+    const int32_t row = b->row_of[image_source_particle(p, s->image, i)];
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 
@@ -117,7 +117,7 @@ static struct box box_of(const struct particles *p, const struct bonds *b, int64
     for (int d = 0; d < p->dim; d++) {
         const real *X = p->X[d];
         box.low[d] = box.high[d] = X[b->particle[row]];
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             const struct bond bond = it.bond;
             if (bond.w == 0) continue;
             box.low[d] = real_min(box.low[d], X[bond.nbr]);
@@ -145,7 +145,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     if (row < 0 || p->kind[r.root] != KIND_MPM) return;
     real xp[DIM_MAX], xm[DIM_MAX];
     for (int d = 0; d < p->dim; d++) xp[d] = p->X[d][j];
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
         if (bond.w == 0) continue;
         bool apart = false; /* most bonds miss the cell: tested without a division */
@@ -166,11 +166,11 @@ real particle_half_edge(const struct particles *p, const struct bond_source *s, 
 /* Computes T V of point i [J], the stiffness that bonds add to its cell, by adding the bonds of all rows nearby one by
  * one, for any arrangement of particles. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       const struct box *box, int64_t i, struct near *near)
+                       const struct box *box, int64_t i, struct neighbour_list *near)
 {
     const real half = particle_half_edge(p, s, i);
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     particles_find_near(near, s->cells, p, i, s->family.cutoff + half * sqrt(p->dim), true);
     for (int k = 0; k < near->n; k++)
         if (p->kind[near->at[k]] == KIND_MPM && p->body[near->at[k]] == p->body[i])
@@ -182,7 +182,7 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
  * point. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim, n = symmetric_component_count(dim);
     real compliance[SYM_MAX * SYM_MAX];
     material_compliance(&s->material[p->material[i]], dim, compliance);
     real largest = 0;
@@ -199,7 +199,7 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
 /* Returns the number of values that are stored for a point: those of M, and for state-based models those of L. */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
-    const int n = symmetric_count(dim);
+    const int n = symmetric_component_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
@@ -209,7 +209,7 @@ static int partial_stress_entry_size(const struct bond_source *s, int dim)
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
-    const int n = symmetric_count(p->dim);
+    const int n = symmetric_component_count(p->dim);
     const bool end = partial_tensor_limit_state(T, entry + n * n, p, b, s, i);
     if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
     array_fill_bytes(entry, 0, partial_stress_entry_size(s, p->dim), sizeof *entry);
@@ -245,14 +245,15 @@ enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
                        const int32_t *changed, int64_t n)
 {
-    struct near near = {0};
+    struct neighbour_list near = {0};
     for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
         const int64_t i = changed ? changed[k] : p->list[KIND_PD][k];
         particles_find_near_unordered(&near, s->cells, p, i, radius + reach, true);
         for (int m = 0; m < near.n; m++) {
             real r2 = 0;
             for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);
-            mark[image_root(p, s->image, near.at[m])] |= r2 <= radius * radius ? OTHERS_ROW | DIRTY : OTHERS_ROW;
+            mark[image_source_particle(p, s->image, near.at[m])] |=
+                r2 <= radius * radius ? OTHERS_ROW | DIRTY : OTHERS_ROW;
         }
         mark[i] |= OWN;
     }
@@ -264,7 +265,7 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 {
     int64_t found = 0;
     for (int64_t first = 0; first < n; first += LANES) {
-        if (!eight_bytes(mark + first)) continue;
+        if (!load_eight_bytes(mark + first)) continue;
         for (int64_t i = first; i < first + LANES; i++) {
             if (mark[i] && list) list[found] = (int32_t)i;
             found += mark[i] != 0;
@@ -293,7 +294,7 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
     for (int64_t k = 0; k < most; k++) {
         const int32_t i = list[k], row = b->row_of[i];
         if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM &&
-            row_block_bonds(b, row / LANES) > 0)
+            row_block_bond_count(b, row / LANES) > 0)
             r->row[r->rows++] = row;
         if (!(mark[i] & DIRTY)) continue;
         r->own[r->n] = !changed || mark[i] & OWN;
@@ -366,12 +367,12 @@ static void touch(struct partial_stress *partial, int64_t i)
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
-    const bool served = partial_table_exists(partial->table);
+    const bool served = partial_table_is_filled(partial->table);
     const int each = partial_stress_entry_size(s, p->dim);
     struct box *box = NEW("partial.box", r->rows > 0 ? b->rows : 0, struct box);
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->rows; k++) box[r->row[k]] = box_of(p, b, r->row[k]);
 #pragma omp for schedule(dynamic, 16)
@@ -380,7 +381,7 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
             real T[SYM_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
             if (served && partial_table_applies_to(p, s, i))
-                partial_table_sum(partial->table, p, b, s, i, &near, T);
+                partial_table_sum_tensor(partial->table, p, b, s, i, &near, T);
             else
                 tensor_sum(T, p, b, s, box, i, &near);
             crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i)
@@ -394,7 +395,7 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n)
 {
-    const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
+    const int n_symmetric = symmetric_component_count(p->dim), size = n_symmetric * n_symmetric;
     const int whole = partial_stress_entry_size(source, p->dim), local = whole - size;
     const bool all = !changed || !partial->index;
     struct renewal r;
@@ -404,7 +405,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         partial->table = partial_table_make(p, source, size);
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
-    if (partial_table_exists(partial->table))
+    if (partial_table_is_filled(partial->table))
         partial_table_update(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = NEW("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
@@ -428,7 +429,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 void bonded_points_strain_from_stress(const struct partial_stress *partial, struct particles *p,
                                       const struct material *material)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim, n = symmetric_component_count(dim);
     real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];
     bool known[UINT8_MAX + 1] = {false};
     if (!partial->index || !partial->local) return;

@@ -206,7 +206,7 @@ static bool on_lattice(const struct particles *p, real spacing)
     for (int64_t i = 0; i < p->n_all; i++)
         for (int d = 0; d < p->dim; d++) {
             real k;
-            regular = regular && lattice_site(p->X[d][i], p->X[d][first[p->body[i]]], spacing, &k);
+            regular = regular && lattice_contains_coordinate(p->X[d][i], p->X[d][first[p->body[i]]], spacing, &k);
         }
     return regular;
 }
@@ -259,7 +259,7 @@ void partial_table_free(struct partial_table *t)
 /* ---- bond responses ---------------------------------------------------------------------------------------------- */
 
 /* Returns true if the table can be used, i.e. if the particles are on a lattice and have few enough bond vectors. */
-bool partial_table_exists(const struct partial_table *t) { return t->vectors > 0; }
+bool partial_table_is_filled(const struct partial_table *t) { return t->vectors > 0; }
 bool partial_table_covers_all(const struct partial_table *t) { return t->uniform; }
 
 static real *response_at(const struct partial_table *t, int64_t k)
@@ -306,12 +306,12 @@ static void response_make(const struct partial_table *t, const struct particles 
 {
     real X[DIM_MAX];
     array_fill_bytes(response, 0, t->vectors * t->parts, sizeof *response);
-    particle_place(p, b->particle[row], X);
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    particle_reference_position(p, b->particle[row], X);
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
         real to[DIM_MAX];
         if (bond.w == 0) continue;
-        particle_place(p, bond.nbr, to);
+        particle_reference_position(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         INVARIANT(place >= 0 && t->vector[place] >= 0);
         const struct response r = bond_response_of(p, b, s, b->particle[row], &bond);
@@ -334,7 +334,8 @@ static bool partial_table_has_bonds(struct row_block_intact *last, const struct 
 {
     const int64_t row = b->row_of[i], row_block = row / LANES;
     if (p->kind[i] != KIND_MPM || row < 0) return false;
-    if (last->row_block != row_block) *last = (struct row_block_intact){row_block, bonds_intact(b, row_block)};
+    if (last->row_block != row_block)
+        *last = (struct row_block_intact){row_block, row_block_intact_lanes(b, row_block)};
     return last->rows >> row % LANES & 1;
 }
 
@@ -416,7 +417,7 @@ bool partial_table_applies_to(const struct particles *p, const struct bond_sourc
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
-    const int32_t response = p->kind[j] == KIND_MPM ? t->responses.of[image_root(p, s->image, j)] : -1;
+    const int32_t response = p->kind[j] == KIND_MPM ? t->responses.of[image_source_particle(p, s->image, j)] : -1;
     int at = n;
     if (response < 0) return n;
     for (; at > 0 && to[at - 1].j > j; at--) to[at] = to[at - 1];
@@ -441,23 +442,24 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
 
 /* Lists the rows near point i by a neighbour search, in the order of crossing_rows_by_site. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
-                                   const struct bond_source *s, int64_t i, struct near *near, struct crossing_row *to)
+                                   const struct bond_source *s, int64_t i, struct neighbour_list *near,
+                                   struct crossing_row *to)
 {
     real X[DIM_MAX], Y[DIM_MAX];
     int n = 0;
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     particles_find_near(near, s->cells, p, i, s->family.cutoff, true);
     for (int k = 0; k < near->n; k++) {
         const int32_t j = near->at[k];
         if (p->body[j] != p->body[i]) continue;
-        particle_place(p, j, Y);
+        particle_reference_position(p, j, Y);
         n = crossing_row_add(t, p, s, j, place_between(t, X, Y), to, n);
     }
     return n;
 }
 
-void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
-                       const struct bond_source *s, int64_t i, struct near *near, real *T)
+void partial_table_sum_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
+                              const struct bond_source *s, int64_t i, struct neighbour_list *near, real *T)
 {
     real sum[VECTORS_MOST];
     struct crossing_row row[VECTORS_MOST + 1];

@@ -17,7 +17,7 @@
 struct search {
     const struct particles *p;
     const struct bond_source *source;
-    struct near near;
+    struct neighbour_list near;
 };
 
 /* Finds particle i and the particles of its body within `radius` [m], into s->near; images are replaced by their
@@ -27,7 +27,7 @@ static void search_near(struct search *s, int64_t i, real radius)
     int kept = 0;
     particles_find_near(&s->near, s->source->cells, s->p, i, radius, true);
     for (int k = 0; k < s->near.n; k++) {
-        const int64_t j = image_root(s->p, s->source->image, s->near.at[k]);
+        const int64_t j = image_source_particle(s->p, s->source->image, s->near.at[k]);
         if (s->p->body[j] == s->p->body[i]) s->near.at[kept++] = (int32_t)j;
     }
     s->near.n = kept;
@@ -50,9 +50,9 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     const struct family *f = &rule->source->family;
     real stress[SYM_MAX], share = b->family_volume[b->row_of[i]] / f->full;
     if (rule->source->modulus || !(share < 1)) share = 1;
-    for (int s = 0; s < symmetric_count(p->dim); s++) stress[s] = p->stress[s][i] / share;
-    const real limit = rule->low_stress * point_trigger(&rule->elastic[p->material[i]], p, i);
-    return stress_principal(stress, p->dim) < limit;
+    for (int s = 0; s < symmetric_component_count(p->dim); s++) stress[s] = p->stress[s][i] / share;
+    const real limit = rule->low_stress * point_conversion_stress(&rule->elastic[p->material[i]], p, i);
+    return stress_largest_principal(stress, p->dim) < limit;
 }
 
 /* Finds the peridynamic particles that may not revert themselves: sets held[i] to 1 for particles with a broken bond,
@@ -67,7 +67,7 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
         real X[DIM_MAX];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         if (!low_stress(rule, p, b, i))
             p->low_since[i] = INFINITY;
         else if (!(p->low_since[i] < INFINITY))
@@ -123,8 +123,8 @@ static void mark_meeting(const struct reversion_rule *rule, const struct particl
     }
 }
 
-int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
-                         int32_t **list)
+int64_t reversion_select_particles(const struct reversion_rule *rule, struct particles *p, const struct bonds *b,
+                                   real t, int32_t **list)
 {
     enum { HELD, CUT, BOUND, NEAR, OPEN, FREE, GOES, MARKS };
     uint8_t *mark[MARKS];
@@ -186,7 +186,7 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
 {
     const int32_t i = b->particle[row];
     const int dim = p->dim;
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
         real e[DIM_MAX], y[DIM_MAX];
         if (bond.w == 0) continue;
@@ -211,7 +211,7 @@ struct crossing {
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim, n = symmetric_component_count(dim);
     real from[DIM_MAX], end[DIM_MAX], y[DIM_MAX], e[DIM_MAX], length2 = 0;
     for (int d = 0; d < dim; d++) {
         from[d] = p->X[d][j], end[d] = r->sign[d] * p->X[d][bond->nbr] + r->offset[d];
@@ -229,11 +229,11 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     const real force = stiff * (sqrt(length2) * bond->inverse_length - 1) / sqrt(length2);
     for (int s = 0; s < n; s++) {
         int a, c;
-        symmetric_axes(dim, s, &a, &c);
+        symmetric_component_axes(dim, s, &a, &c);
         to->stress[s] += force * y[a] * y[c];
         for (int t = 0; t < n; t++) {
             int k, l;
-            symmetric_axes(dim, t, &k, &l);
+            symmetric_component_axes(dim, t, &k, &l);
             to->T[s * n + t] += stiff / bond->inverse_length * e[a] * e[c] * e[k] * e[l] * (t < dim ? 1 : 2);
         }
     }
@@ -244,17 +244,17 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
  * The virial of the family of the particle is equal under uniform strain, but smooths a wave over twice the
  * distance. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
-                        const struct bond_source *source, int64_t i, struct near *near)
+                        const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
     *to = (struct crossing){.half = particle_half_edge(p, source, i)};
-    particle_place(p, i, to->X);
+    particle_reference_position(p, i, to->X);
     particles_find_near(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim), true);
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         const struct reflection r = mirror_reflection_of(source, p, j);
         const int64_t row = b->row_of[r.root];
         if (row < 0 || p->body[j] != p->body[i]) continue;
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
             if (it.bond.w != 0) crossing_add(to, b, p, &r, j, &it.bond);
     }
     for (int c = 0; c < SYM_MAX; c++) to->stress[c] /= p->volume0[i];
@@ -273,7 +273,7 @@ static real determinant(const real *F, int dim)
  * singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim, n = symmetric_component_count(dim);
     real c11, c12, strain[SYM_MAX], trace = 0;
     for (int s = 0; s < n; s++) strain[s] = stress[s];
     if (!reversion_solve(T, strain, n, 1)) return;
@@ -285,10 +285,10 @@ static void complete(const struct bond_source *source, const struct particles *p
 /* Computes the stress of particle i as a material point [Pa]. State-based models have no force of a single bond: the
  * virial of the family is used. */
 static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
-                             const struct bond_source *source, int64_t i, struct near *near)
+                             const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
     struct crossing c;
-    for (int k = 0; k < symmetric_count(p->dim); k++) stress[k] = p->stress[k][i];
+    for (int k = 0; k < symmetric_component_count(p->dim); k++) stress[k] = p->stress[k][i];
     if (source->modulus) return;
     crossing_of(&c, p, b, source, i, near);
     complete(source, p, i, c.T, c.stress);
@@ -297,9 +297,9 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
 
 /* Sets stress, volume, velocity gradient and stretch of particle i as a material point. */
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
-                              struct near *near)
+                              struct neighbour_list *near)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim, n = symmetric_component_count(dim);
     real K[DIM_MAX * DIM_MAX] = {0}, G[DIM_MAX * DIM_MAX] = {0}, stress[SYM_MAX], J = 1;
     family_moments(b, p, b->row_of[i], K, G);
     const bool known = reversion_solve(K, G, dim, dim);
@@ -316,7 +316,7 @@ void reversion_apply(struct conversion *c, struct particles *p, struct bonds *b,
 {
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(dynamic, 8)
         for (int64_t k = 0; k < n; k++) point_from_family(p, b, source, list[k], &near);
         memory_free(near.at);

@@ -26,7 +26,7 @@ status reversion_check(const struct scene *s)
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
         why = "coupling partial stress or handshake";
     if (s->growths > 0) why = "no growth, whose bonds fade";
-    if (scene_at_rest(s)) why = "solver explicit";
+    if (scene_is_single_equilibrium(s)) why = "solver explicit";
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m])) why = "materials that do not yield";
     return why ? status_set(REFUSED, "conversion.reversion: true goes with %s", why) : OK;
@@ -51,7 +51,7 @@ static void revert_listed(struct run *e, const int32_t *list, int64_t n)
     frame_insert_points(e->frame, &e->part, list, n, &e->damped);
     conversion_update_mesh(e, n);
     frame_update_point_motion(e->frame, &e->part, &e->loads);
-    interface_make(e->coupling, &e->part, &e->bonds, &e->source);
+    interface_rebuild(e->coupling, &e->part, &e->bonds, &e->source);
     e->grid->sort_needed = e->contact->due = true;
     e->coupling->conversion.reversion_energy += energy_now(e) - before;
 }
@@ -64,7 +64,7 @@ void reversion_apply_due(struct run *e)
         e->part.n_of[KIND_PD] == 0)
         return;
     compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    const int64_t n = reversion_choose(
+    const int64_t n = reversion_select_particles(
         &(struct reversion_rule){.source = &e->source,
                                  .elastic = e->tables.elastic,
                                  .kept = e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL,

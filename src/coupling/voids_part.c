@@ -14,10 +14,10 @@ bool mesh_ignores_voids(const struct grid *g, const struct scene *s)
     return s->dim == 1 || grid_mirror_off_nodes(g, s);
 }
 
-void voids_convert_beside(struct particles *p, const struct voids *v, bool uncut)
+void convert_particles_beside_voids(struct particles *p, const struct voids *v, bool include_meshed)
 {
     for (int64_t i = 0; i < p->n && v; i++)
-        if (v->near[i] & VOID_ACROSS && (uncut || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
+        if (v->near[i] & VOID_ACROSS && (include_meshed || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
 }
 
 /* Writes the position of a particle as "(x, y)" [m] to text. Returns text. */
@@ -53,7 +53,7 @@ static struct closed closed_on_grid(const struct particles *p, const struct void
 
 /* Computes the distances from particle i to its nearest neighbours along the axes, in negative and positive direction
  * [2 dim, m]; INFINITY: none. */
-static void next_along(const struct particles *p, int64_t i, const struct near *near, real *next)
+static void next_along(const struct particles *p, int64_t i, const struct neighbour_list *near, real *next)
 {
     for (int a = 0; a < 2 * p->dim; a++) next[a] = INFINITY;
     for (int k = 0; k < near->n; k++) {
@@ -74,7 +74,7 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
 {
     const real spacing = s->spacing;
     struct closed found = {0};
-    struct near near = {0};
+    struct neighbour_list near = {0};
     int64_t all = 0, regular = 0;
     for (int64_t i = 0; i < p->n; i++) {
         real next[2 * DIM_MAX];
@@ -105,8 +105,9 @@ void voids_warn(const struct run *e, struct warnings *to)
                      s->body[e->part.body[grid.first]].name, void_position_text(&e->part, grid.first, place),
                      (long long)grid.n, uncut ? "" : "mpm.frame: reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
-        if (s->body[b].joined != b || surface_is_exact(s, b)) continue;
-        const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, voids_reach(s, e->source.family.cutoff));
+        if (s->body[b].joined != b || body_surface_is_exact(s, b)) continue;
+        const struct closed gap =
+            closed_in_lattice(s, &e->part, &e->cells, b, voids_interaction_distance(s, e->source.family.cutoff));
         if (gap.n == 0) continue;
         warnings_add(to,
                      "body %s has a void one or two particles wide at %s m, beside %lld particles in all: a list or "

@@ -37,7 +37,7 @@ static void list_all(struct active_set *r)
     r->active = r->blocks;
 }
 
-status active_set_archive(struct active_set *r, const char *name, struct archive *a)
+status active_set_save_or_load(struct active_set *r, const char *name, struct archive *a)
 {
     char path[48];
     if (r->blocks == 0) return OK;

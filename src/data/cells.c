@@ -30,7 +30,7 @@ enum { CELLS_ACROSS = 3 };
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
     real low[DIM_MAX], high[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) particles_extent(p, p->n_all, d, &low[d], &high[d]);
+    for (int d = 0; d < p->dim; d++) particles_coordinate_range(p, p->n_all, d, &low[d], &high[d]);
     c->dim = p->dim;
     c->edge = edge;
     for (c->width = edge / CELLS_ACROSS;; c->width *= 1.5) {
@@ -55,7 +55,7 @@ void cells_make(struct cells *c, const struct particles *p, real edge)
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[DIM_MAX];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         cell[i] = (int32_t)cells_cell_of(c, X);
     }
     for (int64_t i = 0; i < p->n_all; i++) c->start[cell[i] + 2]++;
@@ -164,9 +164,10 @@ static int search(struct search *s, const struct particles *p)
 }
 
 int cells_find_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-                    int32_t *found, int room)
+                    int32_t *found, int capacity)
 {
-    struct search s = {.c = c, .X = X, .radius = radius, .skip = skip, .found = found, .room = room, .ascending = true};
+    struct search s = {
+        .c = c, .X = X, .radius = radius, .skip = skip, .found = found, .room = capacity, .ascending = true};
     return search(&s, p);
 }
 
@@ -187,7 +188,7 @@ static int64_t around(const struct cells *c, int64_t cell, int64_t reach)
     return sum;
 }
 
-int cells_most_neighbours(const struct cells *c, real radius)
+int cells_neighbour_count_bound(const struct cells *c, real radius)
 {
     real far = 0;
     int64_t most = 0;
@@ -205,11 +206,11 @@ int cells_most_neighbours(const struct cells *c, real radius)
 /* Lists in near->at the particles and images within `radius` [m] of particle i in the reference configuration, and
  * stores their number in near->n. The list grows as needed. itself: includes i; any_order: the list need not be
  * sorted. */
-static void cells_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
-                       bool itself, bool any_order)
+static void cells_find(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
+                       real radius, bool itself, bool any_order)
 {
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (;;) {
         struct search s = {.c = c,
                            .X = X,
@@ -226,14 +227,14 @@ static void cells_find(struct near *near, const struct cells *c, const struct pa
     }
 }
 
-void particles_find_near(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
-                         bool itself)
+void particles_find_near(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
+                         real radius, bool itself)
 {
     cells_find(near, c, p, i, radius, itself, false);
 }
 
-void particles_find_near_unordered(struct near *near, const struct cells *c, const struct particles *p, int64_t i,
-                                   real radius, bool itself)
+void particles_find_near_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
+                                   int64_t i, real radius, bool itself)
 {
     cells_find(near, c, p, i, radius, itself, true);
 }

@@ -75,8 +75,8 @@ static void image_add(struct crack_list *to, int k, const struct mirror_plane *m
     }
 }
 
-void cracks_mirrored(struct crack_list *to, const struct crack *crack, int cracks, const struct mirror_plane *m,
-                     int mirrors, real reach, real tolerance)
+void cracks_make_mirror_images(struct crack_list *to, const struct crack *crack, int cracks,
+                               const struct mirror_plane *m, int mirrors, real reach, real tolerance)
 {
     *to = (struct crack_list){0};
     for (int k = 0; k < cracks; k++) {

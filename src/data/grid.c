@@ -48,7 +48,7 @@ static int64_t box_floor(int64_t k)
     return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP;
 }
 
-status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
+status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t max_nodes, bool *changed)
 {
     int64_t first[DIM_MAX], end[DIM_MAX];
     real nodes = 1, low[DIM_MAX], high[DIM_MAX];
@@ -73,7 +73,7 @@ status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t
             *changed = true;
         nodes *= (real)(end[d] - first[d]);
     }
-    if (!(nodes <= (real)most))
+    if (!(nodes <= (real)max_nodes))
         return status_set(FAILED,
                           "the material points have spread so far that their grid would need %.3g nodes; "
                           "is the run unstable, or does a fragment fly away?",
@@ -88,7 +88,7 @@ status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t
     return OK;
 }
 
-bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t most)
+bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t max_nodes)
 {
     real n = 1;
     g->n = 1;
@@ -96,7 +96,7 @@ bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t 
         g->first[d] = (int64_t)floor((from[d] - g->anchor[d]) / g->h);
         g->count[d] = (int64_t)floor((to[d] - g->anchor[d]) / g->h) - g->first[d] + 2;
         n *= (real)g->count[d];
-        if (n > (real)most) return false;
+        if (n > (real)max_nodes) return false;
         g->stride[d] = g->n;
         g->n *= g->count[d];
     }

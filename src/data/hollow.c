@@ -3,9 +3,9 @@
 
 #include "base/memory.h"
 
-void hollow_free(struct hollow *h)
+void cells_without_particles_free(struct cells_without_particles *h)
 {
     memory_free(h->whole);
     memory_free(h->absent);
-    *h = (struct hollow){0};
+    *h = (struct cells_without_particles){0};
 }

@@ -166,11 +166,11 @@ static real volume_of(const struct hull *s)
     return sum;
 }
 
-real hull_support(const struct hull *s, const real *along)
+real hull_support(const struct hull *s, const real *direction)
 {
     real most = -INFINITY;
     for (int64_t k = 0; k < s->faces; k++)
-        for (int c = 0; c < s->dim; c++) most = real_max(most, dot(s->corner[s->face[k][c]], along, s->dim));
+        for (int c = 0; c < s->dim; c++) most = real_max(most, dot(s->corner[s->face[k][c]], direction, s->dim));
     return most;
 }
 

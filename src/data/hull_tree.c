@@ -141,7 +141,7 @@ real hull_winding_number(const struct hull *s, const real *X)
     return sum;
 }
 
-real hull_ambiguous_share(const struct hull *s)
+real hull_ambiguous_fraction(const struct hull *s)
 {
     const int places = s->dim == 2 ? 64 : 16;
     const struct hull_node *all = &s->node[0];
@@ -255,18 +255,19 @@ static bool hull_outside(const struct hull *s, const real *X)
     return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding_number(s, X) < 0.5;
 }
 
-/* Returns true if the signed distance of X from the surface, negative inside, is at most `most` [m]. Faces farther away
- * than |most| are not searched: then only the side of X is determined. */
-bool hull_is_within(const struct hull *s, const real *X, real most)
+/* Returns true if the signed distance of X from the surface, negative inside, is at most `max_distance` [m]. Faces
+ * farther away than |most| are not searched: then only the side of X is determined. */
+bool hull_is_within(const struct hull *s, const real *X, real max_distance)
 {
     real size = 0, point[DIM_MAX];
-    if (s->faces == 0) return most == INFINITY;
+    if (s->faces == 0) return max_distance == INFINITY;
     for (int d = 0; d < s->dim; d++) size += s->node[0].high[d] - s->node[0].low[d] + fabs(X[d]);
-    const real limit2 = square(fabs(most) + 1e-9 * (fabs(most) + size)); /* by far more than round-off */
+    const real limit2 =
+        square(fabs(max_distance) + 1e-9 * (fabs(max_distance) + size)); /* by far more than round-off */
     real r2 = limit2;
     nearest_face(s, X, point, &r2);
     const real distance = r2 < limit2 ? sqrt(r2) : INFINITY;
-    return (hull_outside(s, X) ? distance : -distance) <= most;
+    return (hull_outside(s, X) ? distance : -distance) <= max_distance;
 }
 
 real hull_distance(const struct hull *s, const real *X, real *normal)

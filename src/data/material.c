@@ -5,7 +5,7 @@
 
 static const real pi = 3.14159265358979323846;
 
-real material_bond_poisson(enum space space)
+real bond_based_poisson_ratio(enum space space)
 {
     static const real poisson[] = {
         [SPACE_LINE] = NAN, [SPACE_PLANE_STRESS] = 1.0 / 3, [SPACE_PLANE_STRAIN] = 0.25, [SPACE_SOLID] = 0.25};
@@ -112,7 +112,7 @@ void material_compute_constants(struct material *m, enum space space)
  * components. */
 static void isotropic_matrix(int dim, real diagonal, real off, real shear, real *matrix)
 {
-    int n = symmetric_count(dim);
+    int n = symmetric_component_count(dim);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             bool normal = i < dim && j < dim;

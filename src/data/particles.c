@@ -12,7 +12,7 @@
  * needs (bits WITH_...). 0: the array does not exist. */
 static int one(int dim, int optional) { return (void)dim, (void)optional, 1; }
 static int vector(int dim, int optional) { return (void)optional, dim; }
-static int symmetric(int dim, int optional) { return (void)optional, symmetric_count(dim); }
+static int symmetric(int dim, int optional) { return (void)optional, symmetric_component_count(dim); }
 static int if_gradient(int dim, int optional) { return optional & WITH_GRADIENT ? dim * dim : 0; }
 static int if_stretch(int dim, int optional) { return optional & WITH_STRETCH ? dim : 0; }
 static int if_plastic(int dim, int optional) { return (void)dim, optional & WITH_PLASTIC ? 1 : 0; }
@@ -24,12 +24,18 @@ static int if_moment(int dim, int optional) { return optional & WITH_ROTATIONS ?
 static int if_strength(int dim, int optional) { return (void)dim, optional & WITH_STRENGTH ? 1 : 0; }
 static int if_plastic_correction(int dim, int optional)
 {
-    return optional & WITH_PLASTIC_CORRECTION ? symmetric_count(dim) : 0;
+    return optional & WITH_PLASTIC_CORRECTION ? symmetric_component_count(dim) : 0;
 }
 static int if_law(int dim, int optional) { return (void)dim, optional & WITH_LAW ? 1 : 0; }
-static int if_back_stress(int dim, int optional) { return optional & WITH_BACK_STRESS ? symmetric_count(dim) : 0; }
+static int if_back_stress(int dim, int optional)
+{
+    return optional & WITH_BACK_STRESS ? symmetric_component_count(dim) : 0;
+}
 static int if_temperature(int dim, int optional) { return (void)dim, optional & WITH_TEMPERATURE ? 1 : 0; }
-static int if_mesh_stress(int dim, int optional) { return optional & WITH_MESH_STRESS ? symmetric_count(dim) : 0; }
+static int if_mesh_stress(int dim, int optional)
+{
+    return optional & WITH_MESH_STRESS ? symmetric_component_count(dim) : 0;
+}
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
 /* `name`: name of the array in checkpoints. */
@@ -135,14 +141,14 @@ void particles_free(struct particles *p)
     *p = (struct particles){0};
 }
 
-void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *now, int optional)
+void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *new_index, int optional)
 {
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional); k++) {
             char *to = get(p, f, k);
             const char *from = get(old, f, k);
             for (int64_t j = 0; j < old->n; j++)
-                if (now[j] >= 0) memcpy(to + (size_t)now[j] * f->size, from + (size_t)j * f->size, f->size);
+                if (new_index[j] >= 0) memcpy(to + (size_t)new_index[j] * f->size, from + (size_t)j * f->size, f->size);
         }
 }
 
@@ -167,7 +173,7 @@ static int compare_places(const void *left, const void *right)
     return (a->index > b->index) - (a->index < b->index);
 }
 
-void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high)
+void particles_coordinate_range(const struct particles *p, int64_t n, int d, real *low, real *high)
 {
     real least = INFINITY, most = -INFINITY;
     if (n == p->n && p->n_body > p->n) {
@@ -196,7 +202,7 @@ real particles_longest_edge(const struct particles *p)
 {
     real low, high, longest = 0;
     for (int d = 0; d < p->dim; d++) {
-        particles_extent(p, p->n, d, &low, &high);
+        particles_coordinate_range(p, p->n, d, &low, &high);
         longest = real_max(longest, high - low);
     }
     return longest;
@@ -207,7 +213,7 @@ real particles_longest_edge(const struct particles *p)
 static void find_places(const struct particles *p, real spacing, struct place *place)
 {
     real low[DIM_MAX] = {0}, high;
-    for (int d = 1; d < p->dim; d++) particles_extent(p, p->n, d, &low[d], &high);
+    for (int d = 1; d < p->dim; d++) particles_coordinate_range(p, p->n, d, &low[d], &high);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         int64_t row[DIM_MAX] = {0};
@@ -255,8 +261,8 @@ void particles_sort(struct particles *p, real spacing, int optional)
 /* Returns true if the eight particles from i on have one kind and are all, or none, points of the mesh. */
 static bool eight_alike(const struct particles *p, int64_t i)
 {
-    const uint64_t meshed = eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
-    return eight_same(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
+    const uint64_t meshed = load_eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
+    return eight_bytes_are_equal(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
 /* Appends the indices i .. i + more - 1 to list, which has *n entries before. */
@@ -286,11 +292,11 @@ bool conversion_is_due(const struct particles *p)
     uint64_t any = 0;
 #pragma omp parallel for simd schedule(static) reduction(| : any)
     for (int64_t i = 0; i < p->n; i += LANES)
-        any |= eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED | FLAG_NEAR);
+        any |= load_eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED | FLAG_NEAR);
     return any != 0;
 }
 
-status particles_archive(struct particles *p, int optional, struct archive *a)
+status particles_save_or_load(struct particles *p, int optional, struct archive *a)
 {
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional) && (f->in_trials || a->scope == ARCHIVE_ALL); k++) {

@@ -23,13 +23,13 @@ static real direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
     return length;
 }
 
-real region_support(const struct region *r, const real *along, int dim)
+real region_support_bound(const struct region *r, const real *direction, int dim)
 {
     real most = r->n == 0 || r->solid[0].intersect ? INFINITY : -INFINITY;
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
         if (s->subtract) continue;
-        const real own = solid_support(s, along, dim);
+        const real own = solid_support(s, direction, dim);
         most = s->intersect ? real_min(most, own) : real_max(most, own);
     }
     return most;
@@ -40,8 +40,8 @@ bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[
     bool bounded = r->n > 0;
     for (int d = 0; d < dim; d++) {
         real along[DIM_MAX] = {0};
-        along[d] = -1, from[d] = -region_support(r, along, dim);
-        along[d] = 1, to[d] = region_support(r, along, dim);
+        along[d] = -1, from[d] = -region_support_bound(r, along, dim);
+        along[d] = 1, to[d] = region_support_bound(r, along, dim);
         if (!isfinite(from[d]) || !isfinite(to[d])) bounded = false;
     }
     return bounded;

@@ -49,28 +49,28 @@ static struct region_run region_run(const struct region *r, int j)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a solid of the run, i.e. of consecutive solids with the same operation, has a level (solid_level, <=
- * 0 inside) of at most `most` at X [m]. The operation itself is not applied. */
+/* Returns true if a solid of the run, i.e. of consecutive solids with the same operation, has a level
+ * (solid_level_set_value, <= 0 inside) of at most `most` at X [m]. The operation itself is not applied. */
 static bool run_within(const struct solid *s, const struct region_run *run, const real *X, int dim, real most)
 {
     struct box_search near;
     bool within = false;
     if (run->count == 1) return solid_is_within(s, X, dim, most);
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; !within && (k = box_search_next(&near, level_reach(most))) >= 0;)
+    for (int k; !within && (k = box_search_next(&near, solid_level_distance_bound(most))) >= 0;)
         within = solid_is_within(&s[k], X, dim, most);
     return within;
 }
 
-/* Returns the smallest level (solid_level, <= 0 inside) at X over the solids of the run [m]. */
+/* Returns the smallest level (solid_level_set_value, <= 0 inside) at X over the solids of the run [m]. */
 static real run_level(const struct solid *s, const struct region_run *run, const real *X, int dim)
 {
     struct box_search near;
     real nearest = INFINITY;
-    if (run->count == 1) return solid_level(s, X, dim);
+    if (run->count == 1) return solid_level_set_value(s, X, dim);
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; (k = box_search_next(&near, level_reach(nearest))) >= 0;)
-        nearest = real_min(nearest, solid_level(&s[k], X, dim));
+    for (int k; (k = box_search_next(&near, solid_level_distance_bound(nearest))) >= 0;)
+        nearest = real_min(nearest, solid_level_set_value(&s[k], X, dim));
     return nearest;
 }
 
@@ -84,7 +84,7 @@ static real run_distance(const struct solid *s, const struct region_run *run, co
     if (run->count == 1) return solid_distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; (k = box_search_next(&near, level_reach(nearest))) >= 0;) {
+    for (int k; (k = box_search_next(&near, solid_level_distance_bound(nearest))) >= 0;) {
         const real distance = solid_distance(&s[k], X, dim, own);
         if (!(distance < nearest || (distance == nearest && k < first))) continue;
         nearest = distance, first = k;
@@ -118,7 +118,7 @@ bool region_contains(const struct region *r, const real *X, int dim, real tolera
     return inside;
 }
 
-real region_level(const struct region *r, const real *X, int dim)
+real region_level_set_value(const struct region *r, const real *X, int dim)
 {
     real level = r->n == 0 || r->solid[0].intersect ? -INFINITY : INFINITY;
     for (int j = 0; j < region_runs(r); j++) {

@@ -42,7 +42,7 @@ static int64_t weights_along(real place, real weight[NODES])
 
 real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, int64_t id)
 {
-    if (!(s->length > 0)) return noise_of(splitmix(splitmix(s->seed, 0), (uint64_t)id));
+    if (!(s->length > 0)) return noise_of(hash_add_word(hash_add_word(s->seed, 0), (uint64_t)id));
     real weight[DIM_MAX][NODES] = {{1}, {1}, {1}}, sum = 0, squares = 1;
     int64_t first[DIM_MAX] = {0};
     for (int d = 0; d < dim; d++) {
@@ -53,10 +53,11 @@ real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, 
     }
     for (int k = 0; k < (dim > 2 ? NODES : 1); k++)
         for (int j = 0; j < (dim > 1 ? NODES : 1); j++) {
-            const uint64_t row =
-                splitmix(splitmix(splitmix(s->seed, 0), (uint64_t)(first[2] + k)), (uint64_t)(first[1] + j));
+            const uint64_t row = hash_add_word(hash_add_word(hash_add_word(s->seed, 0), (uint64_t)(first[2] + k)),
+                                               (uint64_t)(first[1] + j));
             for (int i = 0; i < NODES; i++)
-                sum += weight[2][k] * weight[1][j] * weight[0][i] * noise_of(splitmix(row, (uint64_t)(first[0] + i)));
+                sum +=
+                    weight[2][k] * weight[1][j] * weight[0][i] * noise_of(hash_add_word(row, (uint64_t)(first[0] + i)));
         }
     return sum / sqrt(squares);
 }

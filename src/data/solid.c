@@ -315,7 +315,7 @@ static real extrusion_level(const struct solid *s, const real *X, int dim)
     (void)dim;
     plane_axes(s, axes);
     const real flat[] = {X[axes[0]], X[axes[1]]};
-    return real_max(region_level(&s->region, flat, 2), real_max(s->begin - X[s->axis], X[s->axis] - s->end));
+    return real_max(region_level_set_value(&s->region, flat, 2), real_max(s->begin - X[s->axis], X[s->axis] - s->end));
 }
 
 /* Returns true if the level of X for an extrusion is at most `most` [m]. */
@@ -336,7 +336,7 @@ static real extrusion_support(const struct solid *s, const real *along, int dim)
     plane_axes(s, axes);
     const real flat[] = {along[axes[0]], along[axes[1]]}, up = along[s->axis];
     const real ends = up == 0 ? 0 : up * (up > 0 ? s->end : s->begin);
-    return ends + (flat[0] == 0 && flat[1] == 0 ? 0 : region_support(&s->region, flat, 2));
+    return ends + (flat[0] == 0 && flat[1] == 0 ? 0 : region_support_bound(&s->region, flat, 2));
 }
 
 static real group_from(const struct solid *s, const real *X, int dim, real *normal)
@@ -344,7 +344,10 @@ static real group_from(const struct solid *s, const real *X, int dim, real *norm
     return region_distance(&s->region, X, dim, normal);
 }
 
-static real group_level(const struct solid *s, const real *X, int dim) { return region_level(&s->region, X, dim); }
+static real group_level(const struct solid *s, const real *X, int dim)
+{
+    return region_level_set_value(&s->region, X, dim);
+}
 
 static bool group_within(const struct solid *s, const real *X, int dim, real most)
 {
@@ -353,7 +356,7 @@ static bool group_within(const struct solid *s, const real *X, int dim, real mos
 
 static real group_support(const struct solid *s, const real *along, int dim)
 {
-    return region_support(&s->region, along, dim);
+    return region_support_bound(&s->region, along, dim);
 }
 
 static real hull_from(const struct solid *s, const real *X, int dim, real *normal)

@@ -111,9 +111,9 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
     turn_back(i, off, dim, to);
 }
 
-/* Returns by how much the level of a solid (solid_level) may be below the one that its bounding box implies [m]: 0 for
- * most solids; the size of a voxel for voxels, whose levels are those of their centres; INFINITY for a surface with
- * holes, which may be far from points inside it. */
+/* Returns by how much the level of a solid (solid_level_set_value) may be below the one that its bounding box implies
+ * [m]: 0 for most solids; the size of a voxel for voxels, whose levels are those of their centres; INFINITY for a
+ * surface with holes, which may be far from points inside it. */
 static real box_slack(const struct solid *s, int dim)
 {
     real slack = 0;
@@ -180,7 +180,7 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     if (s->images == 0) return solid_types[s->kind].distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; (k = box_search_next(&near, level_reach(nearest))) >= 0;) {
+    for (int k; (k = box_search_next(&near, solid_level_distance_bound(nearest))) >= 0;) {
         const struct placement *i = &s->image[k];
         place_back(i, X, dim, at);
         const real distance = solid_types[s->kind].distance(s, at, dim, own);
@@ -194,7 +194,8 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     return nearest;
 }
 
-/* Returns the level (solid_level, <= 0 inside) of X for the solid as described, before it is moved or copied [m]. */
+/* Returns the level (solid_level_set_value, <= 0 inside) of X for the solid as described, before it is moved or copied
+ * [m]. */
 static real image_level(const struct solid *s, const real *X, int dim)
 {
     const struct solid_type *type = &solid_types[s->kind];
@@ -202,46 +203,46 @@ static real image_level(const struct solid *s, const real *X, int dim)
     return type->level ? type->level(s, X, dim) : type->distance(s, X, dim, normal);
 }
 
-real solid_level(const struct solid *s, const real *X, int dim)
+real solid_level_set_value(const struct solid *s, const real *X, int dim)
 {
     real nearest = INFINITY, at[DIM_MAX];
     struct box_search near;
     if (s->images == 0) return image_level(s, X, dim);
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; (k = box_search_next(&near, level_reach(nearest))) >= 0;) {
+    for (int k; (k = box_search_next(&near, solid_level_distance_bound(nearest))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
         nearest = real_min(nearest, image_level(s, at, dim));
     }
     return nearest;
 }
 
-/* Returns true if the level (solid_level, <= 0 inside) of X for the solid as described, before it is moved or copied,
- * is at most `most` [m]. */
+/* Returns true if the level (solid_level_set_value, <= 0 inside) of X for the solid as described, before it is moved or
+ * copied, is at most `most` [m]. */
 static bool image_within(const struct solid *s, const real *X, int dim, real most)
 {
     const struct solid_type *type = &solid_types[s->kind];
     return type->within ? type->within(s, X, dim, most) : image_level(s, X, dim) <= most;
 }
 
-bool solid_is_within(const struct solid *s, const real *X, int dim, real most)
+bool solid_is_within(const struct solid *s, const real *X, int dim, real max_distance)
 {
     real at[DIM_MAX];
     bool within = false;
     struct box_search near;
-    if (s->images == 0) return image_within(s, X, dim, most);
+    if (s->images == 0) return image_within(s, X, dim, max_distance);
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; !within && (k = box_search_next(&near, level_reach(most))) >= 0;) {
+    for (int k; !within && (k = box_search_next(&near, solid_level_distance_bound(max_distance))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
-        within = image_within(s, at, dim, most);
+        within = image_within(s, at, dim, max_distance);
     }
     return within;
 }
 
-real solid_support(const struct solid *s, const real *along, int dim)
+real solid_support(const struct solid *s, const real *direction, int dim)
 {
     real most = -INFINITY;
-    if (s->images == 0) return solid_types[s->kind].support(s, along, dim);
-    for (int k = 0; k < s->images; k++) most = real_max(most, image_support(s, &s->image[k], along, dim));
+    if (s->images == 0) return solid_types[s->kind].support(s, direction, dim);
+    for (int k = 0; k < s->images; k++) most = real_max(most, image_support(s, &s->image[k], direction, dim));
     return most;
 }
 

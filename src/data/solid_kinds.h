@@ -8,7 +8,7 @@
 /* Functions of a kind of solid. */
 struct solid_type {
     real (*distance)(const struct solid *s, const real *X, int dim, real *normal); /* as solid_distance */
-    real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level; NULL: the distance */
+    real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level_set_value; NULL: the distance */
     real (*support)(const struct solid *s, const real *along,
                     int dim); /* as solid_support, for `along` of any length */
     bool (*within)(const struct solid *s, const real *X, int dim, real most); /* as solid_is_within; NULL: by level */

@@ -23,9 +23,9 @@ static struct block_shape block_shape_of(const struct grid *g)
 {
     struct block_shape s = {.dim = g->dim, .cells_in_block = 1, .n = 1};
     for (int d = 0; d < g->dim; d++) {
-        s.first[d] = block_of(g->first[d], block_edge(d));
-        s.blocks[d] = block_of(g->first[d] + g->count[d] - 1, block_edge(d)) - s.first[d] + 1;
-        s.cells_in_block *= block_edge(d);
+        s.first[d] = block_of(g->first[d], transfer_block_edge_length(d));
+        s.blocks[d] = block_of(g->first[d] + g->count[d] - 1, transfer_block_edge_length(d)) - s.first[d] + 1;
+        s.cells_in_block *= transfer_block_edge_length(d);
         s.n *= s.blocks[d];
     }
     return s;
@@ -106,9 +106,10 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint
     int64_t block = 0, cell = 0;
 #pragma GCC unroll 3
     for (int d = dim - 1; d >= 0; d--) {
-        const int64_t place = grid_cell(s->g, d, s->p->x[d][i]), b = block_of(place, block_edge(d));
+        const int64_t place = grid_cell_index_at(s->g, d, s->p->x[d][i]),
+                      b = block_of(place, transfer_block_edge_length(d));
         block = block * s->shape.blocks[d] + (b - s->shape.first[d]);
-        cell = cell * block_edge(d) + (place - b * block_edge(d));
+        cell = cell * transfer_block_edge_length(d) + (place - b * transfer_block_edge_length(d));
     }
     *inside = (uint16_t)cell;
     return s->rank[block];

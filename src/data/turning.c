@@ -60,7 +60,7 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
     bool odd[DIM_MAX] = {false}; /* a row of particles is on the middle */
     for (int d = 0; d < p->dim; d++) {
         real low, high;
-        particles_extent(p, p->n, d, &low, &high);
+        particles_coordinate_range(p, p->n, d, &low, &high);
         const real rows = (low - middle[d]) / spacing;
         odd[d] = fabs(rows - nearbyint(rows)) < 0.25;
     }
@@ -78,7 +78,7 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
 
 /* Stores the indices of the 26 groups of points around group g in its body: first those displaced along one axis, then
  * along two, then along three; -1 where there is none. */
-static void groups_near(struct turning_groups *t, int32_t g)
+static void groups_near(struct rotation_groups *t, int32_t g)
 {
     struct turning_group *own = &t->group[g];
     for (int k = 0, n = 0; k < 81; k++) {
@@ -91,11 +91,11 @@ static void groups_near(struct turning_groups *t, int32_t g)
     }
 }
 
-void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle, const int *one,
-                  const bool *held)
+void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing, const real *origin,
+                          const int *joined_to, const bool *supported)
 {
-    struct member *all = members_sorted(p, spacing, middle, one);
-    turning_free(t);
+    struct member *all = members_sorted(p, spacing, origin, joined_to);
+    rotation_groups_free(t);
     for (int64_t k = 0; k < p->n; k++)
         t->groups += k == 0 || order_of_places(all[k].place, all[k].body, all[k - 1].place, all[k - 1].body) != 0;
     t->group = NEW("turning.group", t->groups, struct turning_group);
@@ -105,7 +105,8 @@ void turning_make(struct turning_groups *t, const struct particles *p, real spac
     for (int64_t k = 0; k < p->n; k++) {
         if (k == 0 || order_of_places(all[k].place, all[k].body, all[k - 1].place, all[k - 1].body) != 0) {
             g++;
-            *g = (struct turning_group){.body = all[k].body, .first = k, .off = all[k].off, .held = held[all[k].body]};
+            *g = (struct turning_group){
+                .body = all[k].body, .first = k, .off = all[k].off, .held = supported[all[k].body]};
             memcpy(g->place, all[k].place, sizeof g->place);
         }
         t->member[k] = all[k].particle, g->end = k + 1;
@@ -115,11 +116,11 @@ void turning_make(struct turning_groups *t, const struct particles *p, real spac
     memory_free(all);
 }
 
-void turning_free(struct turning_groups *t)
+void rotation_groups_free(struct rotation_groups *t)
 {
     memory_free(t->group), memory_free(t->member);
     for (int c = 0; c < 3; c++) memory_free(t->turn[c]);
-    *t = (struct turning_groups){0};
+    *t = (struct rotation_groups){0};
 }
 
 /* ---- sums of a group --------------------------------------------------------------------------------------------- */
@@ -142,7 +143,7 @@ static ALWAYS_INLINE bool all_on_grid(const struct turning_group *g) { return g-
 #define FOR_SPINS(c, dim) for (int c = (dim) == 2 ? 2 : 0; c < 3; c++)
 
 /* Sums points, mass and first moment of group g. */
-static ALWAYS_INLINE void sum_mass(const struct turning_groups *t, struct turning_group *g, const struct particles *p,
+static ALWAYS_INLINE void sum_mass(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
                                    const int dim)
 {
     real mass = 0, moment[DIM_MAX] = {0};
@@ -157,7 +158,7 @@ static ALWAYS_INLINE void sum_mass(const struct turning_groups *t, struct turnin
 }
 
 /* Sums the angular momentum that the points of group g have lost in the transfer to nodes and back (t->turn). */
-static ALWAYS_INLINE void sum_lack(const struct turning_groups *t, struct turning_group *g, const struct particles *p,
+static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
                                    const int dim)
 {
     real sum[3] = {0};
@@ -185,7 +186,7 @@ static ALWAYS_INLINE void spin_add(real m, const real *r, const real *v, real *s
 
 /* Sums tensor of inertia and angular momentum of the points of group g about the centre of mass of its root, the group
  * that it has joined. */
-static ALWAYS_INLINE void sum_inertia(const struct turning_groups *t, struct turning_group *g,
+static ALWAYS_INLINE void sum_inertia(const struct rotation_groups *t, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
     const struct turning_group *root = &t->group[g->root];
@@ -207,7 +208,7 @@ static ALWAYS_INLINE void sum_inertia(const struct turning_groups *t, struct tur
 
 /* Adds the rotation root->spin of the root of group g, the group that it has joined, to the velocities of the points of
  * group g, and sums their angular momentum about the root's centre of mass. */
-static ALWAYS_INLINE void spin_apply(const struct turning_groups *t, struct turning_group *g, struct particles *p,
+static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
                                      const int dim)
 {
     const struct turning_group *root = &t->group[g->root];
@@ -227,7 +228,7 @@ static ALWAYS_INLINE void spin_apply(const struct turning_groups *t, struct turn
 
 /* Stores the angular velocity of the root of group g, the group that it has joined, in t->turn for all points of group
  * g. */
-static ALWAYS_INLINE void spins_store(struct turning_groups *t, const struct turning_group *g,
+static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
     const struct turning_group *root = &t->group[g->root];
@@ -241,7 +242,7 @@ static ALWAYS_INLINE void spins_store(struct turning_groups *t, const struct tur
 
 /* Returns the root of group g: the last one in the chain of groups that it has joined, g itself if it has joined
  * none. */
-static int32_t group_root(const struct turning_groups *t, int32_t g)
+static int32_t group_root(const struct rotation_groups *t, int32_t g)
 {
     while (t->group[g].root != g) g = t->group[g].root;
     return g;
@@ -252,7 +253,7 @@ static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
 /* Joins each group of fewer than TURNING_FEW points to the neighbour with the most points. Among neighbours with
  * equally many, those displaced along fewer axes come first, then those nearer to the middle of the body. */
-static void few_join(struct turning_groups *t)
+static void few_join(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
     for (int32_t g = 0; g < t->groups; g++) {
@@ -294,7 +295,7 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
 
 /* Adds the sums of all groups to those of their roots, the groups that they have joined, and computes the angular
  * velocity of each root from them. It is 0 without mass and in bodies that a support constrains. */
-static void spins_find(struct turning_groups *t, int dim)
+static void spins_find(struct rotation_groups *t, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {
         const struct turning_group *own = &t->group[g];
@@ -309,7 +310,7 @@ static void spins_find(struct turning_groups *t, int dim)
 
 /* Adds mass and first moment of all groups to those of their roots, the groups that they have joined, and divides the
  * first moments by the masses: `moment` is then the centre of mass. */
-static void centres_find(struct turning_groups *t)
+static void centres_find(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
         const struct turning_group *own = &t->group[g];
@@ -324,7 +325,7 @@ static void centres_find(struct turning_groups *t)
 
 /* Adds the inertia of all groups to that of their roots, the groups that they have joined. If the sum nearly vanishes
  * about some axis, it is increased by the inertia of its mass at a radius of LEAST_ARM spacings. */
-static void inertias_find(struct turning_groups *t, real spacing, int dim)
+static void inertias_find(struct rotation_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {
         const struct turning_group *own = &t->group[g];
@@ -350,7 +351,7 @@ static void inertias_find(struct turning_groups *t, real spacing, int dim)
             EACH_GROUP_OF(SUM, t, p, 3);                                                                               \
     } while (0)
 
-void turning_compute_spins(struct turning_groups *t, struct particles *p, real spacing)
+void rotation_groups_compute_spins(struct rotation_groups *t, struct particles *p, real spacing)
 {
     EACH_GROUP(sum_mass, t, p);
     few_join(t);
@@ -361,7 +362,7 @@ void turning_compute_spins(struct turning_groups *t, struct particles *p, real s
     EACH_GROUP(spins_store, t, p);
 }
 
-void turning_restore_spins(struct turning_groups *t, struct particles *p)
+void rotation_groups_restore_spins(struct rotation_groups *t, struct particles *p)
 {
     EACH_GROUP(sum_lack, t, p);
     spins_find(t, p->dim); /* gain of spin */

@@ -56,7 +56,7 @@ static bool region_is_box(const struct region *r)
     real from[DIM_MAX], to[DIM_MAX];
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
-        if (!solid_is(s, SOLID_BOX) || s->subtract || s->intersect) return false;
+        if (!solid_is_unmoved_of_kind(s, SOLID_BOX) || s->subtract || s->intersect) return false;
         if (k == 0) array_copy(from, s->from, DIM_MAX, sizeof *from), array_copy(to, s->to, DIM_MAX, sizeof *to);
         if (k > 0 && !box_joins(from, to, s)) return false;
     }
@@ -82,7 +82,7 @@ static real void_level(const struct voids *v, int body, const real *X)
         if ((at[plane->axis] - plane->at) * plane->outside > 0) at[plane->axis] = 2 * plane->at - at[plane->axis];
     }
     for (int k = 0; k < v->shapes; k++)
-        if (v->body[k] == body) level = real_min(level, region_level(v->shape[k], at, v->dim));
+        if (v->body[k] == body) level = real_min(level, region_level_set_value(v->shape[k], at, v->dim));
     return level < INFINITY ? level : -INFINITY;
 }
 
@@ -127,24 +127,24 @@ static void line_normal(const struct voids *v, int body, const struct void_line 
     }
 }
 
-bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *across)
+bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *facing)
 {
     const int dim = v->dim;
     struct void_line there = {.from = a}, back = {.from = b};
     int first = 0;
     while (first < dim && a[first] == b[first]) first++;
     if (first == dim) return false;
-    if (a[first] > b[first]) return void_separates_points(v, body, b, a, across); /* equal bits in both directions */
+    if (a[first] > b[first]) return void_separates_points(v, body, b, a, facing); /* equal bits in both directions */
     for (int d = 0; d < dim; d++) there.length += square(b[d] - a[d]);
     there.length = back.length = sqrt(there.length);
     for (int d = 0; d < dim; d++) there.along[d] = (b[d] - a[d]) / there.length, back.along[d] = -there.along[d];
     const real out = line_inside(v, body, &there);
     if (out >= there.length) return false;
-    if (!across) return true;
+    if (!facing) return true;
     real normal[DIM_MAX], other[DIM_MAX];
     line_normal(v, body, &there, out, normal);
     line_normal(v, body, &back, line_inside(v, body, &back), other);
-    *across = dot(normal, other, dim) < 0;
+    *facing = dot(normal, other, dim) < 0;
     return true;
 }
 
@@ -154,16 +154,16 @@ bool void_separates_points(const struct voids *v, int body, const real *a, const
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX] = {0}, b[DIM_MAX] = {0};
-    if (!voids_near(v, i) || !voids_near(v, j)) return false;
-    particle_place(p, i, a);
-    particle_place(p, j, b);
+    if (!particle_is_beside_void(v, i) || !particle_is_beside_void(v, j)) return false;
+    particle_reference_position(p, i, a);
+    particle_reference_position(p, j, b);
     return void_separates_points(v, p->body[i], a, b, NULL);
 }
 
-real voids_particle_depth(const struct voids *v, const struct particles *p, int64_t i)
+real voids_surface_distance_bound(const struct voids *v, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX] = {0};
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     return real_max(0, -void_level(v, p->body[i], X));
 }
 
@@ -174,7 +174,8 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     for (int m = 0; m < v->mirrors; m++) {
         const struct mirror_plane *plane = &v->mirror[m];
         if (fabs(X[plane->axis] - plane->at) > reach) continue;
-        if (!solid_is(s, SOLID_BOX) || !(s->from[plane->axis] <= plane->at && plane->at <= s->to[plane->axis]))
+        if (!solid_is_unmoved_of_kind(s, SOLID_BOX) ||
+            !(s->from[plane->axis] <= plane->at && plane->at <= s->to[plane->axis]))
             return false;
     }
     return true;
@@ -188,14 +189,14 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
     real X[DIM_MAX] = {0};
     int solids = 0, within = 0;
     uint32_t inside = 0;
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (int k = 0; k < v->shapes; k++) {
         const struct region *r = v->shape[k];
         if (v->body[k] != p->body[i]) continue;
         if (solids + r->n > SOLIDS_MOST || r->n == 0 || r->solid[0].intersect) return 0;
         for (int l = 0; l < r->n; l++, solids++) {
             const struct solid *s = &r->solid[l];
-            const real level = s->intersect ? 0 : solid_level(s, X, v->dim);
+            const real level = s->intersect ? 0 : solid_level_set_value(s, X, v->dim);
             if (level > reach) continue;
             if (s->intersect || s->subtract) return 0;
             within++;
@@ -210,17 +211,17 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
  * from the surface [m]: a segment covered by the balls of these radii around its ends is inside; inside: [p->n_all]
  * results of solids_around. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
-                           int64_t i, const struct near *near)
+                           int64_t i, const struct neighbour_list *near)
 {
     real a[DIM_MAX] = {0};
     uint8_t bits = 0;
-    particle_place(p, i, a);
+    particle_reference_position(p, i, a);
     for (int k = 0; k < near->n; k++) {
         const int32_t j = near->at[k];
         real b[DIM_MAX] = {0}, length2 = 0;
         bool across = false;
         if (p->body[j] != p->body[i] || inside[i] & inside[j]) continue;
-        particle_place(p, j, b);
+        particle_reference_position(p, j, b);
         for (int d = 0; d < p->dim; d++) length2 += square(b[d] - a[d]);
         if (square(depth[i] + depth[j]) >= length2 || !void_separates_points(v, p->body[i], a, b, &across)) continue;
         bits |= VOID_NEAR | (across ? VOID_ACROSS : 0);
@@ -228,21 +229,21 @@ static uint8_t void_search(const struct voids *v, const struct particles *p, con
     return bits;
 }
 
-void voids_find(struct voids *v, const struct particles *p, const struct cells *cells, const struct image *image,
-                real reach)
+void voids_mark_particles(struct voids *v, const struct particles *p, const struct cells *cells,
+                          const struct image *image, real reach)
 {
     real *depth = NEW("voids.depth", p->n_all, real);
     uint32_t *inside = NEW("voids.inside", p->n_all, uint32_t);
     v->near = NEW("voids.near", p->n_all, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
-        depth[i] = voids_particle_depth(v, p, i);
+        depth[i] = voids_surface_distance_bound(v, p, i);
         if (depth[i] < reach) inside[i] = solids_around(v, p, i, reach);
     }
-    for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[image_root(p, image, k)];
+    for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[image_source_particle(p, image, k)];
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(dynamic, 256)
         for (int64_t i = 0; i < p->n; i++) {
             if (depth[i] >= reach || inside[i] == ALONE) continue;
@@ -251,7 +252,7 @@ void voids_find(struct voids *v, const struct particles *p, const struct cells *
         }
         memory_free(near.at);
     }
-    for (int64_t k = p->n; k < p->n_all; k++) v->near[k] = v->near[image_root(p, image, k)];
+    for (int64_t k = p->n; k < p->n_all; k++) v->near[k] = v->near[image_source_particle(p, image, k)];
     memory_free(depth);
     memory_free(inside);
 }

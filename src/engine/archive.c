@@ -55,7 +55,7 @@ static status kernels_archive(struct warnings *to, struct archive *a)
 }
 
 /* Saves the hollow cells. restore.c reads them before the rest of the checkpoint. */
-static status hollow_save(const struct hollow *h, struct archive *a)
+static status hollow_save(const struct cells_without_particles *h, struct archive *a)
 {
     int64_t n = h->absent ? h->box.n : 0;
     ARCHIVE_VALUE(a, "hollow/cells", n);
@@ -76,49 +76,49 @@ static status clock_archive(struct run_clock *c, struct archive *a)
 static status body_save(struct run *e, struct archive *a)
 {
     TRY(hollow_save(&e->frame->hollow, a));
-    TRY(particles_archive(&e->part, e->optional, a));
-    return bonds_archive(&e->bonds, &e->part, a);
+    TRY(particles_save_or_load(&e->part, e->optional, a));
+    return bonds_save_or_load(&e->bonds, &e->part, a);
 }
 
 /* Restores particles and bonds, and rebuilds lists, coupling, mesh and coarse cells from them. */
 static status body_restore(struct run *e, struct archive *a)
 {
-    TRY(particles_archive(&e->part, e->optional, a));
+    TRY(particles_save_or_load(&e->part, e->optional, a));
     TRY(particles_check(e->scene, &e->part));
     particles_update_lists(&e->part);
     bonds_free(&e->bonds);
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     partial_stress_free(&e->coupling->partial);
     e->grid->sort_needed = true;
-    TRY(bonds_archive(&e->bonds, &e->part, a));
+    TRY(bonds_save_or_load(&e->bonds, &e->part, a));
     state_update_weighted_volumes(&e->bonds, &e->part, &e->source);
-    coupling_partial_make(e);
+    coupling_compute_partial_stress(e);
     levels_free(&e->frame->levels);
     mesh_free(&e->frame->mesh);
     memory_free(e->frame->elastic);
-    TRY(coupling_frame_make(e, true));
+    TRY(coupling_make_mesh(e, true));
     return frame_levels_make(e, true);
 }
 
-status parts_archive(struct run *e, struct archive *a)
+status parts_save_or_load(struct run *e, struct archive *a)
 {
-    TRY(loads_archive(&e->loads, a));
+    TRY(loads_save_or_load(&e->loads, a));
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->state) TRY((*p)->state(e, a));
     return OK;
 }
 
-status engine_archive(void *engine, struct archive *a)
+status engine_save_or_load(void *engine, struct archive *a)
 {
     struct run *e = engine;
     TRY(kernels_archive(&e->warnings, a));
     TRY(a->saving ? body_save(e, a) : body_restore(e, a));
     TRY(clock_archive(&e->clock, a));
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
-    TRY(active_set_archive(&e->bonds.active, "bonds", a));
-    TRY(parts_archive(e, a));
+    TRY(active_set_save_or_load(&e->bonds.active, "bonds", a));
+    TRY(parts_save_or_load(e, a));
     const int known = e->warnings.n;
-    TRY(warnings_archive(&e->warnings, a));
+    TRY(warnings_save_or_load(&e->warnings, a));
     warnings_print(&e->warnings, known, stderr);
     return OK;
 }

@@ -28,7 +28,7 @@ static void baseline_keep(struct probing *probing, const struct particles *p, re
     probing->has_baseline = true;
 }
 
-status engine_run_baseline(struct run *e)
+status engine_run_mpm_baseline(struct run *e)
 {
     if (!wanted(e->scene)) return OK;
     struct scene scene = *e->scene;
@@ -39,7 +39,7 @@ status engine_run_baseline(struct run *e)
     status s = engine_make(&twin, &scene, NULL);
     twin.report->quiet = true;
     if (s == OK) s = engine_run(&twin);
-    if (s == OK) baseline_keep(e->probing, &twin.part, run_observed(&twin).energy_change);
+    if (s == OK) baseline_keep(e->probing, &twin.part, observed_run_of(&twin).energy_change);
     engine_free(&twin);
     return s;
 }

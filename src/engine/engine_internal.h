@@ -21,7 +21,7 @@ struct predecessor {
  * a body that coarse cells replace). before: if not NULL, particles, bonds and time are transferred from this run; the
  * caller sets all other state that its time steps have changed, and the refinement levels of cells. Returns as
  * engine_make does. */
-status engine_remake(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
+status engine_remake(struct run *e, const struct scene *s, struct output *out, struct cells_without_particles hollow,
                      struct predecessor *before);
 
 /* Replaces a run by one whose particles are those that the given refinement levels of mesh cells require, with the
@@ -40,7 +40,7 @@ void engine_transfer_bonds(struct run *e, const struct predecessor *before);
 /* Saves the state of loads and of all parts of a run to the archive if a->saving is set, else restores it from the
  * archive. Each part saves only state that a->scope includes. Returns FAILED if an entry is missing or has another
  * size. */
-status parts_archive(struct run *e, struct archive *a);
+status parts_save_or_load(struct run *e, struct archive *a);
 
 /* Adds warnings to *to about bodies with particles that have no neighbours. */
 void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, const struct bonds *b,

@@ -42,7 +42,7 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
         tables->pair_stretch[b * s->materials + a] = face->critical_stretch;
     }
     source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->last_force, 0};
-    if (scene_at_rest(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
+    if (scene_is_single_equilibrium(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
 }
 
 /* Sets yield stretch s_y = sigma_y/E and hardening H_b/k_e = H/E for each pair of materials, from the material that
@@ -101,7 +101,7 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                               .space = s->space,
                                               .poisson = given->poisson,
                                               .law = given->law.given ? &given->law : NULL,
-                                              .mode = scene_in_steps(s) ? LAW_LOAD_STEP : LAW_EXPLICIT,
+                                              .mode = scene_has_load_steps(s) ? LAW_LOAD_STEP : LAW_EXPLICIT,
                                               .mean_dilatation = material_averages_dilatation(given, s->space),
                                               .trigger = conversion_trigger(s, given),
                                               .trigger_mean = conversion_trigger(s, given)};
@@ -122,7 +122,7 @@ static void make_family(const struct scene *s, struct bond_source *source)
     struct family *f = &source->family;
     f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
     f->influence = s->influence;
-    family_make(f, s->space, s->spacing, s->horizon, scene_section(s));
+    family_make(f, s->space, s->spacing, s->horizon, scene_section_factor(s));
     source->material = s->material, source->materials = s->materials;
 }
 
@@ -133,18 +133,18 @@ static void make_mirrors(const struct scene *s, const struct loads *loads, struc
     const real tolerance = LOADS_TOLERANCE * s->spacing;
     tables->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
     for (int b = 0; b < s->boundaries; b++)
-        tables->mirror_axis[b] = is_clamp(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
+        tables->mirror_axis[b] = boundary_is_clamped_mirror(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
     source->mirror_axis = tables->mirror_axis;
     tables->mirror = NEW("engine.mirror", s->boundaries, struct mirror_plane);
     for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_MIRROR && !is_clamp(&s->boundary[b], s->dim))
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && !boundary_is_clamped_mirror(&s->boundary[b], s->dim))
             tables->mirror[source->mirrors++] =
                 (struct mirror_plane){s->boundary[b].axis, loads->load[b].outside, s->boundary[b].at};
     source->mirror = tables->mirror;
     if (!has_peridynamics(s)) return;
     source->given = s->crack, source->givens = s->cracks;
-    cracks_mirrored(&tables->cracks, s->crack, s->cracks, source->mirror, source->mirrors, source->family.cutoff,
-                    tolerance);
+    cracks_make_mirror_images(&tables->cracks, s->crack, s->cracks, source->mirror, source->mirrors,
+                              source->family.cutoff, tolerance);
     source->crack = tables->cracks.crack, source->cracks = tables->cracks.n, source->crack_of = tables->cracks.of;
 }
 
@@ -155,17 +155,18 @@ static status make_bonds(struct run *e, struct predecessor *before)
     make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
     e->source.image = e->loads.image;
     if (run_voids_list(&e->tables, s, &e->loads)) {
-        voids_find(&e->tables.voids, &e->part, &e->cells, e->loads.image, voids_reach(s, e->source.family.cutoff));
+        voids_mark_particles(&e->tables.voids, &e->part, &e->cells, e->loads.image,
+                             voids_interaction_distance(s, e->source.family.cutoff));
         e->source.voids = &e->tables.voids;
     }
-    e->source.room = bonds_most_neighbours(&e->source);
+    e->source.room = bonds_neighbour_count_bound(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
-        bonds_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
+        bonds_compute_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
         e->source.neighbour_volume = e->tables.neighbour_volume;
     }
     if (s->surface == SURFACE_MOMENTS && has_peridynamics(s))
-        TRY(run_surface_make(&e->tables.surface, &e->source, &e->part, &e->loads, s));
+        TRY(run_surface_weights_make(&e->tables.surface, &e->source, &e->part, &e->loads, s));
     if (s->method == METHOD_ADAPTIVE) TRY(precracks_apply(e));
     if (before)
         engine_transfer_particles(e, before); /* after precracks_apply, which makes slits from initial particles */
@@ -262,7 +263,7 @@ real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p
 #define POSITIONS_QUICK 3e7       /* number of lattice positions that are filled in some seconds */
 #define SECONDS_PER_POSITION 1e-6 /* of the set-up, on one thread; measured 0.4 to 1.7 us [s] */
 
-void engine_say_size(const struct scene *s)
+void engine_announce_long_set_up(const struct scene *s)
 {
     real longest;
     if (particles_expected(s, true, &longest) < POSITIONS_QUICK) return;
@@ -303,14 +304,15 @@ static void tables_free(struct material_tables *t)
 static int law_arrays(const struct law *law)
 {
     if (!law->given) return 0;
-    return WITH_LAW | (law->kinematic.modulus > 0 ? WITH_BACK_STRESS : 0) | (law_heats(law) ? WITH_TEMPERATURE : 0);
+    return WITH_LAW | (law->kinematic.modulus > 0 ? WITH_BACK_STRESS : 0) |
+           (law_heats_material(law) ? WITH_TEMPERATURE : 0);
 }
 
 /* Returns the optional arrays of particles that the scene needs (bits WITH_...). */
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
-    const int meshed = scene_in_steps(s)         ? WITH_PLASTIC_CORRECTION
+    const int meshed = scene_has_load_steps(s)   ? WITH_PLASTIC_CORRECTION
                        : scene_yields_on_mesh(s) ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS
                                                  : 0;
     for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
@@ -318,7 +320,7 @@ static int optional_arrays(const struct scene *s)
     for (int m = 0; m < s->materials; m++) optional |= law_arrays(&s->material[m].law);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;
-    if (s->method != METHOD_MPM && scene_scatters(s)) optional |= WITH_STRENGTH;
+    if (s->method != METHOD_MPM && scene_strength_scatters(s)) optional |= WITH_STRENGTH;
     if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND)
         optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_ROTATIONS : 0);
     return optional;
@@ -336,7 +338,7 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
  * given. */
 static status make_time(struct run *e, const struct predecessor *before)
 {
-    if (!before) return scene_locate(e->scene, time_step_make(e));
+    if (!before) return scene_locate(e->scene, time_step_choose(e));
     e->clock = before->run->clock;
     e->source.limit.dt = before->run->source.limit.dt;
     e->source.core = e->bonds.core = before->run->source.core;
@@ -349,7 +351,7 @@ static void make_contact(struct contact *c, const struct scene *s, const struct 
 {
     const struct contact_law law = {
         .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
-    contact_make(c, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE, law,
+    contact_make(c, !scene_is_single_equilibrium(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE, law,
                  s->contact_stiffness, source, rigid->shape, rigid->body, s->rigids);
 }
 
@@ -361,10 +363,10 @@ static status make_particles(struct run *e)
     make_materials(s, &e->tables, &e->source);
     make_family(s, &e->source);
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
-    TRY(scene_locate(s, frame_hollow_choose_cells(&e->frame->hollow, s, &e->source)));
+    TRY(scene_locate(s, cells_without_particles_choose(&e->frame->hollow, s, &e->source)));
     if (!e->frame->hollow.absent) TRY(scene_locate(s, make_affordable(s, &e->part, &e->source)));
     TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
-    conversion_stress_lower(e->tables.elastic, &e->part);
+    lower_conversion_stress(e->tables.elastic, &e->part);
     return scene_locate(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
@@ -375,14 +377,14 @@ static status make_probes(struct run *e)
     e->probing->strain_stress = particles_largest_stress(&e->part);
     tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     if (e->coupling->notches.lost) tips_exclude_precracks(&e->fracture->tips, e->coupling->notches.lost);
-    TRY(scene_locate(s, sif_check(e)));
-    e->fracture->growth = NEW("engine.growth", s->growths, struct growth);
+    TRY(scene_locate(s, sif_growth_check(e)));
+    e->fracture->growth = NEW("engine.growth", s->growths, struct growing_crack);
     e->fracture->growths = s->growths;
-    for (int k = 0; k < s->growths; k++) growth_make(&e->fracture->growth[k], &s->growth[k]);
-    if (scene_at_rest(s)) TRY(scene_locate(s, engine_solver_make(e)));
+    for (int k = 0; k < s->growths; k++) growing_crack_make(&e->fracture->growth[k], &s->growth[k]);
+    if (scene_is_single_equilibrium(s)) TRY(scene_locate(s, engine_static_solver_make(e)));
     diagnostics_make(e->diagnostics);
-    pulses_list(e->scene, e->probing);
-    struct observed o = run_observed(e);
+    scene_list_pulses(e->scene, e->probing);
+    struct observed_run o = observed_run_of(e);
     return scene_locate(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
@@ -391,9 +393,9 @@ static status make_probes(struct run *e)
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
-    TRY(scene_locate(s, frames_choose(e->frame, e->grid, &e->part, s)));
-    if (!scene_moves(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
-    if (scene_at_rest(s))
+    TRY(scene_locate(s, body_frames_choose(e->frame, e->grid, &e->part, s)));
+    if (!scene_is_dynamic(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
+    if (scene_is_single_equilibrium(s))
         loads_make_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     else if (e->boundary)
         array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
@@ -402,30 +404,30 @@ static status make_forces(struct run *e, struct predecessor *before)
     e->tables.impedance = absorbing_impedances(s, &e->source);
     const struct impedance *z = e->tables.impedance;
     if (z)
-        loads_absorbing_make(&e->loads, &e->part,
-                             (const struct impedance *const[MOVERS]){z, z + s->materials, z + 2 * s->materials});
+        absorbing_dashpots_make(&e->loads, &e->part,
+                                (const struct impedance *const[MOVERS]){z, z + s->materials, z + 2 * s->materials});
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     TRY(make_bonds(e, before));
     TRY(rigids_make(e->rigid, s));
     TRY(rigids_check(e->rigid, s, &e->part));
-    TRY(scene_locate(s, joined_check(s, &e->part, &e->cells, e->source.family.cutoff)));
-    TRY(scene_locate(s, statics_check(e)));
+    TRY(scene_locate(s, joined_bodies_check(s, &e->part, &e->cells, e->source.family.cutoff)));
+    TRY(scene_locate(s, statics_check_scene(e)));
     make_contact(e->contact, s, &e->source, e->rigid);
-    coupling_partial_make(e);
-    TRY(scene_locate(s, coupling_frame_make(e, before != NULL)));
+    coupling_compute_partial_stress(e);
+    TRY(scene_locate(s, coupling_make_mesh(e, before != NULL)));
     TRY(prescribed_motion_check(&e->loads, &e->part, s, before == NULL));
-    bonded_points_update(&e->coupling->partial, e->frame, &e->part, s->material);
-    stability_make(e->stability, &e->part);
+    bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, s->material);
+    stability_store_start_speed(e->stability, &e->part);
     return make_time(e, before);
 }
 
-status engine_remake(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
+status engine_remake(struct run *e, const struct scene *s, struct output *out, struct cells_without_particles hollow,
                      struct predecessor *before)
 {
     memset(e, 0, sizeof *e);
     run_parts_make(e);
-    e->save = engine_archive;
+    e->save = engine_save_or_load;
     e->scene = s;
     e->report->out = out;
     e->report->began = wall_clock();
@@ -439,8 +441,8 @@ status engine_remake(struct run *e, const struct scene *s, struct output *out, s
     e->coupling->damping_share =
         interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
-                              s->contact_convert && unjoined_body_index(s, 1) + s->rigids >= 0 &&
-                              !coupling_unified(s->coupling);
+                              s->contact_convert && joined_group_first_body(s, 1) + s->rigids >= 0 &&
+                              !coupling_has_one_grid(s->coupling);
     e->grid->transfer = (struct transfer_data){.order = &e->grid->field[0].order,
                                                .partial = &e->coupling->partial,
                                                .elastic = e->tables.elastic,
@@ -449,18 +451,18 @@ status engine_remake(struct run *e, const struct scene *s, struct output *out, s
                                                .dt_velocity = e->clock.dt,
                                                .laws = e->part.plastic_work != NULL};
     for (int m = 0; m < s->materials; m++) e->grid->transfer.mean_dilatation |= e->tables.elastic[m].mean_dilatation;
-    grid_turning_make(e->grid, &e->part, &e->loads, e->scene, e->coupling_kind);
+    grid_rotation_groups_make(e->grid, &e->part, &e->loads, e->scene, e->coupling_kind);
     return make_probes(e);
 }
 
 status engine_make(struct run *e, const struct scene *s, struct output *out)
 {
-    struct hollow hollow = {0};
+    struct cells_without_particles hollow = {0};
     for (;;) {
         TRY(engine_remake(e, s, out, hollow, NULL));
         if (!e->frame->lacks) return OK;
         hollow = e->frame->hollow;
-        e->frame->hollow = (struct hollow){0};
+        e->frame->hollow = (struct cells_without_particles){0};
         engine_free(e);
     }
 }
@@ -469,7 +471,7 @@ void engine_free(struct run *e)
 {
     memory_set_reuse(false);
     if (e->report && e->report->out)
-        (void)output_wait(e->report->out); /* the writer of frames still reads the particles */
+        (void)output_wait_for_frame(e->report->out); /* the writer of frames still reads the particles */
     run_parts_free(e);
     bonds_free(&e->bonds);
     cells_free(&e->cells);

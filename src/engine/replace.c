@@ -47,9 +47,9 @@ static void nodes_take(struct run *e, struct run *old)
     was->levels = (struct mesh_levels){0};
     r->coarse = was->coarse, was->coarse = NULL;
     levels_reconnect_finest(&r->levels, &e->part, &r->source);
-    frame_levels_find_nodes(r, &e->part, &e->bonds, &e->loads);
+    frame_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
     frame_update_point_motion(r, &e->part, &e->loads);
-    bonded_points_update(&e->coupling->partial, r, &e->part, e->scene->material);
+    bonded_points_update_strain(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
 /* Moves what the functions of state in struct part do not describe: motion of nodes, output files, timers and
@@ -70,11 +70,11 @@ static status run_replace(struct run *e)
     struct run *old = NEW("replace.old", 1, struct run);
     struct predecessor before = {.run = old};
     struct memory_archive parts;
-    const struct hollow hollow = e->frame->hollow;
+    const struct cells_without_particles hollow = e->frame->hollow;
     memory_archive_make(&parts, ARCHIVE_REBUILD);
-    status s = parts_archive(e, &parts.archive);
+    status s = parts_save_or_load(e, &parts.archive);
     *old = *e;
-    old->frame->hollow = (struct hollow){0};
+    old->frame->hollow = (struct cells_without_particles){0};
     memory_set_reuse(false);
     leave_derived(old);
     if (s == OK) s = engine_remake(e, old->scene, NULL, hollow, &before);
@@ -82,7 +82,7 @@ static status run_replace(struct run *e)
         rest_take(e, old);
         memory_archive_rewind(&parts);
         parts.archive.now = before.now;
-        s = parts_archive(e, &parts.archive);
+        s = parts_save_or_load(e, &parts.archive);
     }
     memory_archive_free(&parts);
     memory_free(before.now);
@@ -95,10 +95,10 @@ static status run_replace(struct run *e)
 status engine_replace_particles(struct run *e, const uint8_t *level)
 {
     if (e->report->out) {
-        TRY(output_wait(e->report->out));
-        output_particles_changed(e->report->out);
+        TRY(output_wait_for_frame(e->report->out));
+        output_discard_particle_order(e->report->out);
     }
-    frame_hollow_update_cells(e->frame, level);
+    cells_without_particles_update(e->frame, level);
     TRY(run_replace(e));
     if (e->report->out) contact_allocate_forces(e->contact, &e->part);
     return OK;

@@ -12,10 +12,10 @@ static status remake(struct run *e, uint8_t *absent)
     const struct warnings warnings = e->warnings;
     const struct timers timers = e->timers;
     const struct scene *s = e->scene;
-    struct hollow hollow = e->frame->hollow;
+    struct cells_without_particles hollow = e->frame->hollow;
     memory_free(hollow.absent);
     hollow.absent = absent, hollow.restored = true;
-    e->frame->hollow = (struct hollow){0};
+    e->frame->hollow = (struct cells_without_particles){0};
     e->report = NULL, e->warnings = (struct warnings){0};
     engine_free(e);
     const status made = engine_remake(e, s, NULL, hollow, NULL);
@@ -28,7 +28,7 @@ static status remake(struct run *e, uint8_t *absent)
  * fit the bodies. */
 static status hollow_restore(struct run *e, struct archive *a)
 {
-    struct hollow *h = &e->frame->hollow;
+    struct cells_without_particles *h = &e->frame->hollow;
     int64_t n = h->absent ? h->box.n : 0;
     ARCHIVE_VALUE(a, "hollow/cells", n);
     if (n == 0 && !h->absent) return OK;
@@ -40,8 +40,8 @@ static status hollow_restore(struct run *e, struct archive *a)
     return remake(e, absent);
 }
 
-status engine_restore(void *run, struct archive *a)
+status engine_load_checkpoint(void *run, struct archive *a)
 {
     TRY(hollow_restore(run, a));
-    return engine_archive(run, a);
+    return engine_save_or_load(run, a);
 }

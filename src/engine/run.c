@@ -9,7 +9,7 @@
 #include "step/checks.h"
 
 /* Stores position and radius of the rings of all sif probes in the frame; cells there are not coarsened. */
-static void rings_find(struct reference_frame *f, struct probes *p, const struct observed *seen)
+static void rings_find(struct reference_frame *f, struct probes *p, const struct observed_run *seen)
 {
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
     f->rings = 0;
@@ -22,11 +22,11 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
 static status refine(struct run *e)
 {
     if (!frame_levels_may_change(&e->frame->levels, e->clock.step)) return OK;
-    const struct observed seen = run_observed(e);
+    const struct observed_run seen = observed_run_of(e);
     rings_find(e->frame, &e->probing->probes, &seen);
     uint8_t *level = frame_levels_choose_next(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
     if (!level) return OK;
-    const status s = frame_hollow_lacks_particles(&e->frame->mesh, level) ? engine_replace_particles(e, level) : OK;
+    const status s = levels_need_more_particles(&e->frame->mesh, level) ? engine_replace_particles(e, level) : OK;
     if (s == OK) frame_levels_apply(e, level);
     memory_free(level);
     return s;
@@ -41,8 +41,8 @@ status engine_step(struct run *e)
 status engine_run(struct run *e)
 {
     memory_set_reuse(true);
-    if (scene_at_rest(e->scene)) return engine_solve_static(e);
-    if (scene_in_steps(e->scene)) return engine_run_load_steps(e);
+    if (scene_is_single_equilibrium(e->scene)) return engine_solve_static(e);
+    if (scene_has_load_steps(e->scene)) return engine_run_load_steps(e);
     TRY(report_start(e));
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {

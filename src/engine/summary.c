@@ -49,7 +49,8 @@ static void put_warnings(struct json *j, const struct warnings *w)
 /* Returns true for a peridynamic body that has lost bonds, whose fragments are reported. */
 static bool has_fragments(const struct scene *scene, const struct diagnostics *diagnostics)
 {
-    return scene->method == METHOD_PD && !scene_at_rest(scene) && (diagnostics->bonds_broken > 0 || scene->cracks > 0);
+    return scene->method == METHOD_PD && !scene_is_single_equilibrium(scene) &&
+           (diagnostics->bonds_broken > 0 || scene->cracks > 0);
 }
 
 /* Writes number and masses of the fragments; particles without any bond are counted apart. */

@@ -32,7 +32,7 @@ void engine_transfer_particles(struct run *e, struct predecessor *before)
     before->now = numbers_now(&e->part, &e->loads, &before->run->part, &before->run->loads);
     particles_copy_fields(&e->part, &before->run->part, before->now, e->optional);
     particles_update_lists(&e->part);
-    bonds_update_image_kinds(&e->part, &e->source);
+    mirror_images_copy_kinds(&e->part, &e->source);
 }
 
 void engine_transfer_bonds(struct run *e, const struct predecessor *before)

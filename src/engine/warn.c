@@ -28,7 +28,7 @@ static bool spins(const struct scene *s)
  * plate that rotates freely, with edges at 30 m/s and cells of two spacings. */
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
-    if (scene_moves(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
+    if (scene_is_dynamic(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
         warnings_add(to,
                      "mpm.transfer: flip with this coupling loses angular momentum of bodies that rotate: a plate of "
                      "20 x 10 points loses 28 %% of it in half a turn (apic: 0.002 %%); use mpm.transfer: apic");
@@ -73,10 +73,10 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
 static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
     const char *why = s->method == METHOD_PD    ? "method pd has no cells"
-                      : !scene_moves(s)         ? "a static solver has no use for coarse cells"
+                      : !scene_is_dynamic(s)    ? "a static solver has no use for coarse cells"
                       : frame->mesh.points == 0 ? "no material points are in the reference frame"
                                                 : NULL;
-    const char *all = frame_hollow_why_not(s);
+    const char *all = why_all_particles_are_needed(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
         warnings_add(to, "mpm.levels: %d has no effect, as %s; use auto or 0", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
@@ -111,7 +111,7 @@ static bool region_is_met(const struct reference_frame *frame, const struct part
     bool any = frame->hollow.absent != NULL;
     for (int64_t i = 0; i < part->n && !any; i++) {
         real X[DIM_MAX];
-        particle_place(part, i, X);
+        particle_reference_position(part, i, X);
         any = region_contains(region, X, part->dim, 0);
     }
     return any;
@@ -167,7 +167,7 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, str
 /* Warns of a time step above the critical one. */
 static void warn_of_step(const struct scene *s, const struct run_clock *clock, struct warnings *to)
 {
-    if (!scene_moves(s) || !(clock->dt > clock->dt_critical)) return;
+    if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;
     warnings_add(
         to,
         "the time step is above the critical one: time.step is %.4g s, %.3g times the critical %.4g s, and the "

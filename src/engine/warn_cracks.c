@@ -9,7 +9,7 @@ enum { ALONG = 32 }; /* positions along a segment, or along each of two sides of
 static bool bonds_are_cut(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++)
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
             if (it.bond.inverse_length < 0) return true;
     return false;
 }
@@ -20,7 +20,7 @@ static bool crack_meets_particles(const struct crack *c, const struct particles 
     bool meets = false;
     for (int64_t i = 0; i < p->n && !meets; i++) {
         real X[DIM_MAX];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         meets = crack_may_cut_near(c, X, reach, p->dim);
     }
     return meets;
@@ -65,7 +65,7 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
     enum { SEARCHED = 16, NAMED = 3 };
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
     int far = 0;
-    for (int d = 0; d < s->dim && s->cracks > SEARCHED; d++) particles_extent(p, p->n, d, &low[d], &high[d]);
+    for (int d = 0; d < s->dim && s->cracks > SEARCHED; d++) particles_coordinate_range(p, p->n, d, &low[d], &high[d]);
     for (int k = 0; k < s->cracks && s->dim > 1 && far < NAMED; k++) {
         const struct crack *c = &s->crack[k];
         if (s->cracks > SEARCHED ? crack_meets_box(c, low, high, s->dim, reach) : crack_meets_particles(c, p, reach))

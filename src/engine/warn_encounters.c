@@ -69,10 +69,10 @@ static real time_to_meet(const struct flight *a, const struct flight *b, int dim
  * prescribes, and no plane of symmetry, at which a body may meet its own image. */
 static bool fly_freely(const struct scene *s)
 {
-    bool freely = scene_moves(s) && dot(s->gravity, s->gravity, s->dim) == 0;
+    bool freely = scene_is_dynamic(s) && dot(s->gravity, s->gravity, s->dim) == 0;
     for (int k = 0; k < s->boundaries; k++) {
         const struct boundary *b = &s->boundary[k];
-        freely = freely && (boundary_holds(b, s->dim) || b->kind == BOUNDARY_ABSORBING);
+        freely = freely && (boundary_holds_at_rest(b, s->dim) || b->kind == BOUNDARY_ABSORBING);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         freely = freely && dot(s->body[b].force, s->body[b].force, s->dim) == 0;

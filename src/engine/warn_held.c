@@ -12,7 +12,7 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
 {
     const struct boundary *b = l->boundary;
     const unsigned all = (1u << s->dim) - 1;
-    if (!boundary_holds(b, s->dim) || l->n < p->n || p->n < p->n_body || (b->components & all) != all) return;
+    if (!boundary_holds_at_rest(b, s->dim) || l->n < p->n || p->n < p->n_body || (b->components & all) != all) return;
     warnings_add(to, "boundary %s holds all %lld particles: nothing can move; check the units of its region (mm?)",
                  b->name, (long long)l->n);
 }
@@ -31,7 +31,7 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     unsigned apart = 0;
     for (int m = 1; m <= MOMENTS_OF_SUPPORTS; m++) {
         real u[DIM_MAX], w[DIM_MAX];
-        const real t = scene_moves(s) ? s->duration * m / MOMENTS_OF_SUPPORTS : INFINITY;
+        const real t = scene_is_dynamic(s) ? s->duration * m / MOMENTS_OF_SUPPORTS : INFINITY;
         load_displacement_at(a, p, j, t, u);
         load_displacement_at(b, p, k, t, w);
         for (int d = 0; d < s->dim; d++)

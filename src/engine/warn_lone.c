@@ -21,7 +21,7 @@ static void lone_add(struct lone *l, int64_t i)
 /* Returns true if a row of bonds is empty. */
 static bool row_empty(const struct bonds *b, int64_t row)
 {
-    struct bond_iterator it = bonds_of_row(b, row);
+    struct bond_iterator it = bond_iterator_of_row(b, row);
     return !bond_next(&it);
 }
 
@@ -49,7 +49,7 @@ static void lone_bonds_count(const struct bonds *b, const struct particles *p, s
 static void lone_points_count(const struct scene *s, const struct cells *cells, const struct particles *p,
                               struct lone *lone)
 {
-    struct near near = {0};
+    struct neighbour_list near = {0};
     for (int64_t i = 0; i < p->n && s->method != METHOD_PD; i++) {
         if (p->kind[i] == KIND_PD || !from_file(s, p->body[i])) continue;
         particles_find_near(&near, cells, p, i, real_max(1.5, s->cell) * s->spacing, false);
@@ -84,7 +84,8 @@ static real median_sorted(real *a, int n)
 
 /* Computes the distance of the nearest neighbour of particle i [m], INFINITY if near is empty, and the number of
  * neighbours at that distance. */
-static void surroundings(const struct particles *p, const struct near *near, int64_t i, real *apart, real *beside)
+static void surroundings(const struct particles *p, const struct neighbour_list *near, int64_t i, real *apart,
+                         real *beside)
 {
     real least2 = INFINITY;
     *beside = 0;
@@ -105,7 +106,7 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
 {
     static const real ball[] = {0, 2 * NEAR, 3.14159 * NEAR * NEAR, 4.18879 * NEAR * NEAR * NEAR};
     real apart[SAMPLED], count[SAMPLED], beside[SAMPLED];
-    struct near near = {0};
+    struct neighbour_list near = {0};
     int64_t own = 0;
     int n = 0;
     for (int64_t i = 0; i < p->n; i++) own += p->body[i] == b->joined;
@@ -142,13 +143,13 @@ void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, c
         real X[DIM_MAX] = {0};
         char place[96] = "";
         if (lone[k].n == 0 || lone[k].all <= MASS_POINTS) continue;
-        particle_place(p, lone[k].first, X);
+        particle_reference_position(p, lone[k].first, X);
         for (int d = 0, used = 0; d < s->dim; d++)
             used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d ? ", " : "", X[d]);
         warnings_add(to, "body %s: %lld of its particles ha%s no neighbour, the first at (%s) m: nothing holds %s%s",
                      s->body[k].name, (long long)lone[k].n, lone[k].n == 1 ? "s" : "ve", place,
                      lone[k].n == 1 ? "it" : "them",
-                     scene_at_rest(s) ? ", and there is no equilibrium; remove such particles" : "");
+                     scene_is_single_equilibrium(s) ? ", and there is no equilibrium; remove such particles" : "");
     }
     memory_free(lone);
 }

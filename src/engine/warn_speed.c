@@ -35,7 +35,7 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
                          const struct particles *p)
 {
     const struct load *own = d->load;
-    bool freely = s->damping == 0 && !scene_bodies_meet(s);
+    bool freely = s->damping == 0 && !scene_bodies_can_meet(s);
     for (int b = 0; b < all->n && freely; b++) {
         const struct load *l = &all->load[b];
         const unsigned both = l->boundary->components & own->boundary->components;
@@ -44,7 +44,8 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
             freely = false;
             break;
         case BOUNDARY_MIRROR:
-            freely = !is_clamp(l->boundary, s->dim) && !(own->boundary->components >> l->boundary->axis & 1);
+            freely = !boundary_is_clamped_mirror(l->boundary, s->dim) &&
+                     !(own->boundary->components >> l->boundary->axis & 1);
             break;
         case BOUNDARY_VELOCITY:
             freely = l == own || both == 0 || !load_meets(s, p, l, d->body) ||
@@ -69,7 +70,7 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
         for (int64_t i = 0; body[b] && i < p->n; i++) {
             real X[DIM_MAX];
             if (s->body[p->body[i]].joined != b) continue;
-            particle_place(p, i, X);
+            particle_reference_position(p, i, X);
             for (int d = 0; d < p->dim; d++) low[d] = real_min(low[d], X[d]), high[d] = real_max(high[d], X[d]);
         }
         for (int d = 0; d < p->dim && high[d] >= low[d]; d++) size2 += square(high[d] - low[d] + s->spacing);

@@ -130,7 +130,7 @@ static void load_figures_add(const struct scene *s, const struct particles *p, c
     for (int m = 0; m <= MOMENTS_OF_LOADS; m++)
         for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES_OF_LOADS)
             load_figures_at(s, p, l, k, s->duration * m / MOMENTS_OF_LOADS, f);
-    if (!drives || !scene_moves(s)) return;
+    if (!drives || !scene_is_dynamic(s)) return;
     const real speed = load_driven_speed(l, p, s->duration);
     if (isfinite(speed)) f->speed = real_max(f->speed, speed);
 }
@@ -153,7 +153,7 @@ static real units_speed_at_start(const struct scene *s, const struct particles *
 static real units_stress_at_start(const struct particles *p)
 {
     real most = 0;
-    for (int c = 0; c < symmetric_count(p->dim); c++)
+    for (int c = 0; c < symmetric_component_count(p->dim); c++)
         for (int64_t i = 0; i < p->n && p->stress[c]; i++) most = real_max(most, fabs(p->stress[c][i]));
     return most;
 }
@@ -185,7 +185,7 @@ static void units_of_growth(const struct scene *s, const struct particles *p, re
     }
     if (!isfinite(rate) || s->interfaces > 0) return;
     for (int d = 0; d < s->dim; d++) {
-        particles_extent(p, p->n, d, &low, &high);
+        particles_coordinate_range(p, p->n, d, &low, &high);
         longest = real_max(longest, high - low + s->spacing), least = real_min(least, high - low + s->spacing);
     }
     const real most = M_PI * square(stress * longest / least) * longest / young;
@@ -211,14 +211,14 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     }
     for (int d = 0; d < s->dim && f.supports > 1; d++) {
         real low, high;
-        particles_extent(p, p->n, d, &low, &high);
+        particles_coordinate_range(p, p->n, d, &low, &high);
         stretched = real_max(stretched, young * (f.most[d] - f.least[d]) / (high - low + s->spacing));
     }
     const real enough = rule[ACCEPT_STRESS].least * strength;
     real stress = real_max(f.stress, units_stress_at_start(p));
-    stress = real_max(stress, impedance * real_max(f.speed, scene_moves(s) ? units_speed_at_start(s, p) : 0));
+    stress = real_max(stress, impedance * real_max(f.speed, scene_is_dynamic(s) ? units_speed_at_start(s, p) : 0));
     const real largest = real_max(stress, stretched);
-    stress = real_max(stress, scene_moves(s) ? real_min(stretched, enough) : stretched);
+    stress = real_max(stress, scene_is_dynamic(s) ? real_min(stretched, enough) : stretched);
     if (stress == 0 && !scene_accepts(s, ACCEPT_STRESS)) {
         warnings_add(to,
                      "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "
@@ -256,7 +256,7 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
                           struct warnings *to)
 {
     char note[80];
-    if (!scene_moves(s)) return;
+    if (!scene_is_dynamic(s)) return;
     snprintf(note, sizeof note, " (%.3g s, %.3g m at %.3g m/s)", s->duration, longest, wave_speed);
     units_judge(s, ACCEPT_PASSAGES, "time", wave_speed * s->duration / longest, note, to);
     snprintf(note, sizeof note, " of %.3g s", clock->dt);

@@ -61,7 +61,7 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
 {
     const struct run *e = x->e;
     *n = 0;
-    for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);) {
         if (it.bond.w == 0) continue;
         bonded[it.bond.nbr] = i + 1;
         ++*n;
@@ -74,14 +74,14 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
     return OK;
 }
 
-/* Finds the neighbours of particle i in LAMMPS; stores them in found[room] and returns their number. */
-static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int room)
+/* Finds the neighbours of particle i in LAMMPS; stores them in found[capacity] and returns their number. */
+static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int capacity)
 {
     const struct run *e = x->e;
     real X[DIM_MAX];
     int kept = 0;
-    particle_place(&e->part, i, X);
-    const int n = cells_find_near(&e->cells, &e->part, X, e->source.family.cutoff, (int32_t)i, found, room);
+    particle_reference_position(&e->part, i, X);
+    const int n = cells_find_near(&e->cells, &e->part, X, e->source.family.cutoff, (int32_t)i, found, capacity);
     for (int k = 0; k < n; k++)
         if (distance2(&e->part, i, found[k]) <= square(x->cutoff)) found[kept++] = found[k];
     return kept;
@@ -186,7 +186,7 @@ static void touched_near(struct touched *t, const struct exported *x, struct sea
 
 status lammps_find_cut_bonds(struct touched *t, struct exported *x)
 {
-    struct search a = {.room = bonds_most_neighbours(&x->e->source) + 1};
+    struct search a = {.room = bonds_neighbour_count_bound(&x->e->source) + 1};
     a.found = NEW("touched.found", a.room, int32_t);
     a.bonded = NEW("touched.bonded", x->e->part.n_all, int64_t);
     a.number = NEW("touched.number", x->e->part.n_all, int32_t);

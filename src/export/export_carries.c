@@ -32,7 +32,7 @@ static status carries_method(const struct scene *s)
                                 "adaptive is expected");
     if (s->dim == 1)
         return lammps_refuse(s, "space: line is not in LAMMPS, whose particles lie in a plane or in space");
-    if (!scene_moves(s))
+    if (!scene_is_dynamic(s))
         return lammps_refuse(s, "solver: LAMMPS' peridynamics has steps in time only; explicit is expected");
     if (s->model == MODEL_MOSPD)
         return lammps_refuse(s, "model: mospd is not in LAMMPS, which has bond (peri/pmb) and ospd (peri/lps)");
@@ -49,7 +49,7 @@ static status carries_materials(const struct scene *s, bool bond_style)
         return lammps_refuse(s, "several critical stretches: peri/pmb breaks bonds by the largest of a particle's "
                                 "(lammps issue 984); one for all, or --style bpm, is expected");
     if (s->rigids > 0) return lammps_refuse(s, "rigid bodies are not exported; a driven body of particles is expected");
-    if (scene_scatters(s))
+    if (scene_strength_scatters(s))
         return lammps_refuse(s, "strength that scatters from place to place is not in LAMMPS' types; none is expected");
     if (s->damping > 0) return lammps_refuse(s, "damping is not exported; 0 is expected");
     if (scene_viscous(s)) return lammps_refuse(s, "viscosity: bulk viscosity is not exported; none is expected");

@@ -11,7 +11,7 @@ static void joined_volume(real *volume, const struct particles *part, const stru
 {
     for (int64_t i = 0; i < part->n; i++) {
         volume[i] = 0;
-        for (struct bond_iterator it = bonds_of_row(bonds, bonds->row_of[i]); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, bonds->row_of[i]); bond_next(&it);)
             if (it.bond.w != 0) volume[i] += part->volume0[it.bond.nbr];
     }
 }

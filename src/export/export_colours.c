@@ -71,7 +71,7 @@ static bool colours_share(struct colouring *a)
     return true;
 }
 
-int colours_make(int32_t *colour, const struct touched *t)
+int particle_colours_assign(int32_t *colour, const struct touched *t)
 {
     struct colouring a = {t, colour, 0, NEW("colours.key", COLOURS_MOST, uint64_t),
                           NEW("colours.pair", (int64_t)COLOURS_MOST * COLOURS_MOST, uint8_t)};
@@ -85,7 +85,7 @@ int colours_make(int32_t *colour, const struct touched *t)
     return a.n;
 }
 
-uint8_t *colours_pairs(const int32_t *colour, int colours, const struct touched *t)
+uint8_t *particle_colours_pair_states(const int32_t *colour, int colours, const struct touched *t)
 {
     uint8_t *pair = NEW("colours.pairs", (int64_t)colours * colours, uint8_t);
     for (int64_t k = 0; k < t->n; k++)

@@ -17,7 +17,7 @@ static void box_write(FILE *to, const struct exported *x)
     const real margin = 4 * x->s->spacing;
     for (int d = 0; d < DIM_MAX; d++) {
         real low = 0, high = 0;
-        if (d < x->s->dim) particles_extent(&x->e->part, x->e->part.n, d, &low, &high);
+        if (d < x->s->dim) particles_coordinate_range(&x->e->part, x->e->part.n, d, &low, &high);
         fprintf(to, "%.17g %.17g %s\n", low - margin, high + margin, name[d]);
     }
 }
@@ -66,7 +66,7 @@ static void bonds_write(FILE *to, const struct exported *x)
     int64_t k = 0;
     fputs("\nBonds\n\n", to);
     for (int64_t i = 0; i < e->part.n; i++)
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
             if (it.bond.w != 0 && it.bond.nbr > i)
                 fprintf(to, "%lld %d %d %d\n", (long long)++k,
                         bond_type(x->s->materials, material[i], material[it.bond.nbr]), e->part.id[i] + 1,

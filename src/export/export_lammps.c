@@ -167,11 +167,11 @@ static status file_export(const struct export_file *f, struct exported *x, const
     const struct path path = path_join(x->request->folder, f->name), aside = file_begin_temporary(path.text);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
-    if (!to) return file_fault(path.text, errno);
+    if (!to) return file_report_write_failure(path.text, errno);
     status s = f->write(to, x, t);
     const bool whole = !ferror(to);
     const bool closed = fclose(to) == 0;
-    if (s == OK && !(whole && closed)) s = file_fault(path.text, errno);
+    if (s == OK && !(whole && closed)) s = file_report_write_failure(path.text, errno);
     if (s == OK) s = file_append_and_sync(path.text, NULL, 0);
     if (s != OK) file_discard(path.text);
     return s;

@@ -141,12 +141,12 @@ static struct word column_name(const struct lammps_column *c)
     return w;
 }
 
-void lammps_columns_name(FILE *to, const struct exported *x)
+void lammps_write_column_names(FILE *to, const struct exported *x)
 {
     for (int c = 0; c < x->columns; c++) fprintf(to, " d_%s", column_name(&x->column[c]).text);
 }
 
-void lammps_columns_compute(FILE *to, const struct exported *x)
+void lammps_write_compute_commands(FILE *to, const struct exported *x)
 {
     for (int c = 0; c < x->columns; c++) {
         const struct word name = column_name(&x->column[c]);

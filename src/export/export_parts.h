@@ -56,12 +56,12 @@ void touched_free(struct touched *t);
 /* Assigns a colour, a number from 0 on, to each particle of `touched`, such that no pair of colours has both pairs of
  * particles with a bond and pairs whose bond must be cut. Particles with equal keys share a colour where possible.
  * Stores the colours in colour[touched->n]. Returns the number of colours; 0 if more than COLOURS_MOST are needed. */
-int colours_make(int32_t *colour, const struct touched *touched);
+int particle_colours_assign(int32_t *colour, const struct touched *touched);
 
 /* Returns an allocated array [colours * colours] with the state of each pair of colours (PAIR_UNKNOWN, PAIR_BONDED,
  * PAIR_CUT), computed from the particles of `touched` and their colours colour[touched->n]; the caller releases it with
  * memory_free. Returns NULL if a pair of colours has both bonded and cut pairs of particles. */
-uint8_t *colours_pairs(const int32_t *colour, int colours, const struct touched *touched);
+uint8_t *particle_colours_pair_states(const int32_t *colour, int colours, const struct touched *touched);
 
 /* ---- bonds of LAMMPS (export_bonds.c) ---------------------------------------------------------------------------- */
 
@@ -121,11 +121,11 @@ void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX]);
 
 /* Writes the names of all columns of `exported` to the file `to`, as arguments of the LAMMPS command `fix
  * property/atom`. */
-void lammps_columns_name(FILE *to, const struct exported *exported);
+void lammps_write_column_names(FILE *to, const struct exported *exported);
 
 /* Writes one LAMMPS command `compute property/atom` for each column of `exported` to the file `to`; variables of the
  * script read the columns through them. */
-void lammps_columns_compute(FILE *to, const struct exported *exported);
+void lammps_write_compute_commands(FILE *to, const struct exported *exported);
 
 /* Returns the value of the column with index `column` at particle i: a component of the initial displacement [m], or
  * of the force of a load on the particle [N], 0 if the load does not act on it. */

@@ -114,9 +114,9 @@ static void particles_write(FILE *to, const struct exported *x)
         return;
     }
     fprintf(to, "fix columns all property/atom%s", x->bond_style ? " d_vfrac d_damage" : "");
-    lammps_columns_name(to, x);
+    lammps_write_column_names(to, x);
     fprintf(to, "%s\nread_data plate.data fix columns NULL Columns\n", x->bond_style ? " ghost yes" : "");
-    lammps_columns_compute(to, x);
+    lammps_write_compute_commands(to, x);
     if (x->bond_style) fputs("compute damage all property/atom d_damage\n", to);
 }
 
@@ -157,9 +157,9 @@ static void test_write(FILE *to, int64_t steps)
 /* Returns the number of steps between frames if it is constant, else 0. */
 static int64_t frame_distance(const struct run *e, int64_t frames)
 {
-    const int64_t first = report_frame_step(e->scene, &e->clock, 1);
+    const int64_t first = report_step_of_frame(e->scene, &e->clock, 1);
     for (int64_t k = 2; k <= frames; k++)
-        if (report_frame_step(e->scene, &e->clock, k) != k * first) return 0;
+        if (report_step_of_frame(e->scene, &e->clock, k) != k * first) return 0;
     return first;
 }
 
@@ -179,10 +179,10 @@ static void frames_write(FILE *to, const struct exported *x)
         fprintf(to, "dump frames all custom %lld %s\n", (long long)every, columns);
         return;
     }
-    fprintf(to, "variable next equal %lld", (long long)report_frame_step(e->scene, &e->clock, 1));
+    fprintf(to, "variable next equal %lld", (long long)report_step_of_frame(e->scene, &e->clock, 1));
     for (int64_t k = 1; k <= frames; k++) {
-        const int64_t here = report_frame_step(e->scene, &e->clock, k),
-                      next = k < frames ? report_frame_step(e->scene, &e->clock, k + 1) : steps + 1;
+        const int64_t here = report_step_of_frame(e->scene, &e->clock, k),
+                      next = k < frames ? report_step_of_frame(e->scene, &e->clock, k + 1) : steps + 1;
         if (next > here) fprintf(to, "+(step>=%lld)*%lld", (long long)here, (long long)(next - here));
     }
     fprintf(to, "\ndump frames all custom %lld %s every v_next first yes\n", (long long)steps, columns);

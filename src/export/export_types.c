@@ -104,13 +104,13 @@ status lammps_types_make(struct lammps_types *t, struct exported *x)
     status s = lammps_find_cut_bonds(&touched, x);
     int32_t *colour = NEW("types.colour", touched.n, int32_t);
     uint8_t *pair = NULL;
-    const int colours = s == OK && touched.n > 0 ? colours_make(colour, &touched) : 0;
+    const int colours = s == OK && touched.n > 0 ? particle_colours_assign(colour, &touched) : 0;
     if (s == OK && touched.n > 0 && colours == 0)
         s = status_set(REFUSED,
                        "%s: the cracks touch %lld particles, which would need more than %d types of LAMMPS, "
                        "whose tables grow with their square; straight cracks on a lattice need fewer",
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
-    if (s == OK && colours > 0 && !(pair = colours_pairs(colour, colours, &touched)))
+    if (s == OK && colours > 0 && !(pair = particle_colours_pair_states(colour, colours, &touched)))
         s = status_set(FAILED, "export: types of particles do not say which bonds are cut");
     if (s == OK) s = types_give(t, x, &touched, colour, colours, pair);
     memory_free(pair);

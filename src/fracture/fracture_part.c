@@ -7,11 +7,11 @@ static void fracture_free_all(struct run *e)
 {
     struct fracture_state *f = e->fracture;
     tips_free(&f->tips);
-    for (int k = 0; k < f->growths; k++) growth_free(&f->growth[k]);
+    for (int k = 0; k < f->growths; k++) growing_crack_free(&f->growth[k]);
     memory_free(f->growth);
 }
 
-bool cracks_fade_bonds(const struct fracture_state *f)
+bool cracks_have_fading_bonds(const struct fracture_state *f)
 {
     bool fades = false;
     for (int k = 0; k < f->growths; k++) fades |= f->growth[k].n > 0;
@@ -20,8 +20,8 @@ bool cracks_fade_bonds(const struct fracture_state *f)
 
 static status fracture_state_of(struct run *e, struct archive *a)
 {
-    TRY(tips_archive(&e->fracture->tips, a));
-    for (int k = 0; k < e->fracture->growths; k++) TRY(growth_archive(&e->fracture->growth[k], k, a));
+    TRY(tips_save_or_load(&e->fracture->tips, a));
+    for (int k = 0; k < e->fracture->growths; k++) TRY(growing_crack_save_or_load(&e->fracture->growth[k], k, a));
     return OK;
 }
 

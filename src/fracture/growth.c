@@ -13,13 +13,13 @@
 #define SLOWEST 0.01
 #define SMOOTHING 0.3 /* time of the mean of the speed over the settling time T (growth.h) */
 
-void growth_make(struct growth *g, const struct growth_rule *rule)
+void growing_crack_make(struct growing_crack *g, const struct growth_rule *rule)
 {
-    *g = (struct growth){.rule = rule, .start_time = NAN, .intensity = NAN};
+    *g = (struct growing_crack){.rule = rule, .start_time = NAN, .intensity = NAN};
     for (int d = 0; d < 2; d++) g->place[d] = rule->at[d], g->along[d] = g->heading[d] = rule->direction[d];
 }
 
-void growth_free(struct growth *g)
+void growing_crack_free(struct growing_crack *g)
 {
     memory_free(g->fading);
     memset(g, 0, sizeof *g);
@@ -29,7 +29,7 @@ void growth_free(struct growth *g)
 
 /* Updates the target speed of the tip by one secant step of the crack-tip equation of motion (growth.h), for a new set
  * of stress-intensity factors. settling: time T of the filter [s]. */
-static void target_speed_find(struct growth *g, const struct control *control, real settling)
+static void target_speed_find(struct growing_crack *g, const struct growth_control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
     const real bound = FASTEST * m->rayleigh,
@@ -37,7 +37,7 @@ static void target_speed_find(struct growth *g, const struct control *control, r
     real wanted = 0;
     if (g->intensity > 0) {
         const real filtered_speed = crack_speed_factor(m, SPEED_EXACT, g->filtered_speed);
-        wanted = crack_speed_of_factor(m, filtered_speed * g->rule->toughness / g->intensity, most);
+        wanted = crack_speed_from_factor(m, filtered_speed * g->rule->toughness / g->intensity, most);
     }
     g->target_speed += (wanted - g->target_speed) * -expm1(-(control->time - g->control_time) / (SMOOTHING * settling));
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
@@ -45,9 +45,10 @@ static void target_speed_find(struct growth *g, const struct control *control, r
 
 /* Updates the filtered speed by the speed of the last step dt [s], and the target speed if `control` has new
  * stress-intensity factors (NULL: no factors, the target is 0). Must be called before g->speed is overwritten. */
-static void target_speed_update(struct growth *g, const struct control *control, real horizon, real t, real dt)
+static void target_speed_update(struct growing_crack *g, const struct growth_control *control, real horizon, real t,
+                                real dt)
 {
-    if (!growth_follows(g->rule)) return;
+    if (!growth_speed_is_controlled(g->rule)) return;
     if (!control) {
         g->target_speed = 0;
         return;
@@ -62,17 +63,17 @@ static void target_speed_update(struct growth *g, const struct control *control,
 
 /* Returns true if the crack grows at time t: it has started and not reached its length, and a SIF-driven crack has a
  * target speed or factors that reach the toughness. */
-static bool grows(const struct growth *g, real t)
+static bool grows(const struct growing_crack *g, real t)
 {
     const struct growth_rule *r = g->rule;
     if (t < r->start || g->grown >= r->length) return false;
     if (!r->probe[0]) return true;
-    if (growth_follows(r)) return g->target_speed > 0;
+    if (growth_speed_is_controlled(r)) return g->target_speed > 0;
     return g->intensity >= r->toughness;
 }
 
 /* Turns the heading to the direction of the largest hoop stress. */
-static void growth_turn(struct growth *g, const struct control *control)
+static void growth_turn(struct growing_crack *g, const struct growth_control *control)
 {
     const real angle = crack_kink_angle(control->factors.K), c = cos(angle), s = sin(angle);
     const real x = control->along[0], y = control->along[1];
@@ -80,7 +81,7 @@ static void growth_turn(struct growth *g, const struct control *control)
 }
 
 /* Moves the tip by `increment` [m] along the heading; `along` follows the heading over the smoothing length. */
-static void growth_advance(struct growth *g, real increment, real horizon)
+static void growth_advance(struct growing_crack *g, real increment, real horizon)
 {
     const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
     const real share = increment < smoothing ? increment / smoothing : 1;
@@ -98,7 +99,7 @@ static void growth_advance(struct growth *g, real increment, real horizon)
 
 /* Returns true if the entry of bond i-j in the row of i is on the list of fading bonds, whose weights decrease as the
  * crack grows. */
-static bool fades(const struct growth *g, int32_t i, int32_t j)
+static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
 {
     for (int64_t k = g->n - 1; k >= 0; k--)
         if (g->fading[k].i == i && g->fading[k].j == j) return true;
@@ -107,22 +108,22 @@ static bool fades(const struct growth *g, int32_t i, int32_t j)
 
 /* Appends the entry of bond i-j, with weight w, to the list of fading bonds. length: present length of the crack
  * [m]. */
-static void fading_add(struct growth *g, int32_t i, int32_t j, real w, real length)
+static void fading_add(struct growing_crack *g, int32_t i, int32_t j, real w, real length)
 {
     GROW("growth.fading", g->fading, g->n + 1);
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
 /* Appends the intact bonds in the row of particle i that cross the path of the tip to the list of fading bonds. */
-static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *path,
-                      int32_t i)
+static void cross_row(struct growing_crack *g, const struct bonds *b, const struct particles *p,
+                      const struct crack *path, int32_t i)
 {
     real X[DIM_MAX], Y[DIM_MAX];
-    particle_place(p, i, X);
-    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);) {
+    particle_reference_position(p, i, X);
+    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);) {
         const int32_t j = it.bond.nbr;
         if (it.bond.w == 0) continue;
-        particle_place(p, j, Y);
+        particle_reference_position(p, j, Y);
         if (crack_cuts(path, X, Y, 2) && !fades(g, i, j)) fading_add(g, i, j, it.bond.w, g->grown);
     }
 }
@@ -140,7 +141,7 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
 
 /* Marks the material points within the cutoff of the tip for conversion, since cracks grow through bonds only. Returns
  * their number. */
-static int claim(const struct growth *g, struct particles *p, const struct bond_source *s)
+static int claim(const struct growing_crack *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
     const int n = near_path(g->place, g->place, p, s, &found);
@@ -156,13 +157,14 @@ static int claim(const struct growth *g, struct particles *p, const struct bond_
 
 /* Appends the bonds that the path of the tip, from `from` to its present position, crosses to the list of fading bonds,
  * in both directions and with images in mirrors. */
-static void cross(struct growth *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
+static void cross(struct growing_crack *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
     real corner[2][DIM_MAX] = {{from[0], from[1]}, {g->place[0], g->place[1]}};
     const struct crack straight = {.n = 2, .corner = corner};
     struct crack_list paths;
-    cracks_mirrored(&paths, &straight, 1, s->mirror, s->mirrors, s->family.cutoff, ON_SURFACE * s->family.spacing);
+    cracks_make_mirror_images(&paths, &straight, 1, s->mirror, s->mirrors, s->family.cutoff,
+                              ON_SURFACE * s->family.spacing);
     for (int w = 0; w < paths.n; w++) { /* the path and its images in mirrors nearby */
         const struct crack *path = &paths.crack[w];
         int32_t *found;
@@ -180,14 +182,14 @@ static void cross(struct growth *g, const struct bonds *b, struct particles *p, 
 static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
-    for (struct bond_iterator it = bonds_of_row(b, *row); bond_next(&it);)
-        if (it.bond.nbr == j) return bond_to_write(b, it.row_block, it.k - 1, it.lane);
+    for (struct bond_iterator it = bond_iterator_of_row(b, *row); bond_next(&it);)
+        if (it.bond.nbr == j) return bond_index_for_writing(b, it.row_block, it.k - 1, it.lane);
     return -1;
 }
 
 /* Sets the weights of the fading bonds to those of the previous step. Removes bonds from the list that have been broken
  * by load since then. */
-static void step_back(struct growth *g, struct bonds *b)
+static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;
     for (int64_t k = 0; k < g->n; k++) {
@@ -205,7 +207,7 @@ static void step_back(struct growth *g, struct bonds *b)
  * the previous step and half of that of this step, both at the present positions. Rows change one after the other from
  * the weights of the previous step to those of the next, so that their losses sum to the whole. Returns the number of
  * directed bonds whose weight becomes 0. */
-static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, const struct family *f)
+static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
     const real damping = isnan(r->damping) ? 0.5 * f->horizon : r->damping;
@@ -231,8 +233,8 @@ static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, cons
 /* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
  * the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. control: present
  * stress-intensity factors, NULL if not known. */
-int64_t growth_extend_crack(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
-                            const struct control *control, real t, real dt)
+int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct particles *p,
+                              const struct bond_source *source, const struct growth_control *control, real t, real dt)
 {
     const real from[2] = {g->place[0], g->place[1]};
     g->intensity = control ? crack_equivalent_sif(control->factors.K) : NAN;
@@ -241,7 +243,7 @@ int64_t growth_extend_crack(struct growth *g, struct bonds *b, struct particles 
     /* a crack that starts among material points waits one step for the bonds that it will cross */
     if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
         if (g->rule->probe[0]) growth_turn(g, control);
-        g->speed = growth_follows(g->rule) ? g->target_speed : g->rule->speed;
+        g->speed = growth_speed_is_controlled(g->rule) ? g->target_speed : g->rule->speed;
         if (isnan(g->start_time)) g->start_time = t;
         growth_advance(g, real_min(g->speed * dt, g->rule->length - g->grown), source->family.horizon);
         cross(g, b, p, source, from);
@@ -250,14 +252,14 @@ int64_t growth_extend_crack(struct growth *g, struct bonds *b, struct particles 
     return fade(g, b, p, &source->family);
 }
 
-real growth_angle(const struct growth *g)
+real growing_crack_angle(const struct growing_crack *g)
 {
     const real *e = g->rule->direction, chord[2] = {g->place[0] - g->rule->at[0], g->place[1] - g->rule->at[1]};
     if (!(g->grown > 0)) return NAN;
     return fabs(atan2(e[0] * chord[1] - e[1] * chord[0], dot(e, chord, 2))) * 180 / 3.14159265358979323846;
 }
 
-status growth_archive(struct growth *g, int which, struct archive *a)
+status growing_crack_save_or_load(struct growing_crack *g, int which, struct archive *a)
 {
     char name[64];
     struct {

@@ -74,8 +74,8 @@ static void group_middle(const struct place *place, const int32_t *group, int64_
     if (least > square(reach)) array_copy(middle, place[nearest].X, dim, sizeof *middle);
 }
 
-int64_t positions_group_middle(const struct place *place, int64_t n, int dim, real reach, const real *along,
-                               real *middle)
+int64_t positions_cluster_centre(const struct place *place, int64_t n, int dim, real reach, const real *along,
+                                 real *middle)
 {
     const int64_t looked = n < POSITIONS_MOST ? n : POSITIONS_MOST;
     int64_t last = -1;

@@ -9,7 +9,7 @@
 
 #define AT_THE_TIP 1e-9 /* tolerance of positions at the tip or on the crack [outer radius] */
 
-void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope)
+void sif_weight_function(enum sif_weight form, const struct contour *c, real r, real *q, real *slope)
 {
     const real width = c->outer - c->inner, z = real_max(0, real_min(1, (r - c->inner) / width));
     const bool ramp = r > c->inner && r < c->outer;
@@ -61,7 +61,7 @@ real sif_integrand(const struct sif_tip *tip, const struct contour *c, const rea
 {
     const real r = hypot(x[0], x[1]), n[2] = {x[0] / r, x[1] / r};
     real q, slope, sum = 0;
-    sif_weight(tip->weight, c, r, &q, &slope);
+    sif_weight_function(tip->weight, c, r, &q, &slope);
     if (slope != 0) sum += slope * ring_density(actual, auxiliary, tip->medium.density, n);
     if (inside > 0 && q > 0) sum += inside * q * disc_density(actual, auxiliary, tip->medium.density);
     return sum;
@@ -190,7 +190,7 @@ static real core_share(const struct sif_tip *tip, real r)
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
     real q, slope;
     if (tip->speed == 0 || tip->core == 0) return 1;
-    sif_weight(SIF_QUINTIC, &edge, r, &q, &slope);
+    sif_weight_function(SIF_QUINTIC, &edge, r, &q, &slope);
     return 1 - q;
 }
 
@@ -207,7 +207,7 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
         const real inside = s->inner ? core_share(tip, r) : 0;
         struct crack_field field;
         for (int mode = 0; mode < MODES; mode++) {
-            crack_field(&tip->medium, mode, tip->speed, point->x, &field);
+            crack_tip_field(&tip->medium, mode, tip->speed, point->x, &field);
             sum[mode] += point->area * sif_integrand(tip, s->contour, point->x, &point->state, &field.state, inside);
         }
         sum[MODES] += point->area * sif_integrand(tip, s->contour, point->x, &point->state, &point->state, inside);

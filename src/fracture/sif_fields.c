@@ -49,7 +49,7 @@ static void williams_angular(real kappa, enum crack_mode mode, real theta, real 
     }
 }
 
-void crack_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2], struct crack_field *f)
+void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2], struct crack_field *f)
 {
     const real r = hypot(x[0], x[1]), theta = atan2(x[1], x[0]), c = cos(theta), s = sin(theta);
     const real size = sqrt(r / (2 * pi)) / (2 * m->shear);
@@ -91,8 +91,8 @@ static void wave_weights(const struct crack_medium *m, enum crack_mode mode, rea
         for (int w = 0; w < 2; w++) weight[i][w] = size * (mode == MODE_I ? one : two)[i][w];
 }
 
-void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
-                        struct crack_field *f)
+void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
+                            struct crack_field *f)
 {
     real a[2], weight[2][2], twice_along[2] = {0};
     slownesses(m, v, a);
@@ -118,12 +118,12 @@ void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real
     }
 }
 
-void crack_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2], struct crack_field *f)
+void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2], struct crack_field *f)
 {
     if (v < REST * m->shear_speed)
-        crack_field_at_rest(m, mode, x, f);
+        crack_tip_field_at_rest(m, mode, x, f);
     else
-        crack_field_moving(m, mode, v, x, f);
+        crack_tip_field_moving(m, mode, v, x, f);
 }
 
 real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real v)
@@ -166,11 +166,11 @@ real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, re
     return falling / sqrt(1 - h * v);
 }
 
-real crack_speed_of_factor(const struct crack_medium *m, real factor, real most)
+real crack_speed_from_factor(const struct crack_medium *m, real factor, real max_speed)
 {
-    real low = 0, high = most;
+    real low = 0, high = max_speed;
     if (factor >= 1) return 0;
-    if (factor_exact(m, most) >= factor) return most;
+    if (factor_exact(m, max_speed) >= factor) return max_speed;
     for (int k = 0; k < HALVINGS; k++) { /* k decreases from 1 at rest to 0 at c_R */
         const real v = 0.5 * (low + high);
         *(factor_exact(m, v) > factor ? &low : &high) = v;

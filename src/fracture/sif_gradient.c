@@ -14,7 +14,7 @@ enum { QUADRATIC = 6, LINEAR = 3 }; /* terms of complete polynomials in the plan
 static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
 {
     if (!b || b->rows == 0) return false;
-    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
         if (it.bond.nbr == j) return it.bond.inverse_length < 0;
     return false;
 }
@@ -34,8 +34,8 @@ static real sif_gradient_between(const real *a, const real *b) { return hypot(a[
 static real distance_round_cracks(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
 {
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
-    particle_place(p, i, from);
-    particle_place(p, j, to);
+    particle_reference_position(p, i, from);
+    particle_reference_position(p, j, to);
     const real straight = sif_gradient_between(from, to);
     if (j == i || !hidden(&rule->sight, p, i, j)) return straight;
     if (rule->diffraction == 0) return INFINITY;
@@ -157,12 +157,12 @@ static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule 
 
 /* ---- public functions -------------------------------------------------------------------------------------------- */
 
-/* Ensures room for `room` neighbours in a stencil, whose contents may be lost. */
-static void stencil_room(struct gradient_stencil *s, int room)
+/* Ensures room for `capacity` neighbours in a stencil, whose contents may be lost. */
+static void stencil_room(struct gradient_stencil *s, int capacity)
 {
-    if (room <= s->room) return;
+    if (capacity <= s->room) return;
     gradient_stencil_free(s);
-    s->room = 2 * room;
+    s->room = 2 * capacity;
     s->particle = NEW("sif.particle", s->room, int32_t);
     s->weight = memory_new("sif.weight", s->room, sizeof *s->weight);
 }
@@ -172,7 +172,7 @@ void gradient_stencil_compute(struct gradient_stencil *s, const struct gradient_
 {
     const real support = 2 * rule->reach * (1 + 1e-9);
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     s->n = cells_find_near(c, p, X, support, -1, s->particle, s->room);
     if (s->n > s->room) {
         stencil_room(s, s->n);

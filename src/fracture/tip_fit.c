@@ -25,13 +25,13 @@ static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real
 }
 
 /* Normal equations of the fit. */
-struct fit {
+struct surface_fit_problem {
     real A[UNKNOWNS][UNKNOWNS], y[UNKNOWNS];
     int particles;
 };
 
 /* Adds an equation, row . coefficients = value, to the normal equations. */
-static void fit_add(struct fit *f, const real *row, real value)
+static void fit_add(struct surface_fit_problem *f, const real *row, real value)
 {
     for (int m = 0; m < UNKNOWNS; m++) {
         for (int l = 0; l <= m; l++) f->A[m][l] += row[m] * row[l];
@@ -47,7 +47,7 @@ static bool on_face(const struct tip_view *v, const real X[2])
 }
 
 /* Adds a particle at X [m] relative to the tip, with displacement u [m], to the normal equations. */
-static void fit_particle(struct fit *f, const struct tip_view *v, const real X[2], const real u[2])
+static void fit_particle(struct surface_fit_problem *f, const struct tip_view *v, const real X[2], const real u[2])
 {
     const real *a = v->along, *l = v->last;
     const real theta = atan2(l[0] * X[1] - l[1] * X[0], l[0] * X[0] + l[1] * X[1]) +
@@ -64,7 +64,7 @@ static void fit_particle(struct fit *f, const struct tip_view *v, const real X[2
 }
 
 /* Solves A x = y by L D L^T; x replaces y. Returns false if A is singular. */
-static bool fit_solve(struct fit *f)
+static bool fit_solve(struct surface_fit_problem *f)
 {
     real(*A)[UNKNOWNS] = f->A, *y = f->y;
     for (int k = 0; k < UNKNOWNS; k++) {
@@ -94,9 +94,9 @@ static bool seen(const struct tip_view *v, const real *X)
     return true;
 }
 
-bool tip_fit_factors(const struct tip_view *v, const struct particles *p, real K[MODES])
+bool crack_tip_fit_sif(const struct tip_view *v, const struct particles *p, real K[MODES])
 {
-    struct fit f = {.particles = 0};
+    struct surface_fit_problem f = {.particles = 0};
     K[MODE_I] = K[MODE_II] = 0;
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[DIM_MAX] = {0}, from[2], u[2];

@@ -9,7 +9,7 @@
 
 #define JOIN_JUMP 3.0 /* growth in a sample above which it is due to joining another crack [spacings] */
 
-void tips_free(struct tips *t)
+void tips_free(struct crack_tips *t)
 {
     memory_free(t->label);
     memory_free(t->time);
@@ -21,7 +21,7 @@ void tips_free(struct tips *t)
 
 /* State of one sample, in which newly damaged particles are assigned to cracks from neighbour to neighbour. */
 struct flood {
-    struct tips *t;
+    struct crack_tips *t;
     struct tip_search search;
     /* newly damaged particles in ascending order; labelled particles whose neighbours are not yet visited */
     int32_t *fresh, *queue;
@@ -31,7 +31,7 @@ struct flood {
 };
 
 /* Returns true if particle i is damaged, not driven and not yet assigned to a crack. */
-static bool can_belong(const struct tips *t, const struct particles *p, int64_t i)
+static bool can_belong(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
 }
@@ -48,7 +48,7 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
     uint64_t any = 0;
-    if (tip_piece_consecutive(at, n))
+    if (particles_are_consecutive(at, n))
         for (int64_t k = 0; k < n; k++) any |= damage_bits(p, at[0] + k);
     else
         for (int64_t k = 0; k < n; k++) any |= damage_bits(p, at[k]);
@@ -103,7 +103,7 @@ static void flood_run(struct flood *f)
     real X[DIM_MAX];
     for (int64_t head = 0; head < f->queued; head++) {
         int32_t i = f->queue[head];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         int tip = f->t->label[i] - 1, n = tip_search_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
         for (int k = 0; k < n; k++) {
             int32_t j = f->search.found[k];
@@ -118,15 +118,15 @@ static void flood_run(struct flood *f)
 }
 
 /* Returns the crack whose start is nearest to particle i within TIP_START_REACH, or -1. */
-static int start_near(const struct tips *t, const struct particles *p, int64_t i)
+static int start_near(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = -1;
     real X[DIM_MAX], offset[DIM_MAX], least = (TIP_START_REACH + TIP_EQUAL) * t->spacing;
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (int k = 0; k < t->n; k++) {
-        const struct tip *tip = &t->tip[k];
+        const struct crack_tip *tip = &t->tip[k];
         if (!tip->from_crack || tip->body != p->body[i]) continue;
-        real distance = tip_offset(tip->origin, tip->edge, X, t->dim, offset);
+        real distance = segment_offset_of_point(tip->origin, tip->edge, X, t->dim, offset);
         if (distance > least || (nearest >= 0 && distance == least)) continue;
         nearest = k, least = distance;
     }
@@ -138,7 +138,7 @@ static int crack_touched(struct flood *f, int64_t i)
 {
     const struct particles *p = f->search.p;
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     int lowest = -1, n = tip_search_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
     for (int k = 0; k < n; k++) {
         int32_t j = f->search.found[k];
@@ -150,7 +150,7 @@ static int crack_touched(struct flood *f, int64_t i)
 }
 
 /* Returns the crack whose tip is nearest to particle i, for the case that no more tips fit. */
-static int tip_nearest(const struct tips *t, const struct particles *p, int64_t i)
+static int tip_nearest(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = 0;
     real least = INFINITY;
@@ -177,7 +177,7 @@ static bool flood_nucleate(struct flood *f)
     int tip = f->t->n;
     if (tip < TIPS_MAX) {
         real X[DIM_MAX];
-        particle_place(p, best, X);
+        particle_reference_position(p, best, X);
         tip_add(f->t, p->body[best], X, NULL);
         f->into[tip] = tip, f->grown_by[tip] = false;
     } else {
@@ -192,7 +192,7 @@ static bool flood_nucleate(struct flood *f)
 /* Removes the cracks that became part of others from the list and from the record, and renumbers the remaining ones. */
 static void flood_close_ranks(struct flood *f)
 {
-    struct tips *t = f->t;
+    struct crack_tips *t = f->t;
     int place[TIPS_MAX], kept = 0;
     uint8_t label[TIP_BEFORE + 1] = {[TIP_BEFORE] = TIP_BEFORE};
     for (int k = 0; k < t->n; k++)
@@ -212,7 +212,7 @@ static void flood_close_ranks(struct flood *f)
 }
 
 /* Lists the newly damaged particles. */
-static void flood_make(struct flood *f, struct tips *t, const struct particles *p, const struct cells *c)
+static void flood_make(struct flood *f, struct crack_tips *t, const struct particles *p, const struct cells *c)
 {
     const int32_t *list = p->list[KIND_PD];
     const int64_t n = p->n_of[KIND_PD];
@@ -256,7 +256,8 @@ static void flood_all(struct flood *f)
 
 /* Updates position, growth and times of a tip from the extent r of its crack. took_in: another crack has become part of
  * its crack, so that a jump in growth counts as joined. */
-static void tip_move(struct tip *tip, const struct tip_reach *r, const struct tips *t, real time, bool took_in)
+static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const struct crack_tips *t, real time,
+                     bool took_in)
 {
     real gain = r->farthest - tip->growth;
     tip->particles = r->particles;
@@ -272,7 +273,7 @@ static void tip_move(struct tip *tip, const struct tip_reach *r, const struct ti
 }
 
 /* Returns the slope of the least-squares line through samples first .. last of tip k [m/s]. */
-static real regression(const struct tips *t, int k, int64_t first, int64_t last)
+static real regression(const struct crack_tips *t, int k, int64_t first, int64_t last)
 {
     real n = (real)(last - first + 1), mean_time = 0, mean_growth = 0, both = 0, spread = 0;
     for (int64_t s = first; s <= last; s++) {
@@ -287,14 +288,14 @@ static real regression(const struct tips *t, int k, int64_t first, int64_t last)
 }
 
 /* Returns the first sample at or after `time`, or the last sample. */
-static int64_t sample_at(const struct tips *t, real time)
+static int64_t sample_at(const struct crack_tips *t, real time)
 {
     int64_t s = 0;
     while (s < t->samples - 1 && t->time[s] < time) s++;
     return s;
 }
 
-real tips_speed(const struct tips *t, int k)
+real tips_average_speed(const struct crack_tips *t, int k)
 {
     const int64_t last = t->samples - 1;
     if (last < 1) return 0;
@@ -304,14 +305,14 @@ real tips_speed(const struct tips *t, int k)
 
 /* Updates the largest speed of tip k, over the window that ends at the last sample, and its mean speed since its
  * start. */
-static void tip_speeds(struct tips *t, int k)
+static void tip_speeds(struct crack_tips *t, int k)
 {
-    struct tip *tip = &t->tip[k];
+    struct crack_tip *tip = &t->tip[k];
     int64_t last = t->samples - 1;
     if (isnan(tip->start_time) || last < 1) return;
     real now = t->time[last], slack = 1e-9 * t->window;
     if (now - t->time[0] >= t->window - slack) {
-        real slope = tips_speed(t, k);
+        real slope = tips_average_speed(t, k);
         if (!(slope <= tip->speed_max)) tip->speed_max = slope;
     }
     if (tip->arrest_time == now && tip->start_time < now)
@@ -320,13 +321,13 @@ static void tip_speeds(struct tips *t, int k)
     if (fabs(tip->speed_mean) * (now - tip->start_time) < TIP_EQUAL * t->spacing) tip->speed_mean = 0;
 }
 
-static void record_grow(struct tips *t, int64_t samples)
+static void record_grow(struct crack_tips *t, int64_t samples)
 {
     GROW("tips.time", t->time, samples);
     GROW("tips.growth", t->growth, samples * TIPS_MAX);
 }
 
-void tips_update(struct tips *t, const struct particles *p, const struct cells *c, real time)
+void tips_update(struct crack_tips *t, const struct particles *p, const struct cells *c, real time)
 {
     INVARIANT(t->count == p->n && t->dim == p->dim);
     INVARIANT(t->samples == 0 || time >= t->time[t->samples - 1]);
@@ -351,7 +352,7 @@ void tips_update(struct tips *t, const struct particles *p, const struct cells *
 
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
  * tip, 0 to 180 [degree], or NAN if the crack has not grown. */
-real tip_angle(const struct tip *tip, int dim)
+real tip_angle(const struct crack_tip *tip, int dim)
 {
     if (!(tip->growth > 0)) return NAN;
     real chord[DIM_MAX], edge2 = dot(tip->edge, tip->edge, dim), share = 0;
@@ -366,17 +367,17 @@ real tip_angle(const struct tip *tip, int dim)
 
 /* Returns the tip with the largest growth, or NULL if no crack has grown. Of equally long ones the first is returned,
  * so that round-off does not choose between the halves of a symmetric crack. */
-const struct tip *tips_longest(const struct tips *t)
+const struct crack_tip *tips_longest(const struct crack_tips *t)
 {
-    const struct tip *longest = NULL;
+    const struct crack_tip *longest = NULL;
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].growth > (longest ? longest->growth : 0) + TIP_EQUAL * t->spacing) longest = &t->tip[k];
     return longest;
 }
 
-int64_t tips_count_tied(const struct tips *t)
+int64_t tips_count_longest(const struct crack_tips *t)
 {
-    const struct tip *longest = tips_longest(t);
+    const struct crack_tip *longest = tips_longest(t);
     int64_t tied = 0;
     for (int k = 0; k < t->n && longest; k++)
         if (t->tip[k].growth > 0 && t->tip[k].growth >= longest->growth - (1 + TIP_EQUAL) * t->spacing)
@@ -384,7 +385,7 @@ int64_t tips_count_tied(const struct tips *t)
     return tied;
 }
 
-status tips_archive(struct tips *t, struct archive *a)
+status tips_save_or_load(struct crack_tips *t, struct archive *a)
 {
     int64_t samples = t->samples;
     ARCHIVE_VALUE(a, "tips/n", t->n);

@@ -10,16 +10,16 @@
 #define EQUAL 1e-6 /* tolerance of equal lengths [spacings] */
 enum { GAP = 2 };  /* empty cells that end a strip */
 
-static real front_width(const struct tip *tip, int dim) { return 2 * sqrt(dot(tip->edge, tip->edge, dim)); }
+static real front_width(const struct crack_tip *tip, int dim) { return 2 * sqrt(dot(tip->edge, tip->edge, dim)); }
 
-static int64_t strips_of(const struct tips *t, const struct tip *tip)
+static int64_t strips_of(const struct crack_tips *t, const struct crack_tip *tip)
 {
     return (int64_t)real_max(1, floor(front_width(tip, t->dim) / t->spacing + 0.5));
 }
 
 /* Returns the number of the strip, along the front of a pre-crack, that contains X; beside the front that of the
  * nearest strip. */
-static int64_t strip_at(const struct tips *t, const struct tip *tip, const real *X)
+static int64_t strip_at(const struct crack_tips *t, const struct crack_tip *tip, const real *X)
 {
     const real edge2 = dot(tip->edge, tip->edge, t->dim);
     const int64_t n = strips_of(t, tip);
@@ -37,15 +37,15 @@ struct ahead {
 };
 
 /* Finds the nearest front of a pre-crack in a body, and the distance of X ahead of it. */
-static struct ahead ahead_of(const struct tips *t, int body, const real *X)
+static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X)
 {
     struct ahead found = {-1, 0};
     real least = INFINITY;
     for (int k = 0; k < t->n; k++) {
-        const struct tip *tip = &t->tip[k];
+        const struct crack_tip *tip = &t->tip[k];
         real offset[DIM_MAX];
         if (!tip->from_crack || tip->body != body) continue;
-        const real reach = tip_offset(tip->origin, tip->edge, X, t->dim, offset);
+        const real reach = segment_offset_of_point(tip->origin, tip->edge, X, t->dim, offset);
         if (reach >= least * (1 - EQUAL)) continue;
         const bool ahead = dot(offset, tip->along, t->dim) > EQUAL * t->spacing;
         least = reach;
@@ -57,7 +57,7 @@ static struct ahead ahead_of(const struct tips *t, int body, const real *X)
 /* Marks the cells of strips that contain a particle with more damage than `least`. A strip has `deepest` cells ahead of
  * the front; the strips of tip k start at first[k]. cell: marks, or NULL: none are set. Returns the largest distance
  * ahead of a front [cells]. */
-static int64_t strips_mark(const struct tips *t, const struct particles *p, real least, const int64_t *first,
+static int64_t strips_mark(const struct crack_tips *t, const struct particles *p, real least, const int64_t *first,
                            int64_t deepest, uint8_t *cell)
 {
     int64_t deep = 0;
@@ -65,7 +65,7 @@ static int64_t strips_mark(const struct tips *t, const struct particles *p, real
         const int32_t i = p->list[KIND_PD][k];
         real X[DIM_MAX];
         if (!(p->damage[i] > least) || t->label[i] == TIP_BEFORE || p->flag[i] & FLAG_DRIVEN) continue;
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         const struct ahead a = ahead_of(t, p->body[i], X);
         if (a.tip < 0) continue;
         if (cell) cell[(first[a.tip] + strip_at(t, &t->tip[a.tip], X)) * deepest + a.cell] = 1;
@@ -83,7 +83,8 @@ static int64_t strip_length(const uint8_t *cell, int64_t deepest)
     return end;
 }
 
-bool tip_is_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors)
+bool tip_is_on_mirror(const struct crack_tips *t, const struct crack_tip *tip, const struct mirror_plane *mirror,
+                      int mirrors)
 {
     bool on = false;
     for (int m = 0; m < mirrors; m++) {
@@ -94,7 +95,7 @@ bool tip_is_on_mirror(const struct tips *t, const struct tip *tip, const struct 
     return on;
 }
 
-real tips_crack_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s)
+real tips_crack_area(const struct crack_tips *t, const struct particles *p, const struct tip_surroundings *s)
 {
     int64_t first[TIPS_MAX + 1] = {0};
     real area = 0;
@@ -103,7 +104,7 @@ real tips_crack_area(const struct tips *t, const struct particles *p, const stru
     uint8_t *cell = NEW("tips.cell", first[t->n] * deepest, uint8_t);
     strips_mark(t, p, s->half, first, deepest, cell);
     for (int k = 0; k < t->n; k++) {
-        const struct tip *tip = &t->tip[k];
+        const struct crack_tip *tip = &t->tip[k];
         const int64_t n = first[k + 1] - first[k];
         const real wide = t->dim == 3 ? front_width(tip, 3) / (real)n : s->section;
         const real part = tip_is_on_mirror(t, tip, s->mirror, s->mirrors) ? 0.5 : 1;

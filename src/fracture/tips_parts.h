@@ -23,7 +23,7 @@ static inline int64_t tip_piece_end(const struct particles *p, int64_t first)
 
 /* Returns true if the n >= 1 particle numbers at[0 .. n - 1], which must be strictly ascending, are consecutive. Flags
  * of consecutive particles are tested eight at a time. */
-static inline bool tip_piece_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
+static inline bool particles_are_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
 
 /* Extent of a crack: largest distance of its particles from its start [m]; position of its end, the middle of the
  * farthest particles (of one group, if they form several); number of separate groups of farthest particles; number of
@@ -36,7 +36,7 @@ struct tip_reach {
 /* Computes for every crack the largest distance of its particles from its start, the position of its end, and the
  * number of separate groups of particles that are farthest within one spacing. reach: receives an element for each of
  * TIPS_MAX tips; must be 0 on entry. */
-void tips_find_extents(const struct tips *t, const struct particles *p, struct tip_reach *reach);
+void tips_find_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *reach);
 
 struct tip_search {
     const struct particles *p;
@@ -52,10 +52,10 @@ int tip_search_near(struct tip_search *s, const real *X, real radius);
 
 /* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m]; half:
  * vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the vector [m]. */
-real tip_offset(const real *centre, const real *half, const real *X, int dim, real *offset);
+real segment_offset_of_point(const real *centre, const real *half, const real *X, int dim, real *offset);
 
 /* Adds a crack tip without growth to t. body: number of the body; origin: start position [m]; along: unit vector of
  * the direction of the crack, NULL for the x axis. Returns the new tip, an element of t->tip. */
-struct tip *tip_add(struct tips *t, int body, const real *origin, const real *along);
+struct crack_tip *tip_add(struct crack_tips *t, int body, const real *origin, const real *along);
 
 #endif

@@ -9,13 +9,13 @@ static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFOR
 
 /* Returns the start of the first piece (of up to TIP_PIECE entries) of the list of peridynamic particles, from entry
  * `first` on, that contains a particle of a crack, or the end of the list. */
-static int64_t next_of_crack(const struct tips *t, const struct particles *p, int64_t first)
+static int64_t next_of_crack(const struct crack_tips *t, const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
         const int32_t *at = p->list[KIND_PD] + first;
         const int64_t n = tip_piece_end(p, first) - first;
         uint8_t any = 0;
-        if (tip_piece_consecutive(at, n))
+        if (particles_are_consecutive(at, n))
             for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[0] + k]);
         else
             for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[k]]);
@@ -26,19 +26,19 @@ static int64_t next_of_crack(const struct tips *t, const struct particles *p, in
 
 /* Returns the distance of particle i from the start of its crack [m], or -1 for a particle beside the end of the
  * pre-crack, behind the start. */
-static real tips_reach_of(const struct tips *t, const struct particles *p, int64_t i)
+static real tips_reach_of(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
-    const struct tip *tip = &t->tip[t->label[i] - 1];
+    const struct crack_tip *tip = &t->tip[t->label[i] - 1];
     real X[DIM_MAX], offset[DIM_MAX];
-    particle_place(p, i, X);
-    real distance = tip_offset(tip->origin, tip->edge, X, t->dim, offset);
+    particle_reference_position(p, i, X);
+    real distance = segment_offset_of_point(tip->origin, tip->edge, X, t->dim, offset);
     bool behind = tip->from_crack && dot(offset, tip->along, t->dim) < -TIP_EQUAL * t->spacing;
     return behind && distance <= (TIP_START_REACH + TIP_EQUAL) * t->spacing ? -1 : distance;
 }
 
 /* For each crack [TIPS_MAX]: its extent, and the particles within a spacing of the largest distance from its start. */
 struct ahead {
-    const struct tips *t;
+    const struct crack_tips *t;
     const struct particles *p;
     struct tip_reach *reach;
     int64_t n[TIPS_MAX];
@@ -73,13 +73,13 @@ static void farthest_collect(struct ahead *a, int32_t i, int tip)
     if (reach < 0 || reach < farthest - a->t->spacing - equal) return;
     if (a->place[tip]) {
         struct place *own = &a->place[tip][a->n[tip]];
-        particle_place(a->p, i, own->X);
+        particle_reference_position(a->p, i, own->X);
         own->beside = reach < farthest - equal;
     }
     a->n[tip]++;
 }
 
-void tips_find_extents(const struct tips *t, const struct particles *p, struct tip_reach *reach)
+void tips_find_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *reach)
 {
     struct ahead a = {.t = t, .p = p, .reach = reach};
     each_of_crack(&a, extent_find);
@@ -90,7 +90,7 @@ void tips_find_extents(const struct tips *t, const struct particles *p, struct t
     for (int k = 0; k < t->n; k++) {
         const real touch = (TIP_TOUCH + TIP_EQUAL) * t->spacing;
         if (a.n[k] > 0)
-            reach[k].ends = positions_group_middle(a.place[k], a.n[k], t->dim, touch, t->tip[k].edge, reach[k].place);
+            reach[k].ends = positions_cluster_centre(a.place[k], a.n[k], t->dim, touch, t->tip[k].edge, reach[k].place);
         memory_free(a.place[k]);
     }
 }

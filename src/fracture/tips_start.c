@@ -25,7 +25,7 @@ int tip_search_near(struct tip_search *s, const real *X, real radius)
 
 /* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m]; half:
  * vector from the middle to one end [m]; offset: receives dim components [m]. */
-real tip_offset(const real *centre, const real *half, const real *X, int dim, real *offset)
+real segment_offset_of_point(const real *centre, const real *half, const real *X, int dim, real *offset)
 {
     real half2 = dot(half, half, dim), along = 0;
     for (int d = 0; d < dim; d++) offset[d] = X[d] - centre[d];
@@ -37,7 +37,7 @@ real tip_offset(const real *centre, const real *half, const real *X, int dim, re
 static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n : dim == 2 ? c->n - 1 : 0; }
 
 /* Returns true if an end is on another pre-crack: a corner or a branch of a longer cut is no tip. */
-static bool on_another(const struct tips *t, const struct crack *crack, int cracks, int self, const real *X)
+static bool on_another(const struct crack_tips *t, const struct crack *crack, int cracks, int self, const real *X)
 {
     for (int c = 0; c < cracks; c++) {
         if (c == self) continue;
@@ -45,14 +45,14 @@ static bool on_another(const struct tips *t, const struct crack *crack, int crac
             const real *a = crack[c].corner[k], *b = crack[c].corner[(k + 1) % crack[c].n];
             real centre[DIM_MAX], half[DIM_MAX], offset[DIM_MAX];
             for (int d = 0; d < t->dim; d++) centre[d] = 0.5 * (a[d] + b[d]), half[d] = 0.5 * (b[d] - a[d]);
-            if (tip_offset(centre, half, X, t->dim, offset) < 0.5 * t->spacing) return true;
+            if (segment_offset_of_point(centre, half, X, t->dim, offset) < 0.5 * t->spacing) return true;
         }
     }
     return false;
 }
 
 /* Returns the body in which a crack that ends at X could grow in direction `along`, or -1. */
-static int body_ahead(const struct tips *t, struct tip_search *s, const real *X, const real *along)
+static int body_ahead(const struct crack_tips *t, struct tip_search *s, const real *X, const real *along)
 {
     real ahead[DIM_MAX];
     for (int d = 0; d < t->dim; d++) ahead[d] = X[d] + t->spacing * along[d];
@@ -65,11 +65,11 @@ static int body_ahead(const struct tips *t, struct tip_search *s, const real *X,
     return free_ones >= 2 ? body : -1;
 }
 
-struct tip *tip_add(struct tips *t, int body, const real *origin, const real *along)
+struct crack_tip *tip_add(struct crack_tips *t, int body, const real *origin, const real *along)
 {
     INVARIANT(t->n < TIPS_MAX);
-    struct tip *tip = &t->tip[t->n++];
-    *tip = (struct tip){
+    struct crack_tip *tip = &t->tip[t->n++];
+    *tip = (struct crack_tip){
         .body = body, .first_time = NAN, .start_time = NAN, .arrest_time = NAN, .speed_max = NAN, .speed_mean = NAN};
     array_copy(tip->origin, origin, t->dim, sizeof *origin);
     array_copy(tip->place, origin, t->dim, sizeof *origin);
@@ -81,7 +81,7 @@ struct tip *tip_add(struct tips *t, int body, const real *origin, const real *al
 }
 
 /* Adds a tip at the end `to` of a segment from `from`, if the body continues there. */
-static void start_at_end(struct tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
+static void start_at_end(struct crack_tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                          const real *from, const real *to)
 {
     real along[DIM_MAX], length = 0;
@@ -112,7 +112,8 @@ static bool edge_outward(const struct crack *c, int k, real *outward)
 }
 
 /* Adds a front along the part of a polygon's edge inside the body, found in steps of about a spacing. */
-static void start_at_edge(struct tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self, int k)
+static void start_at_edge(struct crack_tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
+                          int k)
 {
     enum { STEPS_MAX = 100000 };
     const real *a = crack[self].corner[k], *b = crack[self].corner[(k + 1) % crack[self].n];
@@ -130,16 +131,16 @@ static void start_at_edge(struct tips *t, struct tip_search *s, const struct cra
     }
     if (body < 0) return;
     for (int d = 0; d < 3; d++) X[d] = a[d] + 0.5 * (first + last) * edge[d];
-    struct tip *tip = tip_add(t, body, X, outward);
+    struct crack_tip *tip = tip_add(t, body, X, outward);
     tip->from_crack = true;
     for (int d = 0; d < 3; d++) tip->edge[d] = 0.5 * (last - first) * edge[d];
 }
 
-void tips_make(struct tips *t, const struct particles *p, const struct cells *c, const struct crack *crack, int cracks,
-               real spacing, real window)
+void tips_make(struct crack_tips *t, const struct particles *p, const struct cells *c, const struct crack *crack,
+               int cracks, real spacing, real window)
 {
     INVARIANT(spacing > 0 && window >= 0);
-    *t = (struct tips){.dim = p->dim, .spacing = spacing, .window = window, .count = p->n};
+    *t = (struct crack_tips){.dim = p->dim, .spacing = spacing, .window = window, .count = p->n};
     t->label = NEW("tips.label", p->n, uint8_t);
     for (int64_t i = 0; i < p->n; i++)
         if (p->damage[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;
@@ -156,7 +157,7 @@ void tips_make(struct tips *t, const struct particles *p, const struct cells *c,
     memory_free(s.found);
 }
 
-void tips_exclude_precracks(struct tips *t, const real *lost)
+void tips_exclude_precracks(struct crack_tips *t, const real *lost)
 {
     for (int64_t i = 0; i < t->count; i++)
         if (lost[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;

@@ -183,8 +183,8 @@ static status nodes_read(struct deck *d)
         deck_field(d->s, field);
         TRY(deck_label(d->s, field, &label));
         for (int k = 0; k < DIM_MAX && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &X[k]));
-        TRY(mesh_node_add(d->m, d->s, X, label));
-        if (set >= 0) mesh_set_add(d->m, set, label);
+        TRY(element_mesh_add_node(d->m, d->s, X, label));
+        if (set >= 0) element_mesh_add_to_set(d->m, set, label);
     }
     return OK;
 }
@@ -268,9 +268,9 @@ static status elements_read(struct deck *d)
         deck_field(d->s, field);
         TRY(deck_label(d->s, field, &label));
         TRY(element_nodes(d, size, node, middle));
-        TRY(mesh_element_add(d->m, d->s, size->kind, node, label));
-        if (size->nodes > element_corners[size->kind]) mesh_middles_add(d->m, middle);
-        if (set >= 0) mesh_set_add(d->m, set, label);
+        TRY(element_mesh_add_element(d->m, d->s, size->kind, node, label));
+        if (size->nodes > element_corners[size->kind]) element_mesh_set_middle_nodes(d->m, middle);
+        if (set >= 0) element_mesh_add_to_set(d->m, set, label);
     }
     return OK;
 }
@@ -288,7 +288,7 @@ static status generate_line(struct deck *d, int set)
     d->generated += (bound[1] - bound[0]) / bound[2] + 1;
     if (d->generated > GENERATED_MOST * d->s->length)
         return source_fault(d->s, "sets of more nodes or elements than the file holds");
-    for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) mesh_set_add(d->m, set, label);
+    for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) element_mesh_add_to_set(d->m, set, label);
     return OK;
 }
 
@@ -301,7 +301,7 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     if (d->generated > GENERATED_MOST * d->s->length)
         return source_fault(d->s, "sets of more nodes or elements than the file holds");
     for (int64_t k = d->m->set[other].resolved; other != set && k < d->m->set[other].n; k++)
-        mesh_set_add(d->m, set, d->m->set[other].member[k]);
+        element_mesh_add_to_set(d->m, set, d->m->set[other].member[k]);
     return OK;
 }
 
@@ -350,7 +350,7 @@ static status set_read(struct deck *d, bool of_nodes)
                 continue;
             }
             TRY(deck_label(d->s, field, &label));
-            mesh_set_add(d->m, set, label);
+            element_mesh_add_to_set(d->m, set, label);
         }
     }
     if (!instance) return OK;

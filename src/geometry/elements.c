@@ -30,7 +30,7 @@ const struct element_edges element_edges[ELEMENT_KINDS] = {
         {12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
 };
 
-int32_t mesh_node_append(struct element_mesh *m, const real *X, int64_t label)
+int32_t element_mesh_append_node(struct element_mesh *m, const real *X, int64_t label)
 {
     GROW("mesh.node", m->node, m->nodes + 1);
     GROW("mesh.label", m->node_label, m->nodes + 1);
@@ -39,15 +39,15 @@ int32_t mesh_node_append(struct element_mesh *m, const real *X, int64_t label)
     return (int32_t)m->nodes++;
 }
 
-status mesh_node_add(struct element_mesh *m, const struct source *s, const real *X, int64_t label)
+status element_mesh_add_node(struct element_mesh *m, const struct source *s, const real *X, int64_t label)
 {
     if (m->nodes >= HULL_CORNERS_MAX) return source_fault(s, "more than %d nodes", HULL_CORNERS_MAX);
-    mesh_node_append(m, X, label);
+    element_mesh_append_node(m, X, label);
     return OK;
 }
 
-status mesh_element_add(struct element_mesh *m, const struct source *s, enum element_kind kind, const int32_t *node,
-                        int64_t label)
+status element_mesh_add_element(struct element_mesh *m, const struct source *s, enum element_kind kind,
+                                const int32_t *node, int64_t label)
 {
     if (m->elements >= HULL_CORNERS_MAX) return source_fault(s, "more than %d elements", HULL_CORNERS_MAX);
     GROW("mesh.element", m->element, m->elements + 1);
@@ -59,7 +59,7 @@ status mesh_element_add(struct element_mesh *m, const struct source *s, enum ele
     return OK;
 }
 
-void mesh_middles_add(struct element_mesh *m, const int32_t *middle)
+void element_mesh_set_middle_nodes(struct element_mesh *m, const int32_t *middle)
 {
     struct element *e = &m->element[m->elements - 1];
     const int n = element_middles[e->kind];
@@ -81,7 +81,7 @@ int element_mesh_find_set(struct element_mesh *m, const char *name, bool of_node
     return m->sets++;
 }
 
-void mesh_set_add(struct element_mesh *m, int number, int64_t member)
+void element_mesh_add_to_set(struct element_mesh *m, int number, int64_t member)
 {
     struct element_set *set = &m->set[number];
     GROW("mesh.set", set->member, set->n + 1);

@@ -77,21 +77,21 @@ enum { ELEMENT_SETS_MAX = 1000 };
 
 /* Appends a node at X (three components [unit of the file]) to the mesh m. label: its number in the file. file: for the
  * message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
-status mesh_node_add(struct element_mesh *m, const struct source *file, const real *X, int64_t label);
+status element_mesh_add_node(struct element_mesh *m, const struct source *file, const real *X, int64_t label);
 
 /* Appends a node at X (three components [unit of the file]) to the mesh m without a check of the number of nodes, and
  * returns its index. label: its number in the file, -1 for nodes that are not in the file. */
-int32_t mesh_node_append(struct element_mesh *m, const real *X, int64_t label);
+int32_t element_mesh_append_node(struct element_mesh *m, const real *X, int64_t label);
 
 /* Appends an element of the given kind to the mesh m. node: its corners, as indices or, in Abaqus files, still numbers
  * of the file; label: number of the element in the file; file: for the message. Returns REFUSED, with a message, if
  * there are too many elements. */
-status mesh_element_add(struct element_mesh *m, const struct source *file, enum element_kind kind, const int32_t *node,
-                        int64_t label);
+status element_mesh_add_element(struct element_mesh *m, const struct source *file, enum element_kind kind,
+                                const int32_t *node, int64_t label);
 
 /* Sets the middle nodes (on edges and sides) of the last element of m. middle: indices or numbers of the file, as many
  * as element_middles of its kind. */
-void mesh_middles_add(struct element_mesh *m, const int32_t *middle);
+void element_mesh_set_middle_nodes(struct element_mesh *m, const int32_t *middle);
 
 /* Returns the index in m->set of the set of nodes (of_nodes true) or elements (false) called `name`, ignoring case;
  * creates an empty set if there is none. Returns -1 if there would be more than ELEMENT_SETS_MAX sets. */
@@ -99,7 +99,7 @@ int element_mesh_find_set(struct element_mesh *m, const char *name, bool of_node
 
 /* Appends a node or element to set number `set` of m. member: index, or number of the file if indices are not known
  * yet. */
-void mesh_set_add(struct element_mesh *m, int set, int64_t member);
+void element_mesh_add_to_set(struct element_mesh *m, int set, int64_t member);
 
 /* Releases all arrays of m and zeroes it. */
 void element_mesh_free(struct element_mesh *m);
@@ -160,7 +160,7 @@ struct patch {
 };
 
 /* Collects the faces of a surface. */
-struct builder {
+struct surface_builder {
     struct element_mesh *m;
     int dim, body_dim; /* dimension of space; dimension of the elements that make up the body */
     real scale;
@@ -168,7 +168,7 @@ struct builder {
     int pieces;   /* pieces per curved edge in 3D */
     int64_t n;    /* number of faces; each face has `dim` node indices */
     int32_t (*face)[DIM_MAX];
-    int64_t patches; /* sides with middle nodes, until builder_divide_curved turns them into faces */
+    int64_t patches; /* sides with middle nodes, until surface_builder_divide_curved turns them into faces */
     struct patch *patch;
     int64_t file_nodes;   /* nodes from the file; later ones are on curved sides between the corners `parent` */
     int32_t (*parent)[4]; /* [node - file_nodes] corner nodes of the side, -1: unused */
@@ -176,23 +176,23 @@ struct builder {
 
 /* Appends to the faces of surface b a face with the nodes i, j and, in 3D, k (indices); in 2D it is a segment and k is
  * ignored. */
-void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k);
+void surface_builder_add_face(struct surface_builder *b, int32_t i, int32_t j, int32_t k);
 
 /* Appends the side of an element with n = 3 or 4 corners, given by the node indices `node`, to the faces of surface b,
  * as one or two triangles. */
-void builder_add_side(struct builder *b, const int32_t *node, int n);
+void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n);
 
-/* Appends a copy of *p, a side of an element with middle nodes, to surface b. builder_divide_curved divides it into
- * faces later. */
-void builder_add_patch(struct builder *b, const struct patch *p);
+/* Appends a copy of *p, a side of an element with middle nodes, to surface b. surface_builder_divide_curved divides it
+ * into faces later. */
+void surface_builder_add_patch(struct surface_builder *b, const struct patch *p);
 
 /* Computes for surface b the sagitta below which edges count as straight, and in how many pieces each curved edge is
  * divided, such that chords are at most `fine` [m] from the curve (NAN: 1/256 of the largest sagitta). path: file, for
  * the message. Returns REFUSED, with a message, if too many pieces were needed. */
-status builder_set_fineness(struct builder *b, const char *path, real fine);
+status surface_builder_set_fineness(struct surface_builder *b, const char *path, real fine);
 
 /* Divides all sides with middle nodes stored in b into faces, curved ones into several, which adds nodes to the mesh.
- * closed: true first removes sides shared by two elements, as inside a body. */
-void builder_divide_curved(struct builder *b, bool closed);
+ * remove_shared_sides: true first removes sides shared by two elements, as inside a body. */
+void surface_builder_divide_curved(struct surface_builder *b, bool remove_shared_sides);
 
 #endif

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "elements.h"
 
-void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k)
+void surface_builder_add_face(struct surface_builder *b, int32_t i, int32_t j, int32_t k)
 {
     GROW("mesh.face", b->face, b->n + 1);
     const int32_t face[DIM_MAX] = {i, j, k};
@@ -21,27 +21,27 @@ static bool point_before(const real *X, const real *Y, real size)
 
 /* Adds a quadrilateral as two triangles, a triangle as it is. The diagonal starts at the corner that is first by
  * position, so that two elements that share the side but not its nodes use the same diagonal. */
-void builder_add_side(struct builder *b, const int32_t *node, int n)
+void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n)
 {
     int low = 0;
     real size = 0;
     for (int d = 0; d < DIM_MAX; d++) size += fabs(b->m->node[node[0]][d] - b->m->node[node[n / 2]][d]);
     for (int k = 1; k < n; k++)
         if (point_before(b->m->node[node[k]], b->m->node[node[low]], size)) low = k;
-    builder_add(b, node[low], node[(low + 1) % n], node[(low + 2) % n]);
-    if (n == 4) builder_add(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
+    surface_builder_add_face(b, node[low], node[(low + 1) % n], node[(low + 2) % n]);
+    if (n == 4) surface_builder_add_face(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
 }
 
 /* Adds the sides of an element that fills a part of the body, or the element itself if it is a part of the surface. */
-static void builder_add_element(struct builder *b, const struct element *e)
+static void builder_add_element(struct surface_builder *b, const struct element *e)
 {
     const struct element_sides *sides = &element_sides[e->kind];
     const int corners = element_corners[e->kind];
     if (element_dim[e->kind] < b->dim) {
         if (corners > 2)
-            builder_add_side(b, e->node, corners);
+            surface_builder_add_side(b, e->node, corners);
         else
-            builder_add(b, e->node[0], e->node[corners - 1], e->node[corners - 1]);
+            surface_builder_add_face(b, e->node[0], e->node[corners - 1], e->node[corners - 1]);
         return;
     }
     for (int k = 0; k < sides->n; k++) {
@@ -49,14 +49,14 @@ static void builder_add_element(struct builder *b, const struct element *e)
         const int n = b->dim == 2 ? 2 : sides->corner[k][3] < 0 ? 3 : 4;
         for (int c = 0; c < n; c++) node[c] = e->node[sides->corner[k][c]];
         if (b->dim == 2)
-            builder_add(b, node[0], node[1], 0);
+            surface_builder_add_face(b, node[0], node[1], 0);
         else
-            builder_add_side(b, node, n);
+            surface_builder_add_side(b, node, n);
     }
 }
 
 /* Returns six times the volume enclosed by the faces from `first` on, in 2D twice the area [file unit^dim]. */
-static real builder_volume(const struct builder *b, int64_t first)
+static real builder_volume(const struct surface_builder *b, int64_t first)
 {
     const real *O = b->m->node[b->face[first][0]];
     real sum = 0;
@@ -86,7 +86,7 @@ static int edge_between(enum element_kind kind, int i, int j)
 /* Returns one side of an element with its n corners, the middle nodes of its edges, and the node at its centre.
  * corner[n]: numbers of the corners in the element. centre: number of the middle node of the side, or -1. turned:
  * reverses the orientation of the side. */
-static struct patch patch_of(const struct builder *b, const struct element *e, const signed char *corner, int n,
+static struct patch patch_of(const struct surface_builder *b, const struct element *e, const signed char *corner, int n,
                              int centre, bool turned)
 {
     struct patch p = {.n = n, .corner = {-1, -1, -1, -1}, .middle = {-1, -1, -1, -1}, .centre = -1};
@@ -103,7 +103,7 @@ static struct patch patch_of(const struct builder *b, const struct element *e, c
 }
 
 /* Adds the sides of an element as patches, like builder_add_element. */
-static void builder_add_patches(struct builder *b, const struct element *e, bool turned)
+static void builder_add_patches(struct surface_builder *b, const struct element *e, bool turned)
 {
     static const signed char all[] = {0, 1, 2, 3};
     const struct element_sides *sides = &element_sides[e->kind];
@@ -111,18 +111,18 @@ static void builder_add_patches(struct builder *b, const struct element *e, bool
     struct patch p;
     if (element_dim[e->kind] < b->dim) {
         p = patch_of(b, e, all, element_corners[e->kind], element_dim[e->kind] == 2 ? edges : -1, turned);
-        builder_add_patch(b, &p);
+        surface_builder_add_patch(b, &p);
         return;
     }
     for (int k = 0; k < sides->n; k++) {
         const int n = b->dim == 2 ? 2 : sides->corner[k][3] < 0 ? 3 : 4;
         p = patch_of(b, e, sides->corner[k], n, b->dim == 2 ? -1 : edges + k, turned);
-        builder_add_patch(b, &p);
+        surface_builder_add_patch(b, &p);
     }
 }
 
 /* Adds the sides of an element, reversed if its corners have the opposite orientation. */
-static void builder_add_oriented(struct builder *b, const struct element *e)
+static void builder_add_oriented(struct surface_builder *b, const struct element *e)
 {
     const int64_t first = b->n;
     builder_add_element(b, e);
@@ -141,11 +141,11 @@ static void builder_add_oriented(struct builder *b, const struct element *e)
 /* Makes a hull of the collected faces and the nodes they use, in metres, and removes the faces from the builder.
  * closed: the hull encloses a volume. *node_of: node of the mesh at each corner of the hull, to be freed by the
  * caller. If node_of is NULL, nodes added by subdivision are removed from the mesh. */
-static void builder_close(struct builder *b, struct hull *hull, bool closed, int32_t **node_of)
+static void builder_close(struct surface_builder *b, struct hull *hull, bool closed, int32_t **node_of)
 {
     struct element_mesh *m = b->m;
     const int64_t nodes = m->nodes;
-    builder_divide_curved(b, closed);
+    surface_builder_divide_curved(b, closed);
     int32_t *corner_of = NEW("mesh.corners", m->nodes, int32_t), *node = NEW("mesh.corners", m->nodes, int32_t), n = 0;
     for (int64_t k = 0; k < b->n; k++)
         for (int c = 0; c < b->dim; c++) corner_of[b->face[k][c]] = 1;
@@ -171,7 +171,7 @@ static void builder_close(struct builder *b, struct hull *hull, bool closed, int
 
 /* Makes the surface of a set of elements: closed if some of them fill a part of the body, else open and made of its
  * faces, lines and points. */
-static void set_of_elements(struct builder *b, const struct element_set *set, struct hull *hull)
+static void set_of_elements(struct surface_builder *b, const struct element_set *set, struct hull *hull)
 {
     const struct element *e = b->m->element;
     bool fills = false;
@@ -182,7 +182,7 @@ static void set_of_elements(struct builder *b, const struct element_set *set, st
 }
 
 /* Makes the surface of a set of nodes: the nodes, and the faces of the body whose nodes are all members. */
-static void set_of_nodes(struct builder *b, const struct element_set *set, const struct hull *whole,
+static void set_of_nodes(struct surface_builder *b, const struct element_set *set, const struct hull *whole,
                          const int32_t *node_of, struct hull *hull)
 {
     bool *in = NEW("mesh.set", b->m->nodes, bool);
@@ -193,12 +193,12 @@ static void set_of_nodes(struct builder *b, const struct element_set *set, const
         for (int c = 0; c < 4; c++) in[k] = in[k] && (parent[c] < 0 || in[parent[c]]);
     }
     for (int64_t k = 0; k < b->file_nodes; k++)
-        if (in[k]) builder_add(b, (int32_t)k, (int32_t)k, (int32_t)k);
+        if (in[k]) surface_builder_add_face(b, (int32_t)k, (int32_t)k, (int32_t)k);
     for (int64_t k = 0; k < whole->faces; k++) {
         int32_t node[DIM_MAX] = {0};
         bool all = true;
         for (int c = 0; c < b->dim; c++) node[c] = node_of[whole->face[k][c]], all = all && in[node[c]];
-        if (all) builder_add(b, node[0], node[1], node[2]);
+        if (all) surface_builder_add_face(b, node[0], node[1], node[2]);
     }
     memory_free(in);
     builder_close(b, hull, false, NULL);
@@ -206,7 +206,7 @@ static void set_of_nodes(struct builder *b, const struct element_set *set, const
 
 /* Makes the surface of each set of nodes or elements that is not empty, and stores it in g. node_of: node of the mesh
  * at each corner of the body's hull. */
-static void take_sets(struct builder *b, const int32_t *node_of, struct geometry *g)
+static void take_sets(struct surface_builder *b, const int32_t *node_of, struct geometry *g)
 {
     g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);
     for (int k = 0; k < b->m->sets; k++) {
@@ -264,11 +264,11 @@ static status check_plane(const struct element_mesh *m, const char *path)
 status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
                               real fine)
 {
-    struct builder b = {.m = m, .dim = dim, .scale = scale, .file_nodes = m->nodes};
+    struct surface_builder b = {.m = m, .dim = dim, .scale = scale, .file_nodes = m->nodes};
     int32_t *node_of = NULL;
     TRY(body_dim_of(m, path, dim, &b.body_dim));
     if (dim == 2) TRY(check_plane(m, path));
-    TRY(builder_set_fineness(&b, path, fine));
+    TRY(surface_builder_set_fineness(&b, path, fine));
     for (int64_t k = 0; k < m->elements; k++)
         if (element_dim[m->element[k].kind] == b.body_dim) builder_add_oriented(&b, &m->element[k]);
     builder_close(&b, &g->whole, true, &node_of);

@@ -36,7 +36,7 @@ static int pieces_for(real sagitta, real wanted, int most)
     return pieces > most ? most : pieces > 1 ? (int)pieces : 1;
 }
 
-status builder_set_fineness(struct builder *b, const char *path, real fine)
+status surface_builder_set_fineness(struct surface_builder *b, const char *path, real fine)
 {
     const struct element_mesh *m = b->m;
     const int most = b->dim == 3 ? PIECES_MOST_SPACE : PIECES_MOST_PLANE;
@@ -59,9 +59,9 @@ status builder_set_fineness(struct builder *b, const char *path, real fine)
 
 /* Adds a node to the mesh at X and records the corners from which it was interpolated, at most four. Returns its
  * index. */
-static int32_t node_between(struct builder *b, const real *X, const int32_t *parent, int parents)
+static int32_t node_between(struct surface_builder *b, const real *X, const int32_t *parent, int parents)
 {
-    const int32_t node = mesh_node_append(b->m, X, -1);
+    const int32_t node = element_mesh_append_node(b->m, X, -1);
     const int64_t at = node - b->file_nodes;
     GROW("mesh.parent", b->parent, at + 1);
     for (int k = 0; k < 4; k++) b->parent[at][k] = k < parents ? parent[k] : -1;
@@ -77,7 +77,7 @@ static void middle_point(const struct element_mesh *m, int32_t from, int32_t to,
 
 /* Adds pieces - 1 nodes along an edge to the mesh, by quadratic interpolation through its middle node. Returns the
  * index of the first; the others follow in order from node `from` to node `to`. */
-static int32_t edge_divide(struct builder *b, int32_t from, int32_t to, int32_t middle, int pieces)
+static int32_t edge_divide(struct surface_builder *b, int32_t from, int32_t to, int32_t middle, int pieces)
 {
     const int32_t first = (int32_t)b->m->nodes, ends[] = {from, to};
     for (int k = 1; k < pieces; k++) {
@@ -93,7 +93,7 @@ static int32_t edge_divide(struct builder *b, int32_t from, int32_t to, int32_t 
 }
 
 /* Adds an edge in 2D, or a line in 3D, as straight pieces. */
-static void line_add(struct builder *b, const struct patch *p)
+static void line_add(struct surface_builder *b, const struct patch *p)
 {
     const int32_t from = p->corner[0], to = p->corner[p->n - 1];
     const real sagitta = p->n > 1 ? sagitta_of(b->m, from, to, p->middle[0]) : 0;
@@ -101,14 +101,15 @@ static void line_add(struct builder *b, const struct patch *p)
     const int32_t first = edge_divide(b, from, to, p->middle[0], pieces);
     for (int k = 0; k < pieces; k++) {
         const int32_t next = k + 1 < pieces ? first + k : to;
-        builder_add(b, k == 0 ? from : first + k - 1, next, next);
+        surface_builder_add_face(b, k == 0 ? from : first + k - 1, next, next);
     }
 }
 
 /* ---- sides that two elements share ------------------------------------------------------------------------------- */
 
-/* Appends a copy of a side of an element with middle nodes; builder_divide_curved divides it into faces later. */
-void builder_add_patch(struct builder *b, const struct patch *p)
+/* Appends a copy of a side of an element with middle nodes; surface_builder_divide_curved divides it into faces later.
+ */
+void surface_builder_add_patch(struct surface_builder *b, const struct patch *p)
 {
     GROW("mesh.patch", b->patch, b->patches + 1);
     b->patch[b->patches++] = *p;
@@ -152,7 +153,7 @@ static int key_order(const void *a, const void *b)
 
 /* Removes patches that coincide with opposite orientation, as two elements on both sides of an inner face add them.
  * If several patches with the same corners remain, keeps one. */
-static void patches_cancel(struct builder *b)
+static void patches_cancel(struct surface_builder *b)
 {
     struct patch_key *key = NEW("mesh.keys", b->patches, struct patch_key);
     bool *stays = NEW("mesh.keys", b->patches, bool);
@@ -223,7 +224,7 @@ static struct curve *curve_find(const struct curves *c, const struct patch *p, i
 }
 
 /* Returns true if an edge of the patch is curved, or the node at its centre is not at the mean of its corners. */
-static bool patch_curved(const struct builder *b, const struct patch *p)
+static bool patch_curved(const struct surface_builder *b, const struct patch *p)
 {
     const struct element_mesh *m = b->m;
     bool curved = false;
@@ -239,7 +240,7 @@ static bool patch_curved(const struct builder *b, const struct patch *p)
 }
 
 /* Lists the edges of all patches and divides those of curved patches. The caller frees c->curve. */
-static void curves_make(struct curves *c, struct builder *b)
+static void curves_make(struct curves *c, struct surface_builder *b)
 {
     int64_t kept = 0;
     c->curve = NEW("mesh.curves", 4 * b->patches, struct curve);
@@ -262,7 +263,7 @@ static void curves_make(struct curves *c, struct builder *b)
 }
 
 /* Returns the index of node number `at`, 0..pieces, along edge k of a patch, counted from its corner k. */
-static int32_t curve_node(const struct builder *b, const struct curves *c, const struct patch *p, int k, int at)
+static int32_t curve_node(const struct surface_builder *b, const struct curves *c, const struct patch *p, int k, int at)
 {
     const struct curve *e = curve_find(c, p, k);
     if (at == 0) return p->corner[k];
@@ -312,7 +313,7 @@ static void quad_point_whole(const struct element_mesh *m, const struct patch *p
 
 /* Returns the index of the node at grid position (i, j), each 0..pieces, of a curved patch. On the edges this is the
  * node shared with the neighbours; inside the patch a new one. */
-static int32_t grid_node(struct builder *b, const struct curves *c, const struct patch *p, int i, int j)
+static int32_t grid_node(struct surface_builder *b, const struct curves *c, const struct patch *p, int i, int j)
 {
     const int n = b->pieces;
     real X[DIM_MAX];
@@ -329,7 +330,7 @@ static int32_t grid_node(struct builder *b, const struct curves *c, const struct
 }
 
 /* Adds the triangles of a curved patch; row: buffer for two rows of nodes. */
-static void patch_divide(struct builder *b, const struct curves *c, const struct patch *p, int32_t *row)
+static void patch_divide(struct surface_builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     const int n = b->pieces;
     int32_t *low = row, *high = row + n + 1;
@@ -338,8 +339,8 @@ static void patch_divide(struct builder *b, const struct curves *c, const struct
         const int end = p->n == 3 ? n - j : n;
         for (int i = 0; i <= (p->n == 3 ? end - 1 : n); i++) high[i] = grid_node(b, c, p, i, j + 1);
         for (int i = 0; i < end; i++) {
-            builder_add(b, low[i], low[i + 1], high[i]);
-            if (p->n == 4 || i + 1 < end) builder_add(b, low[i + 1], high[i + 1], high[i]);
+            surface_builder_add_face(b, low[i], low[i + 1], high[i]);
+            if (p->n == 4 || i + 1 < end) surface_builder_add_face(b, low[i + 1], high[i + 1], high[i]);
         }
         int32_t *other = low;
         low = high, high = other;
@@ -347,7 +348,7 @@ static void patch_divide(struct builder *b, const struct curves *c, const struct
 }
 
 /* Adds a flat patch with divided edges as triangles around a new node at its centre. */
-static void patch_star(struct builder *b, const struct curves *c, const struct patch *p)
+static void patch_star(struct surface_builder *b, const struct curves *c, const struct patch *p)
 {
     real X[DIM_MAX] = {0};
     for (int k = 0; k < p->n; k++)
@@ -356,30 +357,30 @@ static void patch_star(struct builder *b, const struct curves *c, const struct p
     for (int k = 0; k < p->n; k++) {
         const int pieces = curve_find(c, p, k)->divided ? b->pieces : 1;
         for (int at = 0; at < pieces; at++)
-            builder_add(b, middle, curve_node(b, c, p, k, at),
-                        pieces == 1 ? p->corner[(k + 1) % p->n] : curve_node(b, c, p, k, at + 1));
+            surface_builder_add_face(b, middle, curve_node(b, c, p, k, at),
+                                     pieces == 1 ? p->corner[(k + 1) % p->n] : curve_node(b, c, p, k, at + 1));
     }
 }
 
 /* Adds a patch as triangles: subdivided if it is curved, around its centre if only its edges are divided, else as it
  * is. row: buffer. */
-static void patch_add(struct builder *b, const struct curves *c, const struct patch *p, int32_t *row)
+static void patch_add(struct surface_builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     bool divided = false;
     for (int k = 0; k < p->n; k++) divided |= curve_find(c, p, k)->divided;
     if (!divided)
-        builder_add_side(b, p->corner, p->n);
+        surface_builder_add_side(b, p->corner, p->n);
     else if (patch_curved(b, p))
         patch_divide(b, c, p, row);
     else
         patch_star(b, c, p);
 }
 
-void builder_divide_curved(struct builder *b, bool closed)
+void surface_builder_divide_curved(struct surface_builder *b, bool remove_shared_sides)
 {
     struct curves c = {0};
     if (b->patches == 0) return;
-    if (closed) patches_cancel(b);
+    if (remove_shared_sides) patches_cancel(b);
     const bool faces = b->dim == 3 && b->patches > 0;
     int32_t *row = NEW("mesh.rows", 2 * (b->pieces + 1), int32_t);
     if (faces) curves_make(&c, b);

@@ -38,7 +38,7 @@ static status check_closed(const struct hull *s, const char *path)
         if (!(fabs(s->node[0].low[d]) < FARTHEST && fabs(s->node[0].high[d]) < FARTHEST))
             return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
                               path, real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
-    const real doubt = s->open_edges > 0 ? hull_ambiguous_share(s) : 0;
+    const real doubt = s->open_edges > 0 ? hull_ambiguous_fraction(s) : 0;
     if (doubt > DOUBT_MOST)
         return status_set(REFUSED,
                           "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) m, so "
@@ -64,10 +64,10 @@ static status read_elements(struct geometry *g, const char *path, int dim, real 
     return s == OK ? check_closed(&g->whole, path) : s;
 }
 
-status geometry_read(struct geometry *g, const char *path, int dim, real scale, real fine)
+status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance)
 {
     *g = (struct geometry){0};
-    const status s = read_elements(g, path, dim, scale, fine);
+    const status s = read_elements(g, path, dim, scale, chord_tolerance);
     if (s != OK) geometry_free(g);
     return s;
 }

@@ -84,7 +84,7 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
         g->last_dim = dim, g->last_tag = tag, g->last_set = element_mesh_find_set(g->m, name, false);
     }
     if (g->last_set < 0) return source_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
-    mesh_set_add(g->m, g->last_set, element);
+    element_mesh_add_to_set(g->m, g->last_set, element);
     return OK;
 }
 
@@ -132,8 +132,8 @@ static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t
         if (between >= 0 && type->order > 2 && between < edges * (type->order - 1))
             TRY(check_straight(g, type, node, between / (type->order - 1), other));
     }
-    TRY(mesh_element_add(g->m, g->s, type->kind, node, label));
-    if (type->order == 2) mesh_middles_add(g->m, middle);
+    TRY(element_mesh_add_element(g->m, g->s, type->kind, node, label));
+    if (type->order == 2) element_mesh_set_middle_nodes(g->m, middle);
     return OK;
 }
 
@@ -148,14 +148,14 @@ static status nodes_known(struct gmsh *g)
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
 
-/* Reads a text in double quotes, truncated to `room` bytes. REFUSED if there are no quotes, or no closing one on the
- * line. */
-static status quoted_next(struct source *s, char *text, size_t room)
+/* Reads a text in double quotes, truncated to `capacity` bytes. REFUSED if there are no quotes, or no closing one on
+ * the line. */
+static status quoted_next(struct source *s, char *text, size_t capacity)
 {
     size_t n = 0;
     if (!source_skip_blanks(s) || s->text[s->at] != '"') return source_fault(s, "a name in quotes is expected");
     for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
-        if (n + 1 < room) text[n++] = s->text[s->at];
+        if (n + 1 < capacity) text[n++] = s->text[s->at];
     text[n] = '\0';
     if (s->at >= s->length || s->text[s->at] != '"') return source_fault(s, "a name that does not end");
     s->at++;
@@ -242,7 +242,7 @@ static status old_nodes(struct gmsh *g)
         real X[DIM_MAX];
         TRY(source_read_int32(g->s, "number of a node", &label));
         for (int d = 0; d < DIM_MAX; d++) TRY(source_read_real(g->s, "coordinate", &X[d]));
-        TRY(mesh_node_add(g->m, g->s, X, label));
+        TRY(element_mesh_add_node(g->m, g->s, X, label));
     }
     return nodes_known(g);
 }
@@ -307,7 +307,7 @@ static status new_node_block(struct gmsh *g)
     const int64_t first = g->m->nodes;
     for (int64_t k = 0; k < n; k++) {
         TRY(source_read_int64(g->s, "number of a node", &label));
-        TRY(mesh_node_add(g->m, g->s, (const real[DIM_MAX]){0}, label));
+        TRY(element_mesh_add_node(g->m, g->s, (const real[DIM_MAX]){0}, label));
     }
     for (int64_t k = first; k < first + n; k++) {
         real own;

@@ -62,12 +62,12 @@ bool source_skip_blanks(struct source *s)
     return s->at < s->length;
 }
 
-void source_read_word(struct source *s, char *word, size_t room)
+void source_read_word(struct source *s, char *word, size_t capacity)
 {
     size_t n = 0;
     source_skip_blanks(s);
     for (; s->at < s->length && !blank(s->text[s->at]); s->at++)
-        if (n + 1 < room) word[n++] = s->text[s->at];
+        if (n + 1 < capacity) word[n++] = s->text[s->at];
     word[n] = '\0';
 }
 

@@ -24,9 +24,9 @@ status source_fault(const struct source *s, const char *format, ...) __attribute
 /* Moves the reading position of s over white space to the next word. Returns false at the end of the file. */
 bool source_skip_blanks(struct source *s);
 
-/* Copies the next word of the file s to `word`, which has `room` bytes, cut if necessary and ended by a zero byte; ""
- * at the end of the file. */
-void source_read_word(struct source *s, char *word, size_t room);
+/* Copies the next word of the file s to `word`, which has `capacity` bytes, cut if necessary and ended by a zero byte;
+ * "" at the end of the file. */
+void source_read_word(struct source *s, char *word, size_t capacity);
 
 /* Reads the next number of the file s into *value: a word of text, or 8 bytes of a binary file. what: name of the
  * number, for the message. Returns REFUSED, with a message, if it is missing or not finite. */

@@ -12,8 +12,8 @@ enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* sizes in a binary f
 static status corner_add(struct element_mesh *m, const struct source *s, const real *X)
 {
     const int32_t node[] = {(int32_t)m->nodes - 2, (int32_t)m->nodes - 1, (int32_t)m->nodes};
-    TRY(mesh_node_add(m, s, X, m->nodes));
-    return m->nodes % 3 == 0 ? mesh_element_add(m, s, ELEMENT_TRIANGLE, node, m->elements) : OK;
+    TRY(element_mesh_add_node(m, s, X, m->nodes));
+    return m->nodes % 3 == 0 ? element_mesh_add_element(m, s, ELEMENT_TRIANGLE, node, m->elements) : OK;
 }
 
 /* ---- binary --------------------------------------------------------------------------------------------------- */

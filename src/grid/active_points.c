@@ -13,7 +13,7 @@ static bool active_points_is_inactive(const struct loads *l, const struct partic
                                       int32_t i, bool has_gradient)
 {
     const int dim = p->dim;
-    bool inactive = !is_loaded(l, i) && (!b->row_of || b->row_of[i] < 0);
+    bool inactive = !particle_is_loaded(l, i) && (!b->row_of || b->row_of[i] < 0);
     for (int d = 0; d < dim && inactive; d++) inactive = bits_equal(p->v[d][i], 0) && p->f[d][i] == 0;
     for (int c = 0; c < dim * (dim + 1) / 2 && inactive; c++) inactive = bits_equal(p->stress[c][i], 0);
     for (int c = 0; has_gradient && c < dim * dim && inactive; c++) inactive = bits_equal(p->gradient[c][i], 0);
@@ -23,7 +23,7 @@ static bool active_points_is_inactive(const struct loads *l, const struct partic
 static int64_t active_points_cell_of(const struct grid *g, const struct particles *p, int32_t i)
 {
     int64_t I = 0;
-    for (int d = 0; d < g->dim; d++) I += (grid_cell(g, d, p->x[d][i]) - g->first[d]) * g->stride[d];
+    for (int d = 0; d < g->dim; d++) I += (grid_cell_index_at(g, d, p->x[d][i]) - g->first[d]) * g->stride[d];
     return I;
 }
 
@@ -104,22 +104,23 @@ static void active_points_take(struct active_points *r, const struct transfer_or
     a->cell_start[a->cells] = (int32_t)a->n;
 }
 
-const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *all,
-                                                  const struct transfer_order *now, const struct particles *p,
-                                                  const struct grid *grid, const struct bonds *b, const struct loads *l,
-                                                  enum shape shape, enum transfer transfer)
+const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *full_order,
+                                                  const struct transfer_order *previous_order,
+                                                  const struct particles *p, const struct grid *grid,
+                                                  const struct bonds *b, const struct loads *l, enum shape shape,
+                                                  enum transfer transfer)
 {
     const int64_t reach = active_points_reach_of(grid, shape, transfer);
     make_room(r, grid);
-    active_points_mark(r, now, p, grid, b, l, transfer == TRANSFER_APIC);
+    active_points_mark(r, previous_order, p, grid, b, l, transfer == TRANSFER_APIC);
     for (int d = 0; d < grid->dim; d++) {
         uint8_t *from = r->active_cell;
         widen(grid, from, r->near, d, reach);
         r->active_cell = r->near, r->near = from;
     }
-    active_points_take(r, all, p, grid);
-    r->over = r->active.n == all->n;
-    return r->over ? all : &r->active;
+    active_points_take(r, full_order, p, grid);
+    r->over = r->active.n == full_order->n;
+    return r->over ? full_order : &r->active;
 }
 
 void active_points_free(struct active_points *r)

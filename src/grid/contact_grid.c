@@ -25,7 +25,7 @@ struct shared {
 };
 
 /* Finds the range of nodes that points of both sides may reach. Returns false if there are none. */
-static bool shared_find(struct shared *s, const struct grid_side *a, const struct grid_side *b)
+static bool shared_find(struct shared *s, const struct grid_contact_side *a, const struct grid_contact_side *b)
 {
     s->n = 1;
     for (int d = 0; d < DIM_MAX; d++) {
@@ -73,8 +73,8 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
 
 /* Appends the nodes on which both sides have mass. slot: [s->n] position in the list of each node of the range, -1: not
  * listed. */
-static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_side *side, int a,
-                              int b, int32_t *slot)
+static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *side,
+                              int a, int b, int32_t *slot)
 {
     const struct grid *g = side[a].grid, *h = side[b].grid;
     const real least = real_max(c->smallest_mass, g->light_mass);
@@ -118,7 +118,7 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, k[DIM_MAX];
     for (int d = 0; d < g->dim; d++) {
-        const real at = grid_place(g, d, p->x[d][i]), reach = 1 + c->half_width / g->h;
+        const real at = grid_cell_coordinate(g, d, p->x[d][i]), reach = 1 + c->half_width / g->h;
         low[d] = (int64_t)ceil(at - reach) - s->first[d], high[d] = (int64_t)floor(at + reach) - s->first[d];
         if (low[d] < 0) low[d] = 0;
         if (high[d] >= s->count[d]) high[d] = s->count[d] - 1;
@@ -136,7 +136,7 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
 }
 
 /* Extends the reach of side 0 or 1 along the normals by all points of the side (point_reach). */
-static void points_reach(struct grid_contact *c, const struct shared *s, const struct grid_side *a,
+static void points_reach(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *a,
                          const struct particles *p, int side, const int32_t *slot)
 {
     const struct transfer_order *o = a->order;
@@ -144,7 +144,7 @@ static void points_reach(struct grid_contact *c, const struct shared *s, const s
         const int32_t first = o->particle[o->cell_start[cell]];
         bool near = true;
         for (int d = 0; d < a->grid->dim && near; d++) {
-            const int64_t at = grid_cell(a->grid, d, p->x[d][first]) - s->first[d];
+            const int64_t at = grid_cell_index_at(a->grid, d, p->x[d][first]) - s->first[d];
             near = at >= -2 && at <= s->count[d] + 1;
         }
         for (int32_t k = o->cell_start[cell]; near && k < o->cell_start[cell + 1]; k++)
@@ -162,19 +162,20 @@ void grid_contact_make(struct grid_contact *c, int sides)
     c->dissipated = NEW("contact.taken", sides * sides, real);
 }
 
-void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_order *order, const struct particles *p)
+void grid_contact_side_make(struct grid_contact_side *a, struct grid *g, const struct transfer_order *order,
+                            const struct particles *p)
 {
-    *a = (struct grid_side){.grid = g, .order = order};
+    *a = (struct grid_contact_side){.grid = g, .order = order};
     for (int d = 0; d < DIM_MAX; d++) a->from[d] = INT32_MAX, a->to[d] = INT32_MIN; /* empty range */
     for (int32_t cell = 0; cell < order->cells; cell++)
         for (int d = 0; d < g->dim; d++) {
-            const int64_t k = grid_cell(g, d, p->x[d][order->particle[order->cell_start[cell]]]);
+            const int64_t k = grid_cell_index_at(g, d, p->x[d][order->particle[order->cell_start[cell]]]);
             if (k - 1 < a->from[d]) a->from[d] = k - 1;
             if (k + 2 > a->to[d]) a->to[d] = k + 2;
         }
 }
 
-void grid_contact_find_nodes(struct grid_contact *c, const struct grid_side *side, const struct particles *p)
+void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_side *side, const struct particles *p)
 {
     c->nodes = 0;
     for (int a = 0; a < c->sides; a++)
@@ -235,7 +236,7 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
 }
 
 /* Sets grid.held to `mark` for the nodes that walls constrain. */
-static void walls_mark(const struct grid_side *side, int sides, uint8_t mark)
+static void walls_mark(const struct grid_contact_side *side, int sides, uint8_t mark)
 {
     for (int k = 0; k < sides; k++)
         for (int64_t q = 0; q < side[k].grid->walls; q++) side[k].grid->held[side[k].grid->wall[q].node] = mark;
@@ -255,7 +256,7 @@ static real mass_against(const struct grid *g, int64_t I, const real *normal, re
     return held2 > 0.5 ? INFINITY : g->mass[I];
 }
 
-real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_side *side)
+real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_contact_side *side)
 {
     real lost = 0;
     c->touching = 0, c->begun = 0;
@@ -292,7 +293,7 @@ real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_si
     return lost;
 }
 
-real grid_contact_remap_loss(struct grid_contact *c, const struct grid_side *side)
+real grid_contact_remap_loss(struct grid_contact *c, const struct grid_contact_side *side)
 {
     real lost = 0;
     for (int64_t k = 0; k < c->nodes; k++) {
@@ -314,7 +315,7 @@ void grid_contact_update_times(struct grid_contact *c, real t)
     if (isnan(c->began)) c->began = t;
 }
 
-status grid_contact_archive(struct grid_contact *c, struct archive *a)
+status grid_contact_save_or_load(struct grid_contact *c, struct archive *a)
 {
     ARCHIVE_VALUE(a, "contact/grid_began", c->began);
     ARCHIVE_VALUE(a, "contact/grid_ended", c->ended);

@@ -55,7 +55,7 @@ void grid_coupled_clear(struct grid_coupled *c, struct particles *p)
 
 void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g)
 {
-    const bool unified = coupling_unified(coupling);
+    const bool unified = coupling_has_one_grid(coupling);
     int64_t k[DIM_MAX] = {0};
     GROW("grid_coupled.list", c->list, p->n);
     c->n = 0;

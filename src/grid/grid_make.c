@@ -31,7 +31,7 @@ void grid_choose_anchor(const struct scene *s, const real *from, const real *sit
     }
 }
 
-int unjoined_body_index(const struct scene *s, int k)
+int joined_group_first_body(const struct scene *s, int k)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined == b && k-- == 0) return b;
@@ -42,10 +42,10 @@ int unjoined_body_index(const struct scene *s, int k)
  * else a single grid. */
 static void make_fields(const struct scene *s, struct grid_method *grid)
 {
-    const bool meet = !scene_at_rest(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
+    const bool meet = !scene_is_single_equilibrium(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
                       !coupling_moves_by_grid(s->coupling);
     grid->fields = 1;
-    while (meet && unjoined_body_index(s, grid->fields) >= 0) grid->fields++;
+    while (meet && joined_group_first_body(s, grid->fields) >= 0) grid->fields++;
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
@@ -62,7 +62,7 @@ static real shape_reach(const struct scene *s)
 /* Sets up the grids of the current frame: position of the nodes, smallest masses, contact between grids. meshed: bodies
  * have meshes of the reference frame. Nodes start at the lower corner of the first shape, or of the particles of a
  * list. */
-void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed)
+void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
     if (!mpm->field) make_fields(s, mpm);
@@ -72,21 +72,21 @@ void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct
     bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
     for (int d = 0; d < s->dim; d++) {
         if (!bounded) {
-            particles_extent(p, p->n, d, &from[d], &to[d]);
+            particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
             from[d] -= 0.5 * s->spacing;
         }
         site[d] = p->X[d][0];
     }
     grid_choose_anchor(s, from, site, meshed, g->anchor);
-    real section = scene_section(s), lightest = INFINITY;
+    real section = scene_section_factor(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
-    const real light = !scene_at_rest(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
+    const real light = !scene_is_single_equilibrium(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
     const real full = lightest * pow(g->h, s->dim) * section;
     mpm->smallest_mass = GRID_MASS_SMALLEST * full;
     g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
     for (int k = 0; k < mpm->fields && mpm->fields > 1; k++) {
         mpm->field[k].grid = *g;
-        mpm->field[k].grid.body = 1 + unjoined_body_index(s, k);
+        mpm->field[k].grid.body = 1 + joined_group_first_body(s, k);
     }
     grid_contact_free(&mpm->contact);
     mpm->contact = (struct grid_contact){.friction = s->contact_friction,

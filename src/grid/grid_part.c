@@ -6,7 +6,7 @@
 static void grid_free_all(struct run *e)
 {
     struct grid_method *g = e->grid;
-    active_points_free(&g->active), turning_free(&g->turning), grid_coupled_free(&g->coupled);
+    active_points_free(&g->active), rotation_groups_free(&g->turning), grid_coupled_free(&g->coupled);
     for (int k = 0; k < g->fields; k++) {
         struct grid_field *f = &g->field[k];
         grid_free(&f->grid), transfer_order_free(&f->order);
@@ -32,7 +32,7 @@ static void warn_of_mirrors(const struct run *e, struct warnings *to)
 
 static status grid_state(struct run *e, struct archive *a)
 {
-    return e->grid->fields > 1 ? grid_contact_archive(&e->grid->contact, a) : OK;
+    return e->grid->fields > 1 ? grid_contact_save_or_load(&e->grid->contact, a) : OK;
 }
 
 const struct part part_grid = {PART(grid, grid_method), .free = grid_free_all, .state = grid_state,

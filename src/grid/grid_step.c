@@ -40,7 +40,7 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
     for (int k = 0; k < KINDS; k++)
         if (k == KIND_MPM)
             bounds_widen(p, list, n, from, to);
-        else if (coupling_unified(coupling))
+        else if (coupling_has_one_grid(coupling))
             bounds_widen(p, p->list[k], p->n_of[k], from, to);
     for (int d = 0; d < p->dim && (n > 0 || !f->list); d++)
         if (!isfinite(to[d] - from[d])) {
@@ -68,7 +68,7 @@ static void update_active_points(struct run *e)
 {
     const struct grid_method *mpm = e->grid;
     if (!e->scene->active_set || mpm->active.over || mpm->fields > 1 || mpm->turning.groups > 0 ||
-        coupling_moves_by_grid(e->coupling_kind) || !scene_moves(e->scene))
+        coupling_moves_by_grid(e->coupling_kind) || !scene_is_dynamic(e->scene))
         return;
     e->grid->transfer.order =
         active_points_update(&e->grid->active, &e->grid->field[0].order, e->grid->transfer.order, &e->part,
@@ -78,7 +78,7 @@ static void update_active_points(struct run *e)
 status grid_sort_points(struct run *e, bool *lost)
 {
     *lost = false;
-    if (e->part.n_free == 0 && !coupling_unified(e->coupling_kind)) {
+    if (e->part.n_free == 0 && !coupling_has_one_grid(e->coupling_kind)) {
         grid_coupled_clear(&e->grid->coupled, &e->part);
         return OK;
     }
@@ -113,7 +113,7 @@ static bool grid_holds(const struct particles *part) { return part->n_free + par
 static void grid_receive(struct grid_method *mpm, struct particles *p, const struct kernels *kernels)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(mpm);
-    if (mpm->turning.groups > 0) turning_compute_spins(&mpm->turning, p, mpm->spacing);
+    if (mpm->turning.groups > 0) rotation_groups_compute_spins(&mpm->turning, p, mpm->spacing);
     for (int k = 0; k < mpm->fields; k++) {
         const struct transfer_data own = field_data(mpm, k);
         grid_clear(&mpm->field[k].grid);
@@ -124,25 +124,26 @@ static void grid_receive(struct grid_method *mpm, struct particles *p, const str
 
 /* Lists the nodes at which bodies with grids of their own may be in contact in this step. Returns [fields] sides, which
  * the caller frees, or NULL for a single grid. */
-static struct grid_side *meeting_find(struct grid_method *mpm, struct particles *part)
+static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct particles *part)
 {
     if (mpm->fields < 2) return NULL;
-    struct grid_side *side = NEW("engine.sides", mpm->fields, struct grid_side);
-    for (int k = 0; k < mpm->fields; k++) grid_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
+    struct grid_contact_side *side = NEW("engine.sides", mpm->fields, struct grid_contact_side);
+    for (int k = 0; k < mpm->fields; k++)
+        grid_contact_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
     grid_contact_find_nodes(&mpm->contact, side, part);
     return side;
 }
 
 /* Moves the nodes under forces, contact, walls and mirrors. middle: time in the middle of the step; dt: by which
  * velocities advance [s]. */
-static void grids_move(struct run *e, const struct grid_side *side, real middle, real dt)
+static void grids_move(struct run *e, const struct grid_contact_side *side, real middle, real dt)
 {
     struct grid_method *mpm = e->grid;
     const enum transfer transfer = e->scene->transfer;
     for (int k = 0; k < mpm->fields; k++) {
         struct grid_field *f = &mpm->field[k];
-        loads_set_grid_walls(&e->loads, &f->held, &f->grid, &e->part, &e->kernels, mpm->transfer.half_width, middle,
-                             e->clock.dt);
+        loads_prescribe_grid_velocities(&e->loads, &f->held, &f->grid, &e->part, &e->kernels, mpm->transfer.half_width,
+                                        middle, e->clock.dt);
         grid_advance(&f->grid, transfer, dt, mpm->smallest_mass);
     }
     if (side) e->damped += grid_contact_exchange_momentum(&mpm->contact, side);
@@ -151,7 +152,7 @@ static void grids_move(struct run *e, const struct grid_side *side, real middle,
 }
 
 /* Adds the change of the nodal velocities to the points and maps their momentum to the nodes again (MUSL). */
-static void grids_remap(struct run *e, const struct grid_side *side)
+static void grids_remap(struct run *e, const struct grid_contact_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
     for (int k = 0; k < e->grid->fields; k++) {
@@ -161,7 +162,7 @@ static void grids_remap(struct run *e, const struct grid_side *side)
         else
             e->kernels.turn_gather(&e->grid->field[k].grid, &e->part, &own);
     }
-    if (e->grid->turning.groups > 0) turning_restore_spins(&e->grid->turning, &e->part);
+    if (e->grid->turning.groups > 0) rotation_groups_restore_spins(&e->grid->turning, &e->part);
     for (int k = 0; k < e->grid->fields && e->grid->turning.groups > 0; k++) {
         const struct transfer_data own = field_data(e->grid, k);
         e->kernels.turn_scatter(&e->grid->field[k].grid, &e->part, &own);
@@ -183,14 +184,14 @@ void grid_map_points(struct grid_method *mpm, struct particles *p, const struct 
     timer_add_elapsed(timers, TIMER_SCATTER);
 }
 
-void grid_step(struct run *e, real middle)
+void grid_step(struct run *e, real t_middle)
 {
     struct particles *p = &e->part;
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
     int64_t moved = 0;
     if (!grid_holds(&e->part)) return;
-    struct grid_side *side = meeting_find(e->grid, &e->part);
-    grids_move(e, side, middle, e->grid->transfer.dt_velocity); /* 3: motion of nodes */
+    struct grid_contact_side *side = meeting_find(e->grid, &e->part);
+    grids_move(e, side, t_middle, e->grid->transfer.dt_velocity); /* 3: motion of nodes */
     timer_add_elapsed(&e->timers, TIMER_GRID);
     if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocities; momentum to the nodes */
     if (side) grid_contact_update_times(&e->grid->contact, e->clock.t);
@@ -204,9 +205,9 @@ void grid_step(struct run *e, real middle)
 }
 
 /* Returns the power of the forces on the grids at the start of a step [W]: the sum of P . f/m over the nodes before
- * they move, f being the change of momentum per time by forces, contact and walls. middle: time in the middle of the
+ * they move, f being the change of momentum per time by forces, contact and walls. t_middle: time in the middle of the
  * step [s]. Returns 0 if no particle is on a grid. */
-real grid_power(struct run *e, real middle)
+real grid_power(struct run *e, real t_middle)
 {
     real power = 0;
     bool lost;
@@ -218,9 +219,9 @@ real grid_power(struct run *e, real middle)
         momentum[k] = BARE("engine.momentum", g->n * g->dim, real);
         for (int d = 0; d < g->dim; d++) array_copy(momentum[k] + d * g->n, g->momentum[d], g->n, sizeof(real));
     }
-    struct grid_side *side = meeting_find(e->grid, &e->part);
+    struct grid_contact_side *side = meeting_find(e->grid, &e->part);
     const real damped = e->damped;
-    grids_move(e, side, middle, e->clock.dt);
+    grids_move(e, side, t_middle, e->clock.dt);
     e->damped = damped;
     for (int k = 0; k < e->grid->fields; k++) {
         const struct grid *g = &e->grid->field[k].grid;

@@ -27,18 +27,18 @@ static void turning_middle(const struct particles *part, const struct scene *sce
 {
     for (int d = 0; d < part->dim; d++) {
         real low, high;
-        particles_extent(part, part->n, d, &low, &high);
+        particles_coordinate_range(part, part->n, d, &low, &high);
         middle[d] = 0.5 * (low + high);
     }
     for (int b = 0; b < scene->boundaries; b++)
         if (scene->boundary[b].kind == BOUNDARY_MIRROR) middle[scene->boundary[b].axis] = scene->boundary[b].at;
 }
 
-void grid_turning_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
-                       const struct scene *s, enum coupling coupling)
+void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
+                               const struct scene *s, enum coupling coupling)
 {
-    if (p->dim < 2 || s->transfer != TRANSFER_FLIP || !scene_moves(s) || s->method == METHOD_PD ||
-        coupling_moves_by_grid(coupling) || coupling_unified(coupling))
+    if (p->dim < 2 || s->transfer != TRANSFER_FLIP || !scene_is_dynamic(s) || s->method == METHOD_PD ||
+        coupling_moves_by_grid(coupling) || coupling_has_one_grid(coupling))
         return;
     bool *held = NEW("engine.held", s->bodies, bool), all = true;
     int *one = NEW("engine.one", s->bodies, int);
@@ -47,7 +47,7 @@ void grid_turning_make(struct grid_method *mpm, const struct particles *p, const
     mark_held(loads, p, one, held);
     turning_middle(p, s, middle);
     for (int b = 0; b < s->bodies; b++) all &= held[one[b]];
-    if (!all) turning_make(&mpm->turning, p, s->spacing, middle, one, held);
+    if (!all) rotation_groups_make(&mpm->turning, p, s->spacing, middle, one, held);
     for (int c = 0; c < 3; c++) mpm->transfer.turn[c] = mpm->turning.turn[c];
     /* with the second map the hand-shake coupling gains 1e-7 of its energy a step */
     mpm->transfer.second_map = mpm->turning.groups > 0 && coupling != COUPLING_HANDSHAKE;

@@ -23,7 +23,7 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
-        if (is_loaded(l, i) || particle_on_grid(p, i)) return false;
+        if (particle_is_loaded(l, i) || particle_moves_with_nodes(p, i)) return false;
         for (int d = 0; d < p->dim; d++)
             if (!bits_equal(p->v[d][i], 0) || p->f[d][i] != 0) return false;
     }
@@ -36,7 +36,7 @@ static int64_t row_block_of(const struct bonds *b, const struct particles *p, co
                             const struct column_copy *column, int lane)
 {
     if (column->inverse_length[lane] == 0) return -1;
-    const int32_t row = b->row_of[image_root(p, l->image, column->nbr[lane])];
+    const int32_t row = b->row_of[image_source_particle(p, l->image, column->nbr[lane])];
     return row < 0 ? -1 : row / LANES;
 }
 
@@ -47,7 +47,7 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
 {
     if (b->active.level[row_block] >= level) return;
     b->active.level[row_block] = (uint8_t)level;
-    for (int64_t k = 0; k < bonds_columns(b, row_block) && level > 1; k++) {
+    for (int64_t k = 0; k < row_block_column_count(b, row_block) && level > 1; k++) {
         struct column_copy column;
         bond_column_read(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
@@ -61,7 +61,7 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
 {
-    for (int64_t k = 0; k < bonds_columns(b, row_block); k++) {
+    for (int64_t k = 0; k < row_block_column_count(b, row_block); k++) {
         struct column_copy column;
         bond_column_read(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {

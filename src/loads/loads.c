@@ -14,7 +14,8 @@
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
-    for (int b = 0; b < l->n; b++) most += l->load[b].n + (is_clamp(l->load[b].boundary, p->dim) ? p->n : 0);
+    for (int b = 0; b < l->n; b++)
+        most += l->load[b].n + (boundary_is_clamped_mirror(l->load[b].boundary, p->dim) ? p->n : 0);
     if (most == 0) return;
     l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
     for (int b = 0; b < l->n; b++)
@@ -39,7 +40,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
         TRY(status_prepend_location(boundary[b].place,
                                     load_find_pressure_faces(&l->load[b], boundary, n, b, p, spacing)));
     for (int b = 0; b < n; b++) TRY(status_prepend_location(boundary[b].place, load_prepare_shares(&l->load[b], p)));
-    TRY(loads_absorbing_check(l, p));
+    TRY(absorbing_boundaries_check(l, p));
     loads_merge_equal_lists(l, p->dim);
     TRY(loads_mirrors_make(l, p, reach, optional));
     loads_list(l, p);
@@ -69,8 +70,8 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 
 void loads_free(struct loads *l)
 {
-    loads_applied_free(l);
-    loads_absorbing_free(l);
+    loads_shares_free(l);
+    absorbing_dashpots_free(l);
     for (int b = 0; b < l->n; b++) load_time_shares_free(&l->load[b]), memory_free(l->load[b].particle);
     memory_free(l->load);
     memory_free(l->loaded);
@@ -90,19 +91,20 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
                   real dt_velocity)
 {
     const struct boundary *b = load->boundary;
-    const uint8_t components = is_clamp(b, p->dim) ? UINT8_MAX : b->components;
+    const uint8_t components = boundary_is_clamped_mirror(b, p->dim) ? UINT8_MAX : b->components;
     real given[DIM_MAX] = {0}, work = 0;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
         real X[DIM_MAX];
-        if (particle_on_grid(p, i)) continue;
-        particle_place(p, i, X);
+        if (particle_moves_with_nodes(p, i)) continue;
+        particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(components >> d & 1)) continue;
             const real target = prescribed_velocity_at(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
             load->reaction[d] -= p->f[d][i]; /* without the driven particles' inertia: a load cell's reading */
-            if (b->frozen && drives_by_place(b)) load->held_work -= p->f[d][i] * (p->x[d][i] - p->X[d][i]);
+            if (b->frozen && boundary_motion_varies_in_space(b))
+                load->held_work -= p->f[d][i] * (p->x[d][i] - p->X[d][i]);
             p->f[d][i] = needed;
             given[d] += reaction * dt_velocity;
             work += reaction * dt_velocity * 0.5 * (before + target);
@@ -153,20 +155,20 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
 static void displacement_update(struct load *load, const struct particles *p, const struct prescribed_motion *by)
 {
     const bool displaces = load->boundary->displaces;
-    const int64_t n = drives_by_place(load->boundary) ? load->n : 1;
+    const int64_t n = boundary_motion_varies_in_space(load->boundary) ? load->n : 1;
     for (int d = 0; d < p->dim; d++) {
         real sum = 0;
         if (!(load->boundary->components >> d & 1)) continue;
         for (int64_t k = 0; k < n; k++) {
             real X[DIM_MAX] = {0};
-            if (load->n > 0) particle_place(p, load->particle[k], X);
+            if (load->n > 0) particle_reference_position(p, load->particle[k], X);
             sum += displaces ? prescribed_displacement_at(&by->to, X, d) : prescribed_velocity_at(by, X, d, false);
         }
         if (n > 0) load->displacement[d] = displaces ? sum / (real)n : load->displacement[d] + sum / (real)n * by->dt;
     }
 }
 
-void loads_complete_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
+void loads_finish_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {
@@ -195,8 +197,8 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
         real X[DIM_MAX];
-        if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED) continue; /* the mesh constrains nodes */
-        particle_place(p, i, X);
+        if (!particle_moves_with_nodes(p, i) || p->flag[i] & FLAG_MESHED) continue; /* the mesh constrains nodes */
+        particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(b->components >> d & 1)) continue;
             const real target = prescribed_velocity_at(by, X, d, false), given = p->mass[i] * (target - p->v[d][i]);
@@ -219,10 +221,10 @@ static bool positions_set(const struct load *load, struct particles *p, const st
     bool moved = false;
     for (int64_t k = 0; k < load->n; k++) {
         const int32_t i = load->particle[k];
-        const bool on_grid = particle_on_grid(p, i);
+        const bool on_grid = particle_moves_with_nodes(p, i);
         real X[DIM_MAX];
         if (on_grid && p->flag[i] & FLAG_MESHED) continue;
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(load->boundary->components >> d & 1)) continue;
             const real at = X[d] + prescribed_displacement_at(&by->to, X, d), off = p->x[d][i] - at;
@@ -234,7 +236,7 @@ static bool positions_set(const struct load *load, struct particles *p, const st
     return moved;
 }
 
-void loads_add_reactions(struct loads *l, const struct grid *g, real dt_velocity)
+void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
     loads_add_absorbed(l, &g->absorbed);
@@ -264,7 +266,7 @@ bool loads_impose_motion(struct loads *l, struct particles *p, real t, real dt)
     return moved;
 }
 
-status loads_archive(struct loads *l, struct archive *a)
+status loads_save_or_load(struct loads *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "loads/impulse", l->impulse);
     ARCHIVE_VALUE(a, "loads/work", l->work);

@@ -52,7 +52,7 @@ static status absorbing_mirrors_check(const struct loads *l, const struct partic
     return OK;
 }
 
-status loads_absorbing_check(const struct loads *l, const struct particles *p)
+status absorbing_boundaries_check(const struct loads *l, const struct particles *p)
 {
     TRY(absorbing_mirrors_check(l, p));
     for (int b = 0; b < l->n; b++)
@@ -112,7 +112,9 @@ static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *c = l->load[b].boundary;
-        const uint8_t held = is_clamp(c, p->dim) ? UINT8_MAX : c->kind == BOUNDARY_VELOCITY ? c->components : 0;
+        const uint8_t held = boundary_is_clamped_mirror(c, p->dim) ? UINT8_MAX
+                             : c->kind == BOUNDARY_VELOCITY        ? c->components
+                                                                   : 0;
         for (int64_t q = 0; q < l->load[b].n && held; q++) {
             const int64_t k = dashpot_of(&l->absorbing, l->load[b].particle[q]);
             for (int d = 0; d < p->dim && k >= 0; d++)
@@ -121,7 +123,7 @@ static void rates_hold(struct loads *l, const struct particles *p)
     }
 }
 
-void loads_absorbing_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance)
+void absorbing_dashpots_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance)
 {
     struct absorbing *a = &l->absorbing;
     bool any = false;
@@ -142,7 +144,7 @@ void loads_absorbing_make(struct loads *l, const struct particles *p, const stru
     rates_hold(l, p);
 }
 
-void loads_absorbing_free(struct loads *l)
+void absorbing_dashpots_free(struct loads *l)
 {
     struct absorbing *a = &l->absorbing;
     for (int b = 0; b < l->n; b++) memory_free(l->load[b].outer), memory_free(l->load[b].edge);
@@ -164,11 +166,12 @@ void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velo
     if (a->idle) return;
     for (int64_t k = 0; k < a->n; k++) {
         const int32_t i = a->particle[k];
-        if (particle_on_grid(p, i)) continue;
+        if (particle_moves_with_nodes(p, i)) continue;
         for (int d = 0; d < p->dim; d++) {
             const real rate = a->rate[MOVED_BY_BONDS][d][k], change = dt_velocity * p->f[d][i] / p->mass[i];
             if (rate == 0) continue;
-            p->f[d][i] += dashpot_kick(&sum, d, dt_velocity * rate, p->mass[i], p->v[d][i], change) / dt_velocity;
+            p->f[d][i] +=
+                dashpot_add_impulse(&sum, d, dt_velocity * rate, p->mass[i], p->v[d][i], change) / dt_velocity;
         }
     }
     loads_add_absorbed(l, &sum);
@@ -245,7 +248,8 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
     real *value = NEW("loads.value", a->n * p->dim, real);
     for (int64_t q = 0; q < a->n; q++) {
         const int32_t i = a->particle[q];
-        if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED || (g->body > 0 && g->body != p->body[i] + 1)) continue;
+        if (!particle_moves_with_nodes(p, i) || p->flag[i] & FLAG_MESHED || (g->body > 0 && g->body != p->body[i] + 1))
+            continue;
         for (int d = 0; d < p->dim; d++) value[d * a->n + n] = a->rate[MOVED_BY_GRID][d][q];
         list[n++] = i;
     }

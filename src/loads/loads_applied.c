@@ -56,7 +56,7 @@ void loads_merge_equal_lists(struct loads *l, int dim)
 {
     for (int b = 0; b < l->n; b++) {
         l->load[b].leader = -1;
-        if (boundary_is_force(l->load[b].boundary) && l->load[b].n > 0) load_join(l, b, dim);
+        if (boundary_applies_force(l->load[b].boundary) && l->load[b].n > 0) load_join(l, b, dim);
     }
 }
 
@@ -69,7 +69,7 @@ static bool is_borrowed(const struct loads *l, int b, int d)
     return false;
 }
 
-void loads_applied_free(struct loads *l)
+void loads_shares_free(struct loads *l)
 {
     for (int b = l->n; b-- > 0;)
         for (int d = DIM_MAX; d-- > 0;) {
@@ -244,7 +244,7 @@ void loads_clear_forces(struct loads *l, struct particles *p)
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         const int64_t n = load->n;
-        if (boundary_is_force(load->boundary) && load->leader != b) continue;
+        if (boundary_applies_force(load->boundary) && load->leader != b) continue;
         TEAM_LOOP(n > SUM_BLOCK, for (int64_t first = 0; first < n; first += SUM_BLOCK)
                                      clear_run(load, p, first, first + SUM_BLOCK < n ? first + SUM_BLOCK : n););
     }

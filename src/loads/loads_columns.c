@@ -285,7 +285,7 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
  * a moment: a plate of n particles per side in shear would have 1 + 1.3/n of the stress. So 3/2 of the tangential
  * components act on the first particle and -1/2 on the next: by this linear extrapolation force and first moment are
  * those of the face. The first particle gets all of it if the column has no next one. */
-static void face_add(struct face *f, const struct columns *c, int64_t column, const struct boundary *b,
+static void face_add(struct exposed_face *f, const struct columns *c, int64_t column, const struct boundary *b,
                      const struct particles *p, const uint8_t *selected, real area, bool two)
 {
     const int64_t k = loads_columns_shown(c, column, b, p, selected),
@@ -330,8 +330,8 @@ static bool faced_next(struct faced *f, const struct boundary *b, const struct p
     return true;
 }
 
-void face_visit_columns(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                        face_found_fn *found, void *context)
+void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
+                                  real spacing, face_particle_fn *found, void *context)
 {
     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
         const struct columns *c = &f.columns;
@@ -343,13 +343,13 @@ void face_visit_columns(const struct boundary *b, const struct particles *p, con
     }
 }
 
-void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
-               real spacing, bool two)
+void exposed_face_make(struct exposed_face *f, const struct boundary *b, const struct particles *p,
+                       const uint8_t *selected, real spacing, bool extrapolate)
 {
-    *f = (struct face){NEW("loads.normal", p->n, real), NEW("loads.along", p->n, real)};
+    *f = (struct exposed_face){NEW("loads.normal", p->n, real), NEW("loads.along", p->n, real)};
     for (struct faced of = {0}; faced_next(&of, b, p, selected, spacing);)
         for (int64_t k = 0; k < of.columns.n; k++)
-            face_add(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), two);
+            face_add(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), extrapolate);
 }
 
 void face_mark_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
@@ -368,7 +368,7 @@ void face_mark_layer(const struct boundary *b, const struct particles *p, const 
     }
 }
 
-void face_free(struct face *f)
+void exposed_face_free(struct exposed_face *f)
 {
     memory_free(f->normal);
     memory_free(f->along);

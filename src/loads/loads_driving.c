@@ -26,7 +26,7 @@ static void rotation_matrix(const struct boundary *b, int dim, real angle, real 
  * prescribed_displacement_at: evaluates the function of time and the rotation once. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t)
 {
-    struct prescribed_displacement s = {.boundary = b, .dim = dim, .t = boundary_time(b, t)};
+    struct prescribed_displacement s = {.boundary = b, .dim = dim, .t = boundary_evaluation_time(b, t)};
     s.factor = b->displaces ? time_function_value(&b->time, t) : time_function_integral(&b->time, t);
     if (b->rotates) rotation_matrix(b, dim, b->rate * s.factor, s.turned);
     return s;
@@ -47,14 +47,14 @@ void load_displacement_at(const struct load *l, const struct particles *p, int64
 {
     const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, t);
     real X[DIM_MAX];
-    particle_place(p, l->particle[k], X);
+    particle_reference_position(p, l->particle[k], X);
     for (int d = 0; d < p->dim; d++)
         u[d] = l->boundary->components >> d & 1 ? prescribed_displacement_at(&by, X, d) : 0;
 }
 
 status load_check_displacement_known(const struct boundary *b)
 {
-    if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_in_time(b)) return OK;
+    if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_uses_time(b)) return OK;
     return status_set(
         REFUSED,
         "boundary %s: with this solver or frame a velocity that is a formula of t cannot be integrated to a "
@@ -100,7 +100,8 @@ real prescribed_velocity_at(const struct prescribed_motion *s, const real *X, in
         return (prescribed_displacement_at(&s->to, X, d) - prescribed_displacement_at(&s->from, X, d)) / s->dt;
     if (!b->rotates)
         return s->factor * b->value[d] *
-               (b->formula[d].n > 0 ? expression_evaluate(&b->formula[d], X, s->dim, boundary_time(b, s->t)) : 1);
+               (b->formula[d].n > 0 ? expression_evaluate(&b->formula[d], X, s->dim, boundary_evaluation_time(b, s->t))
+                                    : 1);
     for (int k = 0; k < s->dim; k++) arm[k] = X[k] - b->centre[k];
     if (placed) return rotation_increment(s, arm, d) / s->dt;
     for (int k = 0; k < s->dim; k++)
@@ -144,7 +145,7 @@ static real velocity_jump_at(const struct load *l, const struct particles *p, in
 {
     const int32_t i = l->particle[k];
     real X[DIM_MAX], jump2 = 0, driven2 = 0, own2 = 0;
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (int d = 0; d < p->dim; d++) {
         if (!(l->boundary->components >> d & 1)) continue;
         const real v = prescribed_velocity_at(by, X, d, false);
@@ -181,7 +182,7 @@ static real velocity_change_at(const struct load *l, const struct particles *p, 
 {
     const bool own = by[0].t <= 0;
     real X[DIM_MAX], change2 = 0, now2 = 0, then2 = 0;
-    particle_place(p, l->particle[k], X);
+    particle_reference_position(p, l->particle[k], X);
     for (int d = 0; d < p->dim; d++) {
         if (!(l->boundary->components >> d & 1)) continue;
         const real now = prescribed_velocity_at(&by[1], X, d, false);
@@ -204,7 +205,7 @@ real load_velocity_change(const struct load *l, const struct particles *p, real 
         for (int n = 0; n < LAGS; n++, lag *= 0.6) {
             const struct prescribed_motion by[] = {prescribed_motion_make(b, p->dim, at - lag, dt),
                                                    prescribed_motion_make(b, p->dim, at, dt)};
-            for (int64_t k = 0; k < l->n; k += drives_by_place(b) ? 1 + l->n / PLACES : l->n)
+            for (int64_t k = 0; k < l->n; k += boundary_motion_varies_in_space(b) ? 1 + l->n / PLACES : l->n)
                 most = real_max(most, velocity_change_at(l, p, k, by));
         }
     }
@@ -216,13 +217,13 @@ real loads_velocity_difference(const struct load *a, const struct load *b, const
     const unsigned both = a->boundary->components & b->boundary->components;
     real most = 0;
     if (both == 0 || a->n == 0 || b->n == 0) return 0;
-    if (drives_by_place(a->boundary) || drives_by_place(b->boundary)) return INFINITY;
+    if (boundary_motion_varies_in_space(a->boundary) || boundary_motion_varies_in_space(b->boundary)) return INFINITY;
     for (int m = 0; m < MOMENTS; m++) {
         const real at = t * m / (MOMENTS - 1), dt = t / MOMENTS;
         const struct prescribed_motion by[] = {prescribed_motion_make(a->boundary, p->dim, at, dt),
                                                prescribed_motion_make(b->boundary, p->dim, at, dt)};
         real X[2][DIM_MAX], apart2 = 0;
-        particle_place(p, a->particle[0], X[0]), particle_place(p, b->particle[0], X[1]);
+        particle_reference_position(p, a->particle[0], X[0]), particle_reference_position(p, b->particle[0], X[1]);
         for (int d = 0; d < p->dim; d++)
             if (both >> d & 1)
                 apart2 += square(prescribed_velocity_at(&by[0], X[0], d, false) - p->v[d][a->particle[0]] -

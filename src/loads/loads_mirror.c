@@ -149,7 +149,7 @@ void loads_flag_clamped_mirrors(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *clamp = l->load[b].boundary;
-        for (int64_t i = 0; i < p->n && is_clamp(clamp, p->dim); i++)
+        for (int64_t i = 0; i < p->n && boundary_is_clamped_mirror(clamp, p->dim); i++)
             if ((clamp->body < 0 || p->body[i] == clamp->body) && fabs(p->X[clamp->axis][i] - clamp->at) <= l->reach)
                 l->loaded[i] |= MOVES_LATER;
     }

@@ -19,8 +19,8 @@ static real formula_at(const struct boundary *b, int d, const struct particles *
 {
     real X[DIM_MAX];
     if (formula_of(b, d)->n == 0) return 1;
-    particle_place(p, i, X);
-    return expression_evaluate(formula_of(b, d), X, p->dim, boundary_time(b, t));
+    particle_reference_position(p, i, X);
+    return expression_evaluate(formula_of(b, d), X, p->dim, boundary_evaluation_time(b, t));
 }
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
@@ -35,7 +35,7 @@ static status formula_finite(const struct load *l, const struct particles *p, re
             if (isfinite(formula_at(b, d, p, i, t))) continue;
             return status_set(fault, "boundary %s: its formula has no finite value at (%.4g, %.4g, %.4g) m, %.4g s",
                               b->name, p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0,
-                              boundary_time(b, t));
+                              boundary_evaluation_time(b, t));
         }
     return OK;
 }
@@ -44,7 +44,7 @@ status loads_check_finite(const struct loads *l, const struct particles *p, real
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *by = l->load[b].boundary;
-        if (boundary_in_time(by)) TRY(status_prepend_location(by->place, formula_finite(&l->load[b], p, t, FAILED)));
+        if (boundary_uses_time(by)) TRY(status_prepend_location(by->place, formula_finite(&l->load[b], p, t, FAILED)));
     }
     return OK;
 }
@@ -68,8 +68,8 @@ status load_prepare_shares(struct load *l, const struct particles *p)
     bool any = false;
     for (int d = 0; d < p->dim; d++) any |= b->formula[d].n > 0;
     if (any) TRY(formula_finite(l, p, 0, REFUSED));
-    if (!boundary_is_force(b) || l->n == 0) return OK;
-    l->moving = l->surface || (boundary_in_time(b) && !b->frozen);
+    if (!boundary_applies_force(b) || l->n == 0) return OK;
+    l->moving = l->surface || (boundary_uses_time(b) && !b->frozen);
     if (any) shares_part(l, p, !l->moving, b->frozen_at);
     for (int d = 0; d < p->dim && l->moving; d++) {
         l->base[d] = NEW("loads.base", l->n, real);
@@ -138,7 +138,7 @@ void load_force_at(const struct load *l, const struct particles *p, int64_t k, r
     }
 }
 
-void load_sum_applied(struct load *l, const struct particles *p, real t)
+void load_sum_force_and_motion(struct load *l, const struct particles *p, real t)
 {
     real force[DIM_MAX], *const *share = l->moving ? l->base : l->share;
     memset(l->reaction, 0, sizeof l->reaction);

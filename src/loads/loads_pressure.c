@@ -50,7 +50,7 @@ void pressure_visit_faces(const struct boundary *all, int n, int which, const st
     for (one.face = 0; one.face < p->dim; one.face++)
         for (one.side = -1; one.side <= 1; one.side += 2) {
             struct ends e = {&one, all, n, p, spacing, found, context};
-            face_visit_columns(&one, p, selected, spacing, end_found, &e);
+            face_visit_surface_particles(&one, p, selected, spacing, end_found, &e);
         }
 }
 
@@ -107,7 +107,7 @@ status load_find_pressure_faces(struct load *l, const struct boundary *boundary,
     status s = OK;
     if (b->kind != BOUNDARY_PRESSURE) return OK;
     uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
-    const bool any = load_mark_region(b, p, spacing, selected);
+    const bool any = load_mark_particles_in_region(b, p, spacing, selected);
     for (int d = 0; d < p->dim; d++) area[d] = NEW("loads.area", p->n, real);
     struct pressed pressed = {area, follows ? &faces : NULL};
     if (any) pressure_visit_faces(boundary, n, which, p, spacing, selected, face_pressed, &pressed);

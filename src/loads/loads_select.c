@@ -8,7 +8,7 @@
 static bool selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     if (b->body >= 0 && p->body[i] != b->body) return false;
     return region_contains(&b->region, X, p->dim, LOADS_TOLERANCE * spacing);
 }
@@ -28,7 +28,7 @@ static real profile_at(const struct profile *f, const struct particles *p, int64
 {
     real X[DIM_MAX], along = 0;
     if (f->kind == PROFILE_UNIFORM) return 1;
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (int d = 0; d < p->dim; d++) along += (X[d] - f->origin[d]) * f->direction[d];
     return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
 }
@@ -65,37 +65,37 @@ void load_set_particles(struct load *l, const uint8_t *taken, struct particles *
         l->particle[k++] = (int32_t)i;
         if (l->boundary->kind == BOUNDARY_VELOCITY) p->flag[i] |= FLAG_DRIVEN;
     }
-    if (boundary_is_force(l->boundary)) shares_allocate(l, p->dim);
+    if (boundary_applies_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
 /* Lists the particles of the exposed face of a traction; their shares are areas. */
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
-    struct face face;
+    struct exposed_face face;
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
-    face_make(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
+    exposed_face_make(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
     for (int64_t i = 0; i < p->n; i++) chosen[i] = face.normal[i] != 0 || face.along[i] != 0;
     load_set_particles(l, chosen, p);
     for (int64_t k = 0; k < l->n; k++)
         for (int d = 0; d < p->dim; d++)
             l->share[d][k] = (d == l->boundary->face ? face.normal : face.along)[l->particle[k]];
     memory_free(chosen);
-    face_free(&face);
+    exposed_face_free(&face);
 }
 
 /* Lists the particles of an absorbing face and their areas. */
 static void select_absorbing(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
-    struct face face;
+    struct exposed_face face;
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
-    face_make(&face, l->boundary, p, selected, spacing, true);
+    exposed_face_make(&face, l->boundary, p, selected, spacing, true);
     for (int64_t i = 0; i < p->n; i++) chosen[i] = face.along[i] != 0;
     load_set_particles(l, chosen, p);
     l->outer = NEW("loads.outer", l->n, real), l->edge = NEW("loads.edge", l->n, real);
     for (int64_t k = 0; k < l->n; k++)
         l->outer[k] = face.normal[l->particle[k]], l->edge[k] = face.along[l->particle[k]];
     memory_free(chosen);
-    face_free(&face);
+    exposed_face_free(&face);
 }
 
 /* Lists the particles of a driven layer behind a face. */
@@ -107,7 +107,7 @@ static void select_layer(struct load *l, const uint8_t *selected, struct particl
     memory_free(taken);
 }
 
-bool load_mark_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected)
+bool load_mark_particles_in_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected)
 {
     bool any = false;
     for (int64_t i = 0; i < p->n; i++) {
@@ -125,7 +125,7 @@ static bool is_in_plane(const struct boundary *b, const struct particles *p, int
 
 status load_find_particles(struct load *l, const struct boundary *b, struct particles *p, real spacing)
 {
-    const bool clamp = is_clamp(b, p->dim);
+    const bool clamp = boundary_is_clamped_mirror(b, p->dim);
     bool any = false;
     l->boundary = b;
     if ((b->kind == BOUNDARY_MIRROR && !clamp) || b->kind == BOUNDARY_PRESSURE) return OK;
@@ -144,7 +144,7 @@ status load_find_particles(struct load *l, const struct boundary *b, struct part
         load_set_particles(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
-    if (!any && (boundary_is_force(b) || needs_face(b)))
+    if (!any && (boundary_applies_force(b) || needs_face(b)))
         return status_set(REFUSED, "boundary %s: no particle is in its region", b->name);
     if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,

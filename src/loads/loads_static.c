@@ -6,25 +6,26 @@
 
 #define ROUND_OFF 1e-12 /* share of the largest possible moment below which a moment counts as 0 */
 
-void loads_make_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp)
+void loads_make_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration,
+                                  real ramp_time)
 {
     for (int b = 0; b < n; b++) {
         real factor = 1;
         to[b] = from[b];
         to[b].frozen = true, to[b].frozen_at = duration;
-        if (boundary_is_force(&from[b]) || from[b].displaces) {
+        if (boundary_applies_force(&from[b]) || from[b].displaces) {
             factor = time_function_value(&from[b].time, duration);
-            to[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp};
+            to[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp_time};
         } else if (from[b].kind == BOUNDARY_VELOCITY) {
-            factor = time_function_integral(&from[b].time, duration) / ramp;
-            to[b].time = (struct time_function){.kind = TIME_STEP, .until = ramp};
+            factor = time_function_integral(&from[b].time, duration) / ramp_time;
+            to[b].time = (struct time_function){.kind = TIME_STEP, .until = ramp_time};
         }
         for (int d = 0; d < DIM_MAX; d++) to[b].value[d] = factor * from[b].value[d];
     }
 }
 
 /* Returns true if the work of the support must be summed over its particles, because their displacements differ. */
-static bool works_by_place(const struct boundary *b) { return b->frozen && drives_by_place(b); }
+static bool works_by_place(const struct boundary *b) { return b->frozen && boundary_motion_varies_in_space(b); }
 
 /* Returns the final displacement of component d of the k-th particle of a load; k < 0: of a load without particles
  * [m]. */
@@ -32,18 +33,18 @@ static real static_displacement(const struct prescribed_displacement *by, const 
                                 const struct particles *p, int64_t k, int d)
 {
     real X[DIM_MAX] = {0};
-    if (k >= 0) particle_place(p, l->particle[k], X);
+    if (k >= 0) particle_reference_position(p, l->particle[k], X);
     return prescribed_displacement_at(by, X, d);
 }
 
-void loads_static_displacements(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
-                                uint8_t *held)
+void static_displacements_compute(struct loads *l, const struct particles *p, real ramp_time, real *const *displacement,
+                                  uint8_t *held)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         const struct boundary *b = load->boundary;
         if (b->kind != BOUNDARY_VELOCITY) continue;
-        const struct prescribed_displacement by = prescribed_displacement_make(b, p->dim, ramp);
+        const struct prescribed_displacement by = prescribed_displacement_make(b, p->dim, ramp_time);
         for (int d = 0; d < p->dim; d++) {
             real sum = 0;
             if (!(b->components >> d & 1)) continue;
@@ -52,8 +53,9 @@ void loads_static_displacements(struct loads *l, const struct particles *p, real
                 sum += displacement[d][i] = static_displacement(&by, load, p, k, d);
                 held[i] |= (uint8_t)(1 << d);
             }
-            load->displacement[d] =
-                drives_by_place(b) && load->n > 0 ? sum / (real)load->n : static_displacement(&by, load, p, -1, d);
+            load->displacement[d] = boundary_motion_varies_in_space(b) && load->n > 0
+                                        ? sum / (real)load->n
+                                        : static_displacement(&by, load, p, -1, d);
         }
     }
 }
@@ -65,7 +67,7 @@ static void moment(const struct loads *l, const struct particles *p, real *turni
     *turning = *most = 0;
     for (int c = 0; c < l->n; c++) {
         const struct load *load = &l->load[c];
-        if (!boundary_is_force(load->boundary)) continue;
+        if (!boundary_applies_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++) {
             const real *value = load->boundary->value;
             const real x = p->X[0][load->particle[k]] - l->centre[0], y = p->X[1][load->particle[k]] - l->centre[1];
@@ -100,7 +102,7 @@ void loads_add_static_forces(const struct loads *l, struct particles *p)
     }
     for (int c = 0; c < l->n; c++) {
         const struct load *load = &l->load[c];
-        if (!boundary_is_force(load->boundary)) continue;
+        if (!boundary_applies_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[d][k];
     }
@@ -136,7 +138,7 @@ void loads_compute_static_work(struct loads *l, const struct particles *p)
             if (b->kind == BOUNDARY_VELOCITY && !works_by_place(b))
                 l->constraint_work += 0.5 * load->reaction[d] * load->displacement[d];
         l->constraint_work += 0.5 * load->held_work;
-        if (!boundary_is_force(b)) continue;
+        if (!boundary_applies_force(b)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
                 const int32_t i = load->particle[k];

@@ -85,7 +85,7 @@ static bool load_holds(const struct load *load, const struct grid *g, const stru
 /* Computes the position of node I [m]. mesh: that of the grid, NULL: none. */
 static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, real *x)
 {
-    const int64_t at = mesh ? mesh_base(mesh, I) : I;
+    const int64_t at = mesh ? mesh_regular_node_of(mesh, I) : I;
     for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
@@ -112,7 +112,7 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
         const bool behind = mesh && I >= mesh->slits.first;
-        if (behind && mesh_base(mesh, I) == I) continue; /* unused index */
+        if (behind && mesh_regular_node_of(mesh, I) == I) continue; /* unused index */
         if (!behind && node_mirrored(l, g, I, &mirror_node)) {
             grid_add_mirror_node(g, &mirror_node);
             continue;
@@ -148,7 +148,8 @@ static bool constrained_is_current(const struct constrained_set *s, const struct
 /* Returns true if particle i is a point of this grid. */
 static bool point_is_on(const struct grid *g, const struct particles *p, int32_t i)
 {
-    return particle_on_grid(p, i) && !(p->flag[i] & FLAG_MESHED) && (g->body == 0 || g->body == p->body[i] + 1);
+    return particle_moves_with_nodes(p, i) && !(p->flag[i] & FLAG_MESHED) &&
+           (g->body == 0 || g->body == p->body[i] + 1);
 }
 
 /* Maps the mass of a load's driven material points to the nodes, into l->share [kg]. Returns the number of these
@@ -236,8 +237,9 @@ static void constrained_walls(const struct constrained_set *s, struct grid *g, c
     }
 }
 
-void loads_set_grid_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
-                          const struct kernels *k, real half_width, real t, real dt)
+void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *held, struct grid *g,
+                                     const struct particles *p, const struct kernels *k, real half_width, real t,
+                                     real dt)
 {
     struct driven_by by[BOUNDARIES_MAX];
     g->walls = 0;
@@ -260,8 +262,8 @@ static void driven_masses(const struct load *load, const struct mesh *mesh, cons
     for (int64_t k = 0; k < load->n; k++) {
         const int32_t i = load->particle[k];
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
-            const int64_t I = mesh_node(mesh, mesh->place[i] >> p->dim, c);
-            share[I] += p->mass[i] * mesh_weight(p->dim, c, mesh->place[i] & ((1 << p->dim) - 1));
+            const int64_t I = mesh_cell_corner_node(mesh, mesh->place[i] >> p->dim, c);
+            share[I] += p->mass[i] * mesh_shape_function_value(p->dim, c, mesh->place[i] & ((1 << p->dim) - 1));
             mark[I] = 1;
         }
     }
@@ -275,7 +277,7 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
     real *share = BLANK("loads.mesh_share", n, real);
     uint8_t *mark = NEW("loads.mesh_mark", n + LANES, uint8_t);
     driven_masses(load, mesh, p, share, mark);
-    for (int64_t I = next_marked(mark, 0, n); I < n; I = next_marked(mark, I + 1, n))
+    for (int64_t I = next_marked_index(mark, 0, n); I < n; I = next_marked_index(mark, I + 1, n))
         for (int d = 0; d < p->dim; d++)
             if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] &&
                 load->boundary->components >> d & 1 && !constrained_by_region(l, load, mesh, I, d))
@@ -284,7 +286,7 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
     memory_free(mark);
 }
 
-void loads_find_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p)
+void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p)
 {
     if (mesh->points == 0) return;
     /* regions and mirrors are constant; driven nodes depend on masses */
@@ -298,8 +300,8 @@ void loads_find_mesh_nodes(struct loads *l, struct mesh *mesh, const struct part
     loads_add_mesh_dashpots(l, mesh, p);
 }
 
-void loads_find_level_nodes(const struct loads *l, struct constrained_set *held, struct grid *g,
-                            const struct particles *p)
+void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set *held, struct grid *g,
+                                   const struct particles *p)
 {
     if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p, true);
 }
@@ -314,12 +316,13 @@ static void reference_walls(const struct loads *l, const struct constrained_set 
     constrained_walls(held, g, mesh, by, true);
 }
 
-void loads_set_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt)
+void loads_prescribe_level_velocities(const struct loads *l, const struct constrained_set *held, struct grid *g, real t,
+                                      real dt)
 {
     reference_walls(l, held, g, NULL, t, dt);
 }
 
-void loads_set_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
+void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt)
 {
     reference_walls(l, &l->constrained_mesh, &mesh->grid, mesh, t, dt);
 }

@@ -90,7 +90,7 @@ void active_nodes_add_exposed(struct mesh *mesh)
     const int dim = mesh->grid.dim;
     for (int64_t k = 0; k < mesh->exposed && mesh->active.is_current; k++)
         for (int c = 0; c < 1 << dim; c++)
-            mesh_activate(mesh, mesh_block(mesh, mesh_node(mesh, mesh->exposed_list[k].cell, c)));
+            mesh_activate(mesh, mesh_block_of_node(mesh, mesh_cell_corner_node(mesh, mesh->exposed_list[k].cell, c)));
     active_set_rebuild_list(&mesh->active);
 }
 
@@ -113,7 +113,8 @@ static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
     for (int64_t k = 0; k < r->blocks; k++)
         if (r->moved[k]) mesh_activate(mesh, k);
     for (int64_t k = 0; k < mesh->grid.walls; k++)
-        if (!wall_is_fixed(l, &mesh->grid.wall[k])) mesh_activate(mesh, mesh_block(mesh, mesh->grid.wall[k].node));
+        if (!wall_is_fixed(l, &mesh->grid.wall[k]))
+            mesh_activate(mesh, mesh_block_of_node(mesh, mesh->grid.wall[k].node));
     active_nodes_add_exposed(mesh); /* makes the list */
 }
 

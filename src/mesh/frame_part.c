@@ -12,7 +12,8 @@
 
 /* Returns the reason why a body for which the scene does not choose a frame cannot be in the reference frame; NULL if
  * it can. The body must be one piece on one lattice, with particles at the quarter points of cells. */
-static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm, const struct hollow *hollow)
+static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm,
+                                  const struct cells_without_particles *hollow)
 {
     const int64_t pieces = mesh_count_parts(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
@@ -33,7 +34,8 @@ static void frames_mark(struct particles *part, struct reference_frame *frame)
         if (frame->choice[part->body[i]].reference) part->flag[i] |= FLAG_MESHED;
 }
 
-status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p, const struct scene *s)
+status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
+                          const struct scene *s)
 {
     r->bodies = s->bodies;
     r->spacing = s->spacing;
@@ -44,31 +46,32 @@ status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct 
     r->choice = NEW("engine.frame", s->bodies, struct frame_choice);
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++) {
         const enum grid_frame said = s->body[b].frame;
-        const char *why = scene_frame_unsupported(s, b);
+        const char *why = scene_why_frame_unsupported(s, b);
         if (why && said == FRAME_REFERENCE)
             return status_set(REFUSED, "mpm.frame: body %s cannot be in the reference frame: %s", s->body[b].name, why);
         take_frame(&r->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene says so" : s->body[b].frame_reason);
     }
-    grid_part_make(mpm, s, p, frame_in_use(r));
+    background_grids_make(mpm, s, p, reference_frame_in_use(r));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
         const char *why = frame_obstacle(p, mpm, &r->hollow);
         take_frame(&r->choice[0], !why,
                    why             ? why
                    : s->rigids > 0 ? "it keeps its neighbours and meets no other body but rigid ones"
                                    : "it keeps its neighbours and meets no other body");
-        if (why) grid_part_make(mpm, s, p, frame_in_use(r));
+        if (why) background_grids_make(mpm, s, p, reference_frame_in_use(r));
     }
     frames_mark(p, r);
     return OK;
 }
 
-bool frame_allowed(const struct reference_frame *r, const struct particles *p, const struct grid_method *mpm)
+bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p,
+                                 const struct grid_method *mpm)
 {
     return mesh_count_parts(p, &mpm->field[0].grid, &r->hollow) == 1;
 }
 
-bool frame_in_use(const struct reference_frame *r)
+bool reference_frame_in_use(const struct reference_frame *r)
 {
     for (int b = 0; b < r->bodies; b++)
         if (r->choice[b].reference) return true;
@@ -98,10 +101,10 @@ void frame_find_exposed_points(struct reference_frame *r, const struct particles
                                struct loads *loads)
 {
     mesh_find_exposed(&r->mesh, p, bonds, loads);
-    loads_find_mesh_nodes(loads, &r->mesh, p);
+    loads_find_driven_mesh_nodes(loads, &r->mesh, p);
 }
 
-status frame_make(struct run *e, const struct mesh_source *cuts, bool still)
+status reference_frame_make(struct run *e, const struct mesh_source *cuts, bool motion_set_later)
 {
     struct reference_frame *r = e->frame;
     const struct grid *g = &e->grid->field[0].grid;
@@ -116,7 +119,7 @@ status frame_make(struct run *e, const struct mesh_source *cuts, bool still)
                                      .voids = grid_mirror_off_nodes(g, e->scene) ? NULL : e->source.voids,
                                      .mirror = e->source.mirror,
                                      .mirrors = e->source.mirrors,
-                                     .still = still};
+                                     .still = motion_set_later};
     TRY(mesh_make(&r->mesh, &e->part, g, &r->source));
     /* a mesh rebuilt after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
@@ -128,7 +131,7 @@ status frame_make(struct run *e, const struct mesh_source *cuts, bool still)
 /* Returns the critical time step of the mesh [s], INFINITY without points. Conversion may leave any subset of points in
  * a cell: with partial stress no such cell has a smaller critical step than the initial cells, with hand-shake coupling
  * a cell with a single point has. */
-real frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
+real reference_frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
@@ -152,36 +155,36 @@ void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_
     mesh_clear(&r->mesh);
     mesh_exposed_force(&r->mesh, p);
     mesh_force(&r->mesh, p, r->elastic, r->finite);
-    levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_due(&r->levels, step));
+    levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_acting(&r->levels, step));
 }
 
 /* Sets the walls, i.e. the prescribed velocities of nodes, of the mesh and of coarse levels 1 .. due, whose steps are
  * 2^level times as long. middle: time in the middle of the step of the mesh [s]. */
 static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
-    loads_set_mesh_walls(loads, &r->mesh, middle, dt);
+    loads_prescribe_mesh_velocities(loads, &r->mesh, middle, dt);
     for (int k = 1; k <= due; k++) {
         struct mesh_level *level = &r->levels.at[k];
         const real longer = (real)(1 << k) * dt;
-        loads_set_level_walls(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt), longer);
+        loads_prescribe_level_velocities(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt), longer);
     }
 }
 
 /* Adds the reactions on the walls of the mesh and of coarse levels 1 .. due to their loads. */
 static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
-    loads_add_reactions(loads, &frame->mesh.grid, dt_velocity);
+    loads_add_grid_reactions(loads, &frame->mesh.grid, dt_velocity);
     for (int level = 1; level <= due; level++)
-        loads_add_reactions(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
+        loads_add_grid_reactions(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
 void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
-                      const struct run_clock *clock, real middle, real dt_velocity)
+                      const struct run_clock *clock, real t_middle, real dt_velocity)
 {
-    const int due = levels_highest_due(&r->levels, clock->step);
+    const int due = levels_highest_acting(&r->levels, clock->step);
     if (r->mesh.points == 0) return;
     if (r->converts) mesh_points_mark(&r->mesh, p, r->elastic, r->finite);
-    nodes_walls(r, loads, middle, clock->dt, due);
+    nodes_walls(r, loads, t_middle, clock->dt, due);
     r->speed = r->levels.n > 0
                    ? levels_move(&r->levels, clock->dt, dt_velocity, due, loads->impulse, &loads->constraint_work)
                    : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
@@ -194,7 +197,7 @@ void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loa
 void frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
-    levels_prolong_points(&r->levels);
+    levels_prolong_motion_to_points(&r->levels);
     mesh_points_move(&r->mesh, p);
     loads_update_images(loads, p);
 }
@@ -215,24 +218,25 @@ void frame_update_listed_points(struct reference_frame *r, struct particles *p, 
 }
 
 bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
-                                   const struct partial_stress *partial, real *damped)
+                                   const struct partial_stress *partial, real *energy_lost)
 {
     if (r->mesh.points == 0) return false;
     /* if bonds break without conversion, the same cells stay partial: their stiffness is recomputed in place */
     if (converted == 0 && mesh_update_partial_stiffness(&r->mesh, p, &r->source, partial->touched, partial->touches))
         return false;
-    *damped += mesh_remove_converted(&r->mesh, p, &r->source, partial->touched, partial->touches);
+    *energy_lost += mesh_remove_converted(&r->mesh, p, &r->source, partial->touched, partial->touches);
     return true;
 }
 
-void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped)
+void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
+                         real *energy_lost)
 {
     int32_t *own = NEW("engine.own", n, int32_t);
     int64_t m = 0;
     for (int64_t k = 0; k < n; k++)
         if (r->mesh.place && r->choice[p->body[list[k]]].reference) own[m++] = list[k];
     if (m > 0) {
-        *damped += mesh_insert_points(&r->mesh, p, own, m);
+        *energy_lost += mesh_insert_points(&r->mesh, p, own, m);
         active_nodes_activate_all(&r->mesh);
     }
     memory_free(own);

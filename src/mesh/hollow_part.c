@@ -17,15 +17,16 @@ enum { AHEAD = 4 };     /* range of cells around level 0 that have particles, as
 
 /* Returns the reason in words why all particles of scene s must be made, or NULL if particles inside coarse cells may
  * be left out. */
-const char *frame_hollow_why_not(const struct scene *s)
+const char *why_all_particles_are_needed(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene says so";
-    if (s->method == METHOD_PD || scene_at_rest(s) || s->levels == 0) return "there are no coarse cells";
+    if (s->method == METHOD_PD || scene_is_single_equilibrium(s) || s->levels == 0) return "there are no coarse cells";
     if (s->bodies != 1 || s->rigids > 0) return "bodies may meet";
     if (s->body[0].file) return "they come from a list";
-    if (scene_scatters(s)) return "strength scatters from place to place";
+    if (scene_strength_scatters(s)) return "strength scatters from place to place";
     if (s->body[0].parts > 0) return "the body has parts of other materials";
-    if (s->body[0].frame == FRAME_CURRENT || scene_frame_not_default(s, 0)) return "the body is in the current frame";
+    if (s->body[0].frame == FRAME_CURRENT || scene_why_frame_not_default(s, 0))
+        return "the body is in the current frame";
     if (s->initials > 0 || dot(s->body[0].velocity, s->body[0].velocity, s->dim) > 0) return "the body moves at first";
     if (s->growths > 0) return "cracks grow by growth";
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) return "peridynamic particles may become points again";
@@ -89,7 +90,7 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 
 /* Returns true if a load acts on a face of cell I, beside which the next cell is not completely inside the body, or on
  * a layer behind such a face that contains the cell. X: a point of the cell. */
-static bool face_loaded(const struct scene *s, const struct hollow *h, int64_t I, const real *X)
+static bool face_loaded(const struct scene *s, const struct cells_without_particles *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *load = &s->boundary[b];
@@ -132,11 +133,12 @@ static bool probed(const struct scene *s, const real *X, real h)
 
 /* Returns true if cell I must have particles: near pre-cracks and probes, in regions of loads and on loaded faces, and
  * near the region that is peridynamic from the start. */
-static bool cell_needed(const struct scene *s, const struct bond_source *source, const struct hollow *h, int64_t I)
+static bool cell_needed(const struct scene *s, const struct bond_source *source,
+                        const struct cells_without_particles *h, int64_t I)
 {
     for (int c = 0; c < 1 << s->dim; c++) {
         real X[DIM_MAX] = {0};
-        for (int d = 0; d < s->dim; d++) X[d] = grid_quarter(&h->box, I, c, d);
+        for (int d = 0; d < s->dim; d++) X[d] = grid_cell_particle_coordinate(&h->box, I, c, d);
         if (c == 0 && (near_cracks(s, source, X, h->box.h) || probed(s, X, h->box.h))) return true;
         if (loads_reach(s, X, s->spacing) || face_loaded(s, h, I, X)) return true;
         if (s->has_pd_region && region_contains(&s->pd_region, X, s->dim, 2 * source->family.cutoff)) return true;
@@ -144,10 +146,11 @@ static bool cell_needed(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-status frame_hollow_choose_cells(struct hollow *h, const struct scene *s, const struct bond_source *source)
+status cells_without_particles_choose(struct cells_without_particles *h, const struct scene *s,
+                                      const struct bond_source *source)
 {
     int64_t absent = 0;
-    if (h->whole || frame_hollow_why_not(s)) return OK;
+    if (h->whole || why_all_particles_are_needed(s)) return OK;
     TRY(box_find(&h->box, s));
     const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
     if (h->box.n <= least) return OK;
@@ -170,7 +173,7 @@ status frame_hollow_choose_cells(struct hollow *h, const struct scene *s, const 
 
 /* Returns true if a cell that has level 0 (the finest) by level[mesh->grid.n] has no particles, so that the run must be
  * set up again with more particles. */
-bool frame_hollow_lacks_particles(const struct mesh *mesh, const uint8_t *level)
+bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
         if (mesh->absent[I] && level[I] == 0) return true;
@@ -181,26 +184,26 @@ bool frame_hollow_lacks_particles(const struct mesh *mesh, const uint8_t *level)
  * cells from level 0. A coarse cell has all of its particles or none. The caller frees them. */
 static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
 {
-    const struct hollow *h = &r->hollow;
+    const struct cells_without_particles *h = &r->hollow;
     const struct grid *g = &r->mesh.grid;
     uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
     for (int64_t I = 0; I < g->n; I++) { /* also where bonds have taken all points of a cell */
-        const int64_t J = grid_same_cell(g, I, &h->box);
+        const int64_t J = grid_cell_in_other_grid(g, I, &h->box);
         keep[I] = level[I] == 0 && (mesh_cell_has_body(&r->mesh, I) || (J >= 0 && h->whole[J]));
     }
     levels_dilate(&r->levels, keep, ahead);
     for (int64_t I = 0; I < g->n; I++) {
-        const int64_t J = grid_same_cell(g, I, &h->box);
+        const int64_t J = grid_cell_in_other_grid(g, I, &h->box);
         keep[I] = keep[I] || J < 0 || !h->whole[J];
     }
-    levels_mark_cells(&r->levels, level, keep);
+    levels_extend_marks_to_cells(&r->levels, level, keep);
     for (int64_t I = 0; I < g->n; I++)
-        if (!keep[I]) absent[grid_same_cell(g, I, &h->box)] = 1;
+        if (!keep[I]) absent[grid_cell_in_other_grid(g, I, &h->box)] = 1;
     memory_free(keep);
     return absent;
 }
 
-bool frame_hollow_check_start(struct reference_frame *r, const uint8_t *level)
+bool initial_levels_have_particles(struct reference_frame *r, const uint8_t *level)
 {
     if (!r->hollow.absent) return true;
     if (r->hollow.restored) return false; /* the checkpoint contains the levels */
@@ -209,7 +212,7 @@ bool frame_hollow_check_start(struct reference_frame *r, const uint8_t *level)
         r->hollow.absent = NULL, r->lacks = true;
         return false;
     }
-    r->lacks = frame_hollow_lacks_particles(&r->mesh, level);
+    r->lacks = levels_need_more_particles(&r->mesh, level);
     if (!r->lacks) return true;
     uint8_t *absent = absent_with(r, level, 0);
     for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
@@ -217,7 +220,7 @@ bool frame_hollow_check_start(struct reference_frame *r, const uint8_t *level)
     return false;
 }
 
-void frame_hollow_update_cells(struct reference_frame *r, const uint8_t *level)
+void cells_without_particles_update(struct reference_frame *r, const uint8_t *level)
 {
     uint8_t *absent = absent_with(r, level, AHEAD);
     memory_free(r->hollow.absent);

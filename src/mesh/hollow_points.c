@@ -13,7 +13,7 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
     for (int c = 0; c < 1 << g->dim; c++) {
         const int64_t i = first + c;
         point[c] = (int32_t)i;
-        for (int d = 0; d < g->dim; d++) p->X[d][i] = grid_quarter(g, cell, c, d);
+        for (int d = 0; d < g->dim; d++) p->X[d][i] = grid_cell_particle_coordinate(g, cell, c, d);
         p->volume0[i] = p->volume[i] = mesh->volume;
         p->material[i] = mesh->material[cell];
         p->mass[i] = m[p->material[i]].density * mesh->volume;
@@ -42,7 +42,7 @@ static void level_points(struct reference_frame *r, const struct particles *body
     memory_free(mesh.point);
 }
 
-void frame_hollow_points_free(struct hollow_points *h)
+void coarse_cell_points_free(struct coarse_cell_points *h)
 {
     particles_free(&h->part);
     memory_free(h->spacing);
@@ -53,13 +53,13 @@ void frame_hollow_points_free(struct hollow_points *h)
     }
 }
 
-bool frame_hollow_make_points(struct reference_frame *r, const struct particles *body, const struct material *m,
-                              bool gradients)
+bool coarse_cell_points_make(struct reference_frame *r, const struct particles *body, const struct material *m,
+                             bool gradients)
 {
     struct mesh_levels *l = &r->levels;
     const int dim = body->dim;
     int64_t cells[LEVELS_MAX + 1] = {0}, points = 0;
-    frame_hollow_points_free(&r->shown);
+    coarse_cell_points_free(&r->shown);
     if (!r->hollow.absent) return false;
     for (int level = 1; level <= l->n; level++)
         points += (cells[level] = levels_list_hollow_cells(l, level, NULL)) << dim;

@@ -14,8 +14,8 @@ static void corner_find(struct mesh_levels *l, const struct particles *p)
     const struct grid *g = &l->fine->grid;
     real low, high;
     for (int d = 0; d < g->dim; d++) {
-        particles_extent(p, p->n, d, &low, &high);
-        l->offset[0][d] = grid_cell(g, d, low) - g->first[d];
+        particles_coordinate_range(p, p->n, d, &low, &high);
+        l->offset[0][d] = grid_cell_index_at(g, d, low) - g->first[d];
     }
 }
 
@@ -81,13 +81,13 @@ void levels_copy_to_ghosts(struct mesh_levels *l)
     for (int level = 1; level <= l->n; level++) levels_update_ghosts(l, level);
 }
 
-void levels_prolong(struct mesh_levels *l)
+void levels_prolong_motion(struct mesh_levels *l)
 {
     levels_copy_to_ghosts(l);
     if (l->n > 0) levels_interpolate(l, true);
 }
 
-void levels_prolong_points(struct mesh_levels *l)
+void levels_prolong_motion_to_points(struct mesh_levels *l)
 {
     levels_copy_to_ghosts(l);
     if (l->n > 0) levels_interpolate(l, false);
@@ -99,7 +99,7 @@ bool levels_find_inverted_cell(const struct mesh_levels *l, real *X)
         const struct mesh *mesh = &l->at[level].mesh;
         for (int64_t I = 0; I < mesh->grid.n; I++) {
             if (mesh->kind[I] != CELL_WHOLE || !mesh_cell_inverted(mesh, I)) continue;
-            for (int d = 0; d < mesh->grid.dim; d++) X[d] = grid_quarter(&mesh->grid, I, 0, d);
+            for (int d = 0; d < mesh->grid.dim; d++) X[d] = grid_cell_particle_coordinate(&mesh->grid, I, 0, d);
             return true;
         }
     }
@@ -110,11 +110,11 @@ int64_t levels_list_hollow_cells(const struct mesh_levels *l, int level, int64_t
 {
     const struct mesh *mesh = &l->at[level].mesh;
     int64_t n = 0, k[DIM_MAX] = {0};
-    for (int64_t I = 0; I < mesh->grid.n && l->fine->absent; I++, walk_on(&mesh->grid, k)) {
+    for (int64_t I = 0; I < mesh->grid.n && l->fine->absent; I++, grid_indices_advance(&mesh->grid, k)) {
         bool absent = false;
         if (mesh->kind[I] != CELL_WHOLE) continue;
-        for (int part = 0; part < parts_of(l, level) && !absent; part++)
-            absent = l->fine->absent[part_at(l, level, fine_node(l, level, k), part)];
+        for (int part = 0; part < levels_fine_cells_per_cell(l, level) && !absent; part++)
+            absent = l->fine->absent[levels_fine_cell_of_part(l, level, levels_fine_node(l, level, k), part)];
         if (absent && cell) cell[n] = I;
         n += absent;
     }
@@ -125,7 +125,7 @@ int64_t levels_count_cells(const struct mesh_levels *l, int level)
 {
     int64_t cells = 0;
     if (level > 0) return l->at[level].cells;
-    for (int64_t I = 0; I < l->fine->grid.n; I++) cells += cell_acts(l->fine, I);
+    for (int64_t I = 0; I < l->fine->grid.n; I++) cells += mesh_cell_computes_forces(l->fine, I);
     return cells;
 }
 
@@ -147,7 +147,7 @@ real levels_strain_energy(struct mesh_levels *l, const struct particles *p, cons
     return sum;
 }
 
-real levels_kick_energy(const struct mesh_levels *l, real dt)
+real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt)
 {
     real sum = 0;
     for (int level = 1; level <= l->n; level++) sum += mesh_kick(&l->at[level].mesh, dt * (real)(1 << level));
@@ -199,8 +199,8 @@ static void cells_from_levels(struct mesh_levels *l, const struct particles *p, 
     mesh_cells_update(l->fine, p, source, l->level);
     levels_cells_make(l, p);
     levels_find_interfaces(l);
-    levels_fold_masses(l, false);
-    levels_runs_make(l);
+    levels_add_dependent_masses(l, false);
+    levels_make_cell_runs(l);
     levels_classify_cells(l);
 }
 
@@ -233,8 +233,8 @@ static status level_archive(struct mesh *mesh, int level, struct archive *a)
     return stressed_archive(mesh, level, a);
 }
 
-status levels_archive(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                      struct archive *a)
+status levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                           struct archive *a)
 {
     if (l->n == 0) return OK;
     const size_t cells = (size_t)l->fine->grid.n;

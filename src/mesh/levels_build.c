@@ -7,7 +7,7 @@
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
 /* Makes the coarse cells for the present refinement levels and the masses of their nodes, without the transfer of mass
- * between levels (levels_fold_masses). */
+ * between levels (levels_add_dependent_masses). */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
@@ -19,11 +19,11 @@ void levels_cells_make(struct mesh_levels *l, const struct particles *p)
         array_fill_bytes(mesh->grid.mass, 0, mesh->grid.n, sizeof(real));
         l->at[level].cells = 0;
     }
-    for (int64_t I = 0; I < fine->grid.n; I++, walk_on(&fine->grid, k)) {
+    for (int64_t I = 0; I < fine->grid.n; I++, grid_indices_advance(&fine->grid, k)) {
         const int level = l->level[I];
-        if (level == 0 || !is_lowest(l, level, k)) continue;
+        if (level == 0 || !levels_is_lowest_part(l, level, k)) continue;
         struct mesh *mesh = &l->at[level].mesh;
-        const int64_t J = coarse_cell(l, level, k, NULL);
+        const int64_t J = levels_coarse_cell(l, level, k, NULL);
         mesh->kind[J] = CELL_WHOLE;
         mesh->material[J] = cell_material(fine, p, I);
         for (int c = 0; c < corners; c++)
@@ -41,7 +41,7 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     bool acts = false;
     for (int c = 0; c < 1 << mesh->grid.dim && !acts; c++) {
         const int64_t cell = I - mesh->corner[c];
-        acts = cell >= 0 && cell_acts(mesh, cell);
+        acts = cell >= 0 && mesh_cell_computes_forces(mesh, cell);
     }
     return acts;
 }
@@ -60,7 +60,7 @@ static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t 
             twice = twice || (below && odd);
             J += ((at[d] >> 1) - (below && !odd) + l->offset[level][d]) * mesh->grid.stride[d];
         }
-        if (!twice && J >= 0 && J < mesh->grid.n && cell_acts(mesh, J)) return true;
+        if (!twice && J >= 0 && J < mesh->grid.n && mesh_cell_computes_forces(mesh, J)) return true;
     }
     return false;
 }
@@ -92,10 +92,10 @@ static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I
 static void interface_find(struct mesh_levels *l, int level)
 {
     struct mesh_level *m = &l->at[level];
-    const struct mesh *below = level_mesh_of(l, level - 1);
+    const struct mesh *below = level_mesh_read_only(l, level - 1);
     int64_t k[DIM_MAX] = {0}, at[DIM_MAX];
     m->ghosts = m->hangings = 0;
-    for (int64_t I = 0; I < below->grid.n; I++, walk_on(&below->grid, k)) {
+    for (int64_t I = 0; I < below->grid.n; I++, grid_indices_advance(&below->grid, k)) {
         unsigned odd = 0;
         int64_t J = 0;
         if (!node_acts(below, I)) continue;
@@ -152,7 +152,7 @@ static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
     g->momentum[d][h->node] = 0;
 }
 
-void levels_fold_masses(struct mesh_levels *l, bool momenta)
+void levels_add_dependent_masses(struct mesh_levels *l, bool momenta)
 {
     for (int level = 1; level <= l->n; level++) {
         struct mesh_level *m = &l->at[level];
@@ -180,7 +180,7 @@ void levels_fold_masses(struct mesh_levels *l, bool momenta)
     }
 }
 
-void levels_runs_make(struct mesh_levels *l)
+void levels_make_cell_runs(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) mesh_runs_make(&l->at[level].mesh);
     mesh_spans_make(l->fine);

@@ -35,7 +35,7 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     if (corner < 0) return a;
     a.level = l->level[I - fine->corner[corner]];
     for (int d = 0; d < dim; d++) own[d] = k[d] - (corner >> d & 1);
-    a.cell = coarse_cell(l, a.level, own, q);
+    a.cell = levels_coarse_cell(l, a.level, own, q);
     for (int d = 0; d < dim; d++)
         a.t[d] = (real)(k[d] - l->offset[0][d] - ((q[d] - l->offset[a.level][d]) << a.level)) / (real)(1 << a.level);
     return a;
@@ -81,7 +81,7 @@ static void row_interpolate(struct mesh_levels *l, int64_t row)
     const struct grid *g = &l->fine->grid;
     const int64_t first = row * g->count[0];
     int64_t k[DIM_MAX];
-    walk_at(g, first, k);
+    grid_indices_of_node(g, first, k);
     for (int64_t I = first; I < first + g->count[0]; I++, k[0]++) node_interpolate(l, I, k);
 }
 
@@ -96,7 +96,7 @@ void levels_interpolate(struct mesh_levels *l, bool all)
 #pragma omp parallel for schedule(static)
     for (int64_t n = 0; n < fine->filled_nodes; n++) {
         int64_t k[DIM_MAX];
-        walk_at(&fine->grid, fine->filled_node[n], k);
+        grid_indices_of_node(&fine->grid, fine->filled_node[n], k);
         node_interpolate(l, fine->filled_node[n], k);
     }
 }
@@ -114,9 +114,9 @@ static void nodes_sample(struct mesh_levels *l)
     for (int level = 1; level <= l->n; level++) {
         struct mesh *mesh = &l->at[level].mesh;
         int64_t k[DIM_MAX] = {0};
-        for (int64_t J = 0; J < mesh->grid.n; J++, walk_on(&mesh->grid, k)) {
+        for (int64_t J = 0; J < mesh->grid.n; J++, grid_indices_advance(&mesh->grid, k)) {
             const real mass = mesh->grid.mass[J];
-            const int64_t I = mass > 0 ? fine_node(l, level, k) : 0;
+            const int64_t I = mass > 0 ? levels_fine_node(l, level, k) : 0;
             for (int d = 0; d < fine->grid.dim; d++) {
                 mesh->displacement[d][J] = mass > 0 ? fine->displacement[d][I] : 0;
                 mesh->grid.velocity[d][J] = mass > 0 ? fine->grid.velocity[d][I] : 0;
@@ -131,10 +131,11 @@ static void nodes_sample(struct mesh_levels *l)
  * first: the lowest of these cells. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
-    const int dim = l->fine->grid.dim, parts = parts_of(l, level);
+    const int dim = l->fine->grid.dim, parts = levels_fine_cells_per_cell(l, level);
     real sum = 0;
     for (int part = 0; part < parts; part++)
-        for (int c = 0; c < 1 << dim; c++) sum += field[part_at(l, level, first, part) + l->fine->corner[c]];
+        for (int c = 0; c < 1 << dim; c++)
+            sum += field[levels_fine_cell_of_part(l, level, first, part) + l->fine->corner[c]];
     return sum / (real)(parts << dim);
 }
 
@@ -151,9 +152,9 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
         for (int c = 0; c < corners; c++) {
             int64_t at[DIM_MAX];
             for (int b = 0; b < DIM_MAX; b++) at[b] = b < dim ? q[b] + (c >> b & 1) : 0;
-            mean += velocity[fine_node(l, level, at)] / corners;
+            mean += velocity[levels_fine_node(l, level, at)] / corners;
         }
-        const real missing = mass / corners * (cell_mean(l, level, fine_node(l, level, q), velocity) - mean);
+        const real missing = mass / corners * (cell_mean(l, level, levels_fine_node(l, level, q), velocity) - mean);
         for (int c = 0; c < corners; c++) mesh->grid.momentum[d][J + mesh->corner[c]] += missing;
     }
 }
@@ -164,9 +165,10 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
     for (int level = 1; level <= l->n; level++) {
         const struct mesh *mesh = &l->at[level].mesh;
         int64_t q[DIM_MAX] = {0};
-        for (int64_t J = 0; J < mesh->grid.n; J++, walk_on(&mesh->grid, q)) {
+        for (int64_t J = 0; J < mesh->grid.n; J++, grid_indices_advance(&mesh->grid, q)) {
             if (mesh->kind[J] != CELL_WHOLE) continue;
-            if (any_below(l, level, fine_node(l, level, q), before)) merged_correct(l, level, J, q);
+            if (levels_any_part_is_finer(l, level, levels_fine_node(l, level, q), before))
+                merged_correct(l, level, J, q);
         }
     }
 }
@@ -238,8 +240,8 @@ void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, c
     levels_copy_to_ghosts(l);
 }
 
-void levels_change(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                   const uint8_t *level)
+void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                              const uint8_t *level)
 {
     const int64_t cells = l->fine->grid.n;
     uint8_t *before = NEW("levels.before", 2 * cells + LANES, uint8_t), *dirty = before + cells;
@@ -253,8 +255,8 @@ void levels_change(struct mesh_levels *l, const struct particles *p, const struc
     levels_find_interfaces(l);
     nodes_sample(l);
     merged_cells_correct(l, before);
-    levels_fold_masses(l, true);
-    levels_runs_make(l);
+    levels_add_dependent_masses(l, true);
+    levels_make_cell_runs(l);
     velocities_make(l);
     for (int k = 1; k <= l->n; k++) levels_update_hanging(l, k);
     levels_copy_to_ghosts(l);

@@ -85,12 +85,13 @@ static struct load_rise sharpest_rise(const struct scene *s, real across)
 }
 
 /* Returns the smallest extent of the bodies in 1D and 2D, the middle one in 3D [spacings]. */
-static real spacings_across(const struct scene *s, const struct particles *p, const struct hollow *hollow)
+static real spacings_across(const struct scene *s, const struct particles *p,
+                            const struct cells_without_particles *hollow)
 {
     real extent[DIM_MAX] = {0}, low[DIM_MAX], high[DIM_MAX];
     const bool made = !hollow->absent || !region_bounds(&s->body[0].shape, s->dim, low, high);
     for (int d = 0; d < s->dim; d++) {
-        if (made) particles_extent(p, p->n, d, &low[d], &high[d]), high[d] += s->spacing;
+        if (made) particles_coordinate_range(p, p->n, d, &low[d], &high[d]), high[d] += s->spacing;
         extent[d] = (high[d] - low[d]) / s->spacing;
     }
     const real longest = real_max(extent[0], real_max(extent[1], extent[2]));
@@ -106,7 +107,7 @@ static real spacings_across(const struct scene *s, const struct particles *p, co
  * made. */
 void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, int64_t particles)
 {
-    if (!scene_moves(s) || r->mesh.points == 0 || s->levels == 0) return;
+    if (!scene_is_dynamic(s) || r->mesh.points == 0 || s->levels == 0) return;
     if (s->levels == LEVELS_AUTO && particles < PAYS) return;
     r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
     r->room_most = mesh_level_limits(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
@@ -120,7 +121,7 @@ struct levels_choice frame_levels_choice(const struct reference_frame *r, const 
                               .step_share = s->time_step / dt_critical,
                               .across = spacings_across(s, p, &r->hollow)};
     c.rise = sharpest_rise(s, c.across);
-    if (!scene_moves(s))
+    if (!scene_is_dynamic(s))
         c.why = LEVELS_AT_REST;
     else if (r->mesh.points == 0)
         c.why = LEVELS_NO_MESH;
@@ -143,7 +144,7 @@ struct levels_choice frame_levels_choice(const struct reference_frame *r, const 
 /* ---- in words ---------------------------------------------------------------------------------------------------- */
 
 /* Writes a load and its rise time in words. */
-static void rise_text(const struct scene *s, const struct load_rise *r, char *text, size_t room)
+static void rise_text(const struct scene *s, const struct load_rise *r, char *text, size_t capacity)
 {
     char name[NAME_MAX_LENGTH + 32];
     if (r->kind == RISE_BOUNDARY)
@@ -154,87 +155,88 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
     else
         snprintf(name, sizeof name, "initial %s %d", r->pulse ? "pulse" : "state", r->number + 1);
     if (r->kind == RISE_NONE)
-        snprintf(text, room, "nothing loads it");
+        snprintf(text, capacity, "nothing loads it");
     else if (r->waves == 0)
-        snprintf(text, room, "%s is sudden", name);
+        snprintf(text, capacity, "%s is sudden", name);
     else if (r->pulse)
-        snprintf(text, room, "%s makes a wave %.3g spacings long", name, 4 * r->waves);
+        snprintf(text, capacity, "%s makes a wave %.3g spacings long", name, 4 * r->waves);
     else if (isinf(r->waves))
-        snprintf(text, room, "%s does not change", name);
+        snprintf(text, capacity, "%s does not change", name);
     else
-        snprintf(text, room, "%s rises within %.3g s, in which a wave travels %.3g spacings", name, r->seconds,
+        snprintf(text, capacity, "%s rises within %.3g s, in which a wave travels %.3g spacings", name, r->seconds,
                  r->waves);
 }
 
 /* Writes the pulse length, or the rise and body thickness, that cells of `edge` spacings require. edges: minimum number
  * of cell edges across the body. */
-static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t room)
+static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t capacity)
 {
     if (c->rise.pulse)
-        snprintf(text, room, "require waves at least %g spacings long", 4 * RISES * edge);
+        snprintf(text, capacity, "require waves at least %g spacings long", 4 * RISES * edge);
     else
-        snprintf(text, room,
+        snprintf(text, capacity,
                  "require a rise over at least %g spacings, or a body at least %d spacings thick, and this one is %.3g",
                  RISES * edge, edges * edge, c->across);
 }
 
 /* Writes the reason for the number of levels that was chosen automatically. */
-static void automatic_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room)
+static void automatic_text(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
 {
     char load[256], want[160];
     const int edge = 2 << c->automatic;
     rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 4, ACROSS, want, sizeof want);
     if (c->why == LEVELS_AT_REST)
-        snprintf(text, room, "no coarse cells, as they save no time with a static solver");
+        snprintf(text, capacity, "no coarse cells, as they save no time with a static solver");
     else if (c->why == LEVELS_NO_MESH)
-        snprintf(text, room, "no coarse cells, as no material points are in the reference frame");
+        snprintf(text, capacity, "no coarse cells, as no material points are in the reference frame");
     else if (c->why == LEVELS_FEW)
-        snprintf(text, room, "no coarse cells, as the body has %lld particles: they save time from %d particles on",
+        snprintf(text, capacity, "no coarse cells, as the body has %lld particles: they save time from %d particles on",
                  (long long)c->particles, PAYS);
     else if (c->why == LEVELS_DAMPED)
-        snprintf(text, room, "no coarse cells, as damping requires one time step for the whole body");
+        snprintf(text, capacity, "no coarse cells, as damping requires one time step for the whole body");
     else if (c->why == LEVELS_LONG_STEP)
         snprintf(
-            text, room,
+            text, capacity,
             "no coarse cells, as time.step is %.2f of the critical time step, and they are stable up to %.2f of it",
             c->step_share, LEVELS_STEP_MOST);
     else if (c->why == LEVELS_THIN && c->automatic == 0)
-        snprintf(text, room,
+        snprintf(text, capacity,
                  "no coarse cells, as no part of the body is %d spacings thick, which %d cells of 4 spacings need",
                  4 * CELLS_ACROSS, CELLS_ACROSS);
     else if (c->why == LEVELS_THIN)
         snprintf(
-            text, room,
+            text, capacity,
             "coarse cells of up to %d spacings, as no part of the body is thick enough for %d cells of twice that size",
             edge, CELLS_ACROSS);
     else if (c->automatic == 0)
-        snprintf(text, room, "no coarse cells, as %s: cells of 4 spacings %s", load, want);
+        snprintf(text, capacity, "no coarse cells, as %s: cells of 4 spacings %s", load, want);
     else if (c->rise.pulse || !(c->across / ACROSS > c->rise.waves / RISES))
-        snprintf(text, room, "coarse cells of up to %d spacings, the largest that resolve the waves (%s)", edge, load);
+        snprintf(text, capacity, "coarse cells of up to %d spacings, the largest that resolve the waves (%s)", edge,
+                 load);
     else
-        snprintf(text, room,
+        snprintf(text, capacity,
                  "coarse cells of up to %d spacings, the largest that resolve the waves (%s) or the body, which is "
                  "%.3g spacings thick: at least %d such cells",
                  edge, load, c->across, ACROSS);
 }
 
-void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t room)
+void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
 {
     char why[600];
     automatic_text(c, s, why, sizeof why);
     if (!c->given)
-        snprintf(text, room, "%s", why);
+        snprintf(text, capacity, "%s", why);
     else if (c->levels == 0)
-        snprintf(text, room, "no coarse cells, as mpm.levels is 0; auto would choose: %s", why);
+        snprintf(text, capacity, "no coarse cells, as mpm.levels is 0; auto would choose: %s", why);
     else
-        snprintf(text, room, "coarse cells of up to %d spacings, as mpm.levels requires; auto would choose: %s",
+        snprintf(text, capacity, "coarse cells of up to %d spacings, as mpm.levels requires; auto would choose: %s",
                  2 << c->levels, why);
 }
 
 /* Writes to text where the body is too thin for the coarse cells that the scene prescribes. Returns false, without
  * text, if it is thick enough everywhere. */
-static bool thin_text(const struct reference_frame *r, char *text, size_t room)
+static bool thin_text(const struct reference_frame *r, char *text, size_t capacity)
 {
     const struct grid *g = &r->mesh.grid;
     int64_t thin = 0, coarse = 0, first = 0;
@@ -247,7 +249,7 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t room)
     if (thin == 0) return false;
     real at[DIM_MAX] = {0};
     for (int d = 0; d < g->dim; d++) at[d] = grid_position(g, d, first / g->stride[d] % g->count[d]) + 0.5 * g->h;
-    snprintf(text, room,
+    snprintf(text, capacity,
              "mpm.levels: %d makes coarse cells of %d spacings in thin parts, as at (%.4g, %.4g, %.4g) m, with fewer "
              "than %d cells across the part (%.0f %% of all coarse cells): such parts bend too stiffly, and natural "
              "frequencies are some 5 %% too high; with mpm.levels: auto thin parts have no coarse cells",
@@ -256,18 +258,18 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t room)
 }
 
 bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
-                               char *text, size_t room)
+                               char *text, size_t capacity)
 {
     char load[256], want[160];
     int levels = c->rise.pulse ? 0 : CARRIED_BY_ANY;
     const real most = edge_for(&c->rise, c->across, ACROSS_LEAST);
     while (levels < LEVELS_MAX && (real)(4 << levels) <= most * (1 + 1e-6)) levels++;
     if (!c->given) return false;
-    if (c->levels <= levels) return thin_text(r, text, room);
+    if (c->levels <= levels) return thin_text(r, text, capacity);
     rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 2 << c->levels, ACROSS_LEAST, want, sizeof want);
     snprintf(
-        text, room,
+        text, capacity,
         "mpm.levels: %d makes coarse cells of %d spacings, and %s: cells of this size %s; use mpm.levels: %d or auto",
         c->levels, 2 << c->levels, load, want, levels);
     return true;

@@ -36,7 +36,7 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
  * admissible if all of them are, have one material, and may have this level. */
 static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
 {
-    const struct grid *below = &level_mesh_of(l, level - 1)->grid;
+    const struct grid *below = &level_mesh_read_only(l, level - 1)->grid;
     const struct level_map *from = &map[level - 1];
     struct level_map *to = &map[level];
     to->ok[I] = 1, to->some[I] = 0, to->limit[I] = UINT8_MAX;
@@ -93,7 +93,7 @@ static bool ring_of_first(const struct level_map *map, const struct mesh_levels 
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
     const int on = level - 1;
-    const struct grid *g = &level_mesh_of(l, on)->grid;
+    const struct grid *g = &level_mesh_read_only(l, on)->grid;
     const int around = g->dim == 1 ? 4 : g->dim == 2 ? 16 : 64;
     for (int q = 0; q < around; q++) {
         int64_t J = 0;
@@ -107,15 +107,15 @@ static bool ring_allows(const struct level_map *map, const struct mesh_levels *l
 /* Determines the admissible cells of `level` from the data of the next finer level. */
 static void level_map_find(struct level_map *map, const struct mesh_levels *l, int level)
 {
-    const struct grid *g = &level_mesh_of(l, level)->grid;
+    const struct grid *g = &level_mesh_read_only(l, level)->grid;
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX] = {0};
     uint8_t *good = NEW("levels.good", g->n, uint8_t);
     bool *inside = NEW("levels.inside", g->n, bool);
-    for (int64_t I = 0; I < l->fine->grid.n; I++, walk_on(&l->fine->grid, k))
-        if (l->fine->kind[I] != CELL_EMPTY) inside[coarse_cell(l, level, k, NULL)] = true;
-    for (int64_t I = 0; I < g->n; I++, walk_on(g, q))
+    for (int64_t I = 0; I < l->fine->grid.n; I++, grid_indices_advance(&l->fine->grid, k))
+        if (l->fine->kind[I] != CELL_EMPTY) inside[levels_coarse_cell(l, level, k, NULL)] = true;
+    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, q))
         if (inside[I]) gather_parts(map, l, level, I, q);
-    for (int64_t I = 0; I < g->n; I++, walk_on(g, q))
+    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, q))
         good[I] = map[level].ok[I] && (level > 1 ? ring_allows(map, l, level, q) : ring_of_first(map, l, q));
     array_copy(map[level].ok, good, g->n, 1);
     memory_free(good);
@@ -127,12 +127,12 @@ void levels_coarsest_admissible(const struct mesh_levels *l, const struct partic
 {
     struct level_map map[LEVELS_MAX + 1];
     int64_t k[DIM_MAX] = {0};
-    for (int level = 0; level <= l->n; level++) map[level] = level_map_make(level_mesh_of(l, level)->grid.n);
+    for (int level = 0; level <= l->n; level++) map[level] = level_map_make(level_mesh_read_only(l, level)->grid.n);
     base_map(&map[0], l, p, demand, limit);
     for (int level = 1; level <= l->n; level++) level_map_find(map, l, level);
-    for (int64_t I = 0; I < l->fine->grid.n; I++, walk_on(&l->fine->grid, k)) {
+    for (int64_t I = 0; I < l->fine->grid.n; I++, grid_indices_advance(&l->fine->grid, k)) {
         to[I] = 0;
-        while (map[0].ok[I] && to[I] < l->n && map[to[I] + 1].ok[coarse_cell(l, to[I] + 1, k, NULL)]) to[I]++;
+        while (map[0].ok[I] && to[I] < l->n && map[to[I] + 1].ok[levels_coarse_cell(l, to[I] + 1, k, NULL)]) to[I]++;
     }
     for (int level = 0; level <= l->n; level++) memory_free(map[level].ok);
 }
@@ -142,13 +142,13 @@ bool levels_are_consistent(const struct mesh_levels *l)
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, covered = 0, coarse = 0;
     bool sound = true;
-    for (int64_t I = 0; I < g->n && sound; I++, walk_on(g, k)) {
+    for (int64_t I = 0; I < g->n && sound; I++, grid_indices_advance(g, k)) {
         const int level = l->level[I];
         coarse += level > 0;
         sound = level <= l->n && (level > 0 || !l->fine->absent || !l->fine->absent[I]);
-        if (level == 0 || !sound || !is_lowest(l, level, k)) continue;
-        for (int part = 0; part < parts_of(l, level) && sound; part++, covered++) {
-            const int64_t J = part_at(l, level, I, part);
+        if (level == 0 || !sound || !levels_is_lowest_part(l, level, k)) continue;
+        for (int part = 0; part < levels_fine_cells_per_cell(l, level) && sound; part++, covered++) {
+            const int64_t J = levels_fine_cell_of_part(l, level, I, part);
             sound = J < g->n && l->level[J] == level &&
                     (l->fine->kind[J] == CELL_WHOLE || (l->fine->absent && l->fine->absent[J]));
         }
@@ -186,21 +186,23 @@ void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
     grid_dilate_marks(&l->fine->grid, mark, reach);
 }
 
-void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
+void levels_extend_marks_to_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0};
-    for (int64_t I = 0; I < g->n; I++, walk_on(g, k)) {
-        const int parts = level[I] > 0 && is_lowest(l, level[I], k) ? parts_of(l, level[I]) : 0;
+    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, k)) {
+        const int parts =
+            level[I] > 0 && levels_is_lowest_part(l, level[I], k) ? levels_fine_cells_per_cell(l, level[I]) : 0;
         bool any = false;
-        for (int part = 0; part < parts && !any; part++) any = mark[part_at(l, level[I], I, part)] != 0;
-        for (int part = 0; part < parts && any; part++) mark[part_at(l, level[I], I, part)] = 1;
+        for (int part = 0; part < parts && !any; part++)
+            any = mark[levels_fine_cell_of_part(l, level[I], I, part)] != 0;
+        for (int part = 0; part < parts && any; part++) mark[levels_fine_cell_of_part(l, level[I], I, part)] = 1;
     }
 }
 
-void levels_set_distances(struct mesh_levels *l, int safe, int roomy)
+void levels_set_distances(struct mesh_levels *l, int postpone_distance, int refine_distance)
 {
-    l->safe_cells = safe, l->roomy_cells = roomy;
+    l->safe_cells = postpone_distance, l->roomy_cells = refine_distance;
     levels_classify_cells(l);
 }
 

@@ -45,7 +45,7 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
 {
     int64_t I = 0;
     for (int d = 0; d < p->dim; d++)
-        I += (grid_cell(&mesh->grid, d, p->X[d][i]) - mesh->grid.first[d]) * mesh->grid.stride[d];
+        I += (grid_cell_index_at(&mesh->grid, d, p->X[d][i]) - mesh->grid.first[d]) * mesh->grid.stride[d];
     return I;
 }
 
@@ -58,7 +58,7 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
         const struct boundary *mirror = loads->load[b].boundary;
         const int a = mirror->axis;
         if (mirror->kind != BOUNDARY_MIRROR) continue;
-        const real at = (mirror->at - grid_position(g, a, l->offset[0][a])) / (g->h * (real)levels_stride(l));
+        const real at = (mirror->at - grid_position(g, a, l->offset[0][a])) / (g->h * (real)levels_steps_per_cycle(l));
         if (fabs(at - nearbyint(at)) < 1e-6) continue;
         for (int64_t I = 0; I < g->n; I++) {
             const real x = grid_position(g, a, I / g->stride[a] % g->count[a]);
@@ -85,8 +85,8 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     int64_t from[2], to[2];
     bool coarse = false;
     for (int d = 0; d < 2; d++) {
-        from[d] = grid_cell(g, d, ring->place[d] - radius) - g->first[d];
-        to[d] = grid_cell(g, d, ring->place[d] + radius) - g->first[d];
+        from[d] = grid_cell_index_at(g, d, ring->place[d] - radius) - g->first[d];
+        to[d] = grid_cell_index_at(g, d, ring->place[d] + radius) - g->first[d];
         from[d] = from[d] > 0 ? from[d] : 0, to[d] = to[d] < g->count[d] - 2 ? to[d] : g->count[d] - 2;
     }
     for (int64_t j = from[1]; j <= to[1]; j++)
@@ -146,7 +146,7 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
  * cells. */
 static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
 {
-    const struct grid *fine = &l->fine->grid, *g = &level_mesh_of(l, level)->grid;
+    const struct grid *fine = &l->fine->grid, *g = &level_mesh_read_only(l, level)->grid;
     uint8_t *own = NEW("levels.stressed", fine->n, uint8_t);
     for (int64_t I = 0; I < fine->n; I++) {
         int64_t J = 0;
@@ -168,7 +168,7 @@ static uint8_t *stressed_cells(const struct reference_frame *frame, real share, 
     const struct mesh_levels *l = &frame->levels;
     uint8_t *cells = NULL;
     for (int level = all ? 0 : 1; level <= l->n; level++) {
-        const struct mesh *mesh = level_mesh_of(l, level);
+        const struct mesh *mesh = level_mesh_read_only(l, level);
         uint8_t *mark = NEW("levels.mark", mesh->grid.n, uint8_t);
         mesh_cells_mark(mesh, frame->elastic, share, all, mark, frame->finite);
         if (memchr(mark, 1, (size_t)mesh->grid.n)) {
@@ -206,15 +206,15 @@ static void next_levels(struct reference_frame *r, const struct particles *p, re
     levels_coarsest_admissible(l, p, demand, limit, level);
     if (!any_merges(l, level)) return;
     const real most = ROUGH * (frame_kinetic_energy(r) + frame_strain_energy(r, p)) / mass;
-    levels_prolong(l);
-    while (levels_limit_rough(l, level, most, limit)) levels_coarsest_admissible(l, p, demand, limit, level);
+    levels_prolong_motion(l);
+    while (levels_limit_rough_motion(l, level, most, limit)) levels_coarsest_admissible(l, p, demand, limit, level);
 }
 
-void frame_levels_find_nodes(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                             struct loads *loads)
+void frame_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                                    struct loads *loads)
 {
     struct mesh_levels *l = &r->levels;
-    for (int k = 1; k <= l->n; k++) loads_find_level_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
+    for (int k = 1; k <= l->n; k++) loads_find_driven_level_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
     frame_find_exposed_points(r, p, bonds, loads);
 }
 
@@ -226,8 +226,8 @@ static void change(struct run *e, const uint8_t *level)
     const real dt = e->clock.step > 0 ? e->clock.dt : 0;
     levels_shift_velocities(&r->levels, &e->part, r->elastic, r->finite, dt);
     const real before = frame_kinetic_energy(r) + frame_strain_energy(r, &e->part);
-    levels_change(&r->levels, &e->part, &r->source, level);
-    frame_levels_find_nodes(r, &e->part, &e->bonds, &e->loads);
+    levels_change_refinement(&r->levels, &e->part, &r->source, level);
+    frame_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
     e->damped += before - frame_kinetic_energy(r) - frame_strain_energy(r, &e->part);
     levels_shift_velocities(&r->levels, &e->part, r->elastic, r->finite, -dt);
 }
@@ -248,7 +248,7 @@ status frame_levels_make(struct run *e, bool restored)
         fastest = real_max(fastest, s->material[m].wave_speed);
     }
     if (r->levels.n == 0) {
-        frame_hollow_check_start(r, NULL);
+        initial_levels_have_particles(r, NULL);
         return OK;
     }
     levels_match_dispersion(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
@@ -258,7 +258,7 @@ status frame_levels_make(struct run *e, bool restored)
     const int safe = (int)ceil(reach) + 1;
     levels_set_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
     for (int k = 1; k <= r->levels.n; k++)
-        loads_find_level_nodes(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
+        loads_find_driven_level_nodes(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
     if (restored) return OK;
     uint8_t *demand = demand_make(r, &e->part, &e->loads, ZONE_MORE);
     uint8_t *stressed = stressed_cells(r, SPLITS, true), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
@@ -267,7 +267,7 @@ status frame_levels_make(struct run *e, bool restored)
     array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
     limit_by_room(r, limit);
     next_levels(r, &e->part, e->mass, demand, limit, level);
-    if (frame_hollow_check_start(r, level)) change(e, level);
+    if (initial_levels_have_particles(r, level)) change(e, level);
     memory_free(limit);
     e->damped = 0; /* the run starts with the energy of the coarse cells */
     memory_free(demand);
@@ -323,7 +323,7 @@ static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 
 bool frame_levels_may_change(const struct mesh_levels *l, int64_t step)
 {
-    return l->n > 0 && step > 0 && step % levels_stride(l) == 0;
+    return l->n > 0 && step > 0 && step % levels_steps_per_cycle(l) == 0;
 }
 
 uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
@@ -373,7 +373,7 @@ void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p
     l->returned = false;
     if (l->n == 0 || !conversion_is_due(p)) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
+        if (!(load_eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(l, p, i);
     }
 }

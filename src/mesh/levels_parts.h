@@ -6,23 +6,23 @@
 #include "mesh_parts.h"
 
 /* Computes the indices k of node I along the axes of grid g, k[d] = 0 ... g->count[d] - 1; 0 for axes beyond g->dim. */
-static inline void walk_at(const struct grid *g, int64_t I, int64_t *k)
+static inline void grid_indices_of_node(const struct grid *g, int64_t I, int64_t *k)
 {
     for (int d = 0; d < DIM_MAX; d++) k[d] = d < g->dim ? I / g->stride[d] % g->count[d] : 0;
 }
 
 /* Advances the indices k of a node along the axes of grid g to those of the next node, first axis fastest, for a loop
  * over all nodes that starts with k = 0. */
-static inline void walk_on(const struct grid *g, int64_t *k)
+static inline void grid_indices_advance(const struct grid *g, int64_t *k)
 {
     for (int d = 0; d < g->dim && ++k[d] == g->count[d]; d++) k[d] = 0;
 }
 
 /* Returns the index of the cell of refinement level `level` that contains a cell of level 0 (the finest). k: indices of
  * the cell of level 0 along the axes; q: receives the indices of the coarse cell along the axes, NULL if not needed. */
-static inline int64_t coarse_cell(const struct mesh_levels *l, int level, const int64_t *k, int64_t *q)
+static inline int64_t levels_coarse_cell(const struct mesh_levels *l, int level, const int64_t *k, int64_t *q)
 {
-    const struct grid *g = &level_mesh_of(l, level)->grid;
+    const struct grid *g = &level_mesh_read_only(l, level)->grid;
     int64_t I = 0;
     for (int d = 0; d < g->dim; d++) {
         const int64_t at = ((k[d] - l->offset[0][d]) >> level) + l->offset[level][d];
@@ -34,7 +34,7 @@ static inline int64_t coarse_cell(const struct mesh_levels *l, int level, const 
 
 /* Returns the index of the node of level 0 (the finest) at the position of a node of refinement level `level`. q:
  * indices of this node along the axes. */
-static inline int64_t fine_node(const struct mesh_levels *l, int level, const int64_t *q)
+static inline int64_t levels_fine_node(const struct mesh_levels *l, int level, const int64_t *q)
 {
     const struct grid *g = &l->fine->grid;
     int64_t I = 0;
@@ -44,7 +44,7 @@ static inline int64_t fine_node(const struct mesh_levels *l, int level, const in
 
 /* Returns true if a cell of level 0 (the finest) is the one at the lower corner of the cell of refinement level `level`
  * that contains it. k: indices of the cell of level 0 along the axes. */
-static inline bool is_lowest(const struct mesh_levels *l, int level, const int64_t *k)
+static inline bool levels_is_lowest_part(const struct mesh_levels *l, int level, const int64_t *k)
 {
     bool lowest = true;
     for (int d = 0; d < l->fine->grid.dim; d++)
@@ -53,11 +53,14 @@ static inline bool is_lowest(const struct mesh_levels *l, int level, const int64
 }
 
 /* Returns the number of cells of level 0 (the finest) in one cell of refinement level `level`. */
-static inline int parts_of(const struct mesh_levels *l, int level) { return 1 << l->fine->grid.dim * level; }
+static inline int levels_fine_cells_per_cell(const struct mesh_levels *l, int level)
+{
+    return 1 << l->fine->grid.dim * level;
+}
 
 /* Returns the index of cell number `part` of those cells of level 0 (the finest) that form one cell of refinement level
  * `level`. first: index of the one at the lower corner. */
-static inline int64_t part_at(const struct mesh_levels *l, int level, int64_t first, int part)
+static inline int64_t levels_fine_cell_of_part(const struct mesh_levels *l, int level, int64_t first, int part)
 {
     for (int d = 0; d < l->fine->grid.dim; d++, part >>= level)
         first += (part & ((1 << level) - 1)) * l->fine->grid.stride[d];
@@ -66,10 +69,11 @@ static inline int64_t part_at(const struct mesh_levels *l, int level, int64_t fi
 
 /* Returns true if one of the cells of level 0 (the finest) in a cell of refinement level `level` has a lower level in
  * `of`, an array with a level for each cell of level 0. first: index of the cell of level 0 at the lower corner. */
-static inline bool any_below(const struct mesh_levels *l, int level, int64_t first, const uint8_t *of)
+static inline bool levels_any_part_is_finer(const struct mesh_levels *l, int level, int64_t first, const uint8_t *of)
 {
     bool any = false;
-    for (int part = 0; part < parts_of(l, level) && !any; part++) any = of[part_at(l, level, first, part)] < level;
+    for (int part = 0; part < levels_fine_cells_per_cell(l, level) && !any; part++)
+        any = of[levels_fine_cell_of_part(l, level, first, part)] < level;
     return any;
 }
 
@@ -82,7 +86,7 @@ static inline uint8_t cell_material(const struct mesh *fine, const struct partic
 }
 
 /* Returns true if cell I of the mesh computes forces: it has points and is not replaced by a coarse cell. */
-static inline bool cell_acts(const struct mesh *mesh, int64_t I)
+static inline bool mesh_cell_computes_forces(const struct mesh *mesh, int64_t I)
 {
     return mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL;
 }
@@ -97,7 +101,7 @@ void levels_update_hanging(struct mesh_levels *l, int level);
 
 /* Sets the cells of all coarse levels from the refinement level l->level of each cell of level 0 (the finest): kind,
  * material, number, and the masses of their nodes, a cell's mass in equal shares at its corners. The transfer of mass
- * between levels follows in levels_fold_masses. */
+ * between levels follows in levels_add_dependent_masses. */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p);
 
 /* Finds the nodes at interfaces of refinement levels: ghosts, at the position of a node of the next finer level, and
@@ -108,11 +112,11 @@ void levels_find_interfaces(struct mesh_levels *l);
 /* Adds the masses of ghosts (nodes at the position of a node of the next finer level) and hanging nodes (in the middle
  * of an edge or face of a coarser cell) to the nodes that determine their motion. momenta: true to transfer their
  * momentum in grid.momentum [kg m/s], too. */
-void levels_fold_masses(struct mesh_levels *l, bool momenta);
+void levels_add_dependent_masses(struct mesh_levels *l, bool momenta);
 
 /* Groups coarse cells of equal material into runs (cells with consecutive indices) and finds the active blocks of
- * nodes, for all refinement levels. To be called after levels_fold_masses. */
-void levels_runs_make(struct mesh_levels *l);
+ * nodes, for all refinement levels. To be called after levels_add_dependent_masses. */
+void levels_make_cell_runs(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to nodes of level 0 (the finest) inside them that belong to no
  * cell of level 0. all: true for all such nodes, false for those with particles in an adjacent cell. */

@@ -12,8 +12,8 @@ static real departure(const struct mesh_levels *l, int level, const int64_t *q)
     const struct mesh *fine = l->fine;
     const int dim = fine->grid.dim, edge = 1 << level, side = edge + 1, corners = 1 << dim;
     const int nodes = dim == 1 ? side : dim == 2 ? side * side : side * side * side;
-    const int64_t first = fine_node(l, level, q);
-    const real stiff = l->wave_speed / (0.5 * level_mesh_of(l, level)->grid.h);
+    const int64_t first = levels_fine_node(l, level, q);
+    const real stiff = l->wave_speed / (0.5 * level_mesh_read_only(l, level)->grid.h);
     real sum = 0, squares = 0;
     for (int node = 0; node < nodes; node++) {
         int64_t I = first;
@@ -40,17 +40,20 @@ static real departure(const struct mesh_levels *l, int level, const int64_t *q)
     return real_max(sum / nodes, 0.5 * fabs(squares));
 }
 
-bool levels_limit_rough(const struct mesh_levels *l, const uint8_t *level, real most, uint8_t *limit)
+bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level, real max_energy, uint8_t *limit)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX];
     bool any = false;
-    for (int64_t I = 0; I < g->n; I++, walk_on(g, k)) {
-        if (level[I] == 0 || !is_lowest(l, level[I], k) || !any_below(l, level[I], I, l->level)) continue;
-        coarse_cell(l, level[I], k, q);
-        if (!(departure(l, level[I], q) > most)) continue;
+    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, k)) {
+        if (level[I] == 0 || !levels_is_lowest_part(l, level[I], k) ||
+            !levels_any_part_is_finer(l, level[I], I, l->level))
+            continue;
+        levels_coarse_cell(l, level[I], k, q);
+        if (!(departure(l, level[I], q) > max_energy)) continue;
         any = true;
-        for (int part = 0; part < parts_of(l, level[I]); part++) limit[part_at(l, level[I], I, part)] = level[I] - 1;
+        for (int part = 0; part < levels_fine_cells_per_cell(l, level[I]); part++)
+            limit[levels_fine_cell_of_part(l, level[I], I, part)] = level[I] - 1;
     }
     return any;
 }

@@ -3,7 +3,7 @@
 
 #include "levels_parts.h"
 
-int levels_highest_due(const struct mesh_levels *l, int64_t step)
+int levels_highest_acting(const struct mesh_levels *l, int64_t step)
 {
     int due = 0;
     while (due < l->n && step % ((int64_t)2 << due) == 0) due++;

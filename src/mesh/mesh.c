@@ -72,10 +72,11 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
     const int dim = p->dim;
     real mass = 0;
     for (int c = (1 << dim) - 1; c >= 0; c--)
-        for (int64_t cell = mesh_cell_at(mesh, I, c); cell >= 0; cell = mesh_cell_next(mesh, cell))
-            for (int q = 0; q < 1 << dim && mesh_node(mesh, cell, c) == I && !cell_is_coarse(mesh, cell); q++) {
+        for (int64_t cell = mesh_cell_at_node(mesh, I, c); cell >= 0; cell = mesh_cell_next_part(mesh, cell))
+            for (int q = 0; q < 1 << dim && mesh_cell_corner_node(mesh, cell, c) == I && !cell_is_coarse(mesh, cell);
+                 q++) {
                 const int32_t i = mesh->point[(cell << dim) + q];
-                if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
+                if (i >= 0) mass += p->mass[i] * mesh_shape_function_value(dim, c, q);
             }
     return mass;
 }
@@ -93,7 +94,7 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
     status s = OK;
     for (int64_t i = 0; i < p->n && s == OK; i++)
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
-            uint8_t *owner = &body[mesh_node(mesh, mesh->place[i] >> p->dim, c)];
+            uint8_t *owner = &body[mesh_cell_corner_node(mesh, mesh->place[i] >> p->dim, c)];
             if (*owner != 0 && *owner != p->body[i] + 1)
                 s = meshed_body(p, i, "shares a node with another body, which would move with it");
             *owner = (uint8_t)(p->body[i] + 1);
@@ -111,7 +112,7 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
 {
     const int dim = p->dim;
     int there = 0;
-    bool alike = !mesh_own_corners(mesh, I);
+    bool alike = !mesh_cell_slit_corners(mesh, I);
     if (cell_is_coarse(mesh, I)) return CELL_COARSE;
     const int32_t *point = &mesh->point[I << dim];
     for (int q = 0; q < 1 << dim; q++) {
@@ -188,8 +189,8 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
 #pragma omp parallel for schedule(static)
         for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     } else
-        for (int64_t I = next_marked(dirty, 0, mesh->grid.n); I < mesh->grid.n;
-             I = next_marked(dirty, I + 1, mesh->grid.n))
+        for (int64_t I = next_marked_index(dirty, 0, mesh->grid.n); I < mesh->grid.n;
+             I = next_marked_index(dirty, I + 1, mesh->grid.n))
             mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     mesh_spans_make(mesh);
     cells_list(mesh, p);
@@ -202,7 +203,7 @@ void mesh_blocks_activate(struct mesh *mesh)
     array_fill_bytes(r->level, 0, r->blocks, 1);
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && (mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL); c++)
-            r->level[mesh_block(mesh, mesh_node(mesh, I, c))] = 1;
+            r->level[mesh_block_of_node(mesh, mesh_cell_corner_node(mesh, I, c))] = 1;
     active_set_rebuild_list(r);
     r->empty = r->blocks - r->active;
 }
@@ -224,15 +225,15 @@ void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struc
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
 /* Allocates all arrays of a mesh that covers the box from..to [m], without points or cells. */
-status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to,
+status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *from, const real *to,
                      const struct particles *p, const struct mesh_source *source)
 {
     struct grid *g = &mesh->grid;
-    const int dim = like->dim;
+    const int dim = node_grid->dim;
     real high[DIM_MAX] = {0};
     bool changed;
-    g->dim = dim, g->h = like->h;
-    for (int d = 0; d < dim; d++) g->anchor[d] = like->anchor[d], high[d] = to[d];
+    g->dim = dim, g->h = node_grid->h;
+    for (int d = 0; d < dim; d++) g->anchor[d] = node_grid->anchor[d], high[d] = to[d];
     high[0] += LANES * g->h; /* whole vectors are read and written beyond the last cell of a row */
     TRY(grid_extend_box(g, from, high, INT32_MAX >> dim, &changed));
     for (int c = 0; c < 1 << dim; c++)
@@ -245,7 +246,7 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
     active_set_make(&mesh->active, mesh->rows * mesh->segments);
-    mesh_slits_link(mesh);
+    mesh_slits_link_blocks(mesh);
     mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->band = NEW("mesh.band", g->count[dim - 1] + 2, int64_t);
     return OK;
@@ -261,11 +262,11 @@ static bool node_filled(const struct mesh *mesh, int64_t I)
 }
 
 /* Marks the cells without particles, and lists the others. */
-static void mesh_absent_make(struct mesh *mesh, const struct hollow *h)
+static void mesh_absent_make(struct mesh *mesh, const struct cells_without_particles *h)
 {
     mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);
     for (int64_t I = 0; I < h->box.n; I++)
-        if (h->absent[I]) mesh->absent[grid_same_cell(&h->box, I, &mesh->grid)] = 1;
+        if (h->absent[I]) mesh->absent[grid_cell_in_other_grid(&h->box, I, &mesh->grid)] = 1;
     for (int64_t I = 0; I < mesh->grid.n; I++)
         mesh->filled_cells += !mesh->absent[I], mesh->filled_nodes += node_filled(mesh, I);
     mesh->filled_cell = NEW("mesh.filled_cell", mesh->filled_cells, int32_t);
@@ -284,7 +285,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     real from[DIM_MAX], to[DIM_MAX];
     struct grid own = *like;
     own.dim = p->dim;
-    for (int d = 0; d < p->dim; d++) particles_extent(p, p->n, d, &from[d], &to[d]);
+    for (int d = 0; d < p->dim; d++) particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
     TRY(mesh_box_make(mesh, &own, from, to, p, source));
     mesh->point = NEW("mesh.point", mesh->grid.n << p->dim, int32_t);
     for (int64_t k = 0; k < mesh->grid.n << p->dim; k++) mesh->point[k] = -1;
@@ -301,12 +302,12 @@ static void mesh_nodes_start(struct mesh *mesh, const struct particles *p)
         u[d] = NEW("mesh.u", p->n, real);
         for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
     }
-    mesh_project(mesh, p, u, mesh->displacement);
-    mesh_project(mesh, p, p->v, mesh->grid.velocity);
+    mesh_fit_nodal_values(mesh, p, u, mesh->displacement);
+    mesh_fit_nodal_values(mesh, p, p->v, mesh->grid.velocity);
     for (int d = 0; d < p->dim; d++) memory_free(u[d]);
 }
 
-status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source)
+status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node_grid, const struct mesh_source *source)
 {
     memset(mesh, 0, sizeof *mesh);
     int64_t meshed = 0;
@@ -316,7 +317,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
     }
     particles_update_lists(p);
     if (meshed == 0) return OK;
-    TRY(nodes_make(mesh, p, like, source));
+    TRY(nodes_make(mesh, p, node_grid, source));
     TRY(points_place(mesh, p));
     TRY(bodies_apart(mesh, p));
 #pragma omp parallel for schedule(static)
@@ -357,8 +358,8 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
     real energy = 0;
     for (int d = 0; d < p->dim; d++) {
         for (int c = 0; c < 1 << p->dim; c++)
-            energy += 0.5 * p->mass[i] * mesh_weight(p->dim, c, place & ((1 << p->dim) - 1)) *
-                      square(mesh->grid.velocity[d][mesh_node(mesh, place >> p->dim, c)]);
+            energy += 0.5 * p->mass[i] * mesh_shape_function_value(p->dim, c, place & ((1 << p->dim) - 1)) *
+                      square(mesh->grid.velocity[d][mesh_cell_corner_node(mesh, place >> p->dim, c)]);
         energy -= 0.5 * p->mass[i] * square(p->v[d][i]);
     }
     mesh->place[i] = -1;
@@ -372,10 +373,10 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
 static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
 {
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);
-    for (int64_t cell = next_marked(left, 0, mesh->grid.n); cell < mesh->grid.n;
-         cell = next_marked(left, cell + 1, mesh->grid.n))
+    for (int64_t cell = next_marked_index(left, 0, mesh->grid.n); cell < mesh->grid.n;
+         cell = next_marked_index(left, cell + 1, mesh->grid.n))
         for (int c = 0; c < 1 << p->dim; c++) {
-            const int64_t I = mesh_node(mesh, cell, c);
+            const int64_t I = mesh_cell_corner_node(mesh, cell, c);
             if (done[I]) continue;
             done[I] = 1;
             mesh_node_update_mass(mesh, p, I);
@@ -390,7 +391,8 @@ real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct 
 {
     real energy = 0;
     if (!mesh->place) return 0;
-    uint8_t *left = cells_mark("mesh.left", mesh), *dirty = changed ? cells_mark("mesh.dirty", mesh) : NULL;
+    uint8_t *left = mesh_cell_marks_new("mesh.left", mesh),
+            *dirty = changed ? mesh_cell_marks_new("mesh.dirty", mesh) : NULL;
     for (int64_t k = 0; k < n && changed; k++)
         if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
     particles_update_lists(p);
@@ -424,7 +426,7 @@ bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p,
     return same;
 }
 
-status mesh_archive(struct mesh *mesh, struct archive *a)
+status mesh_save_or_load(struct mesh *mesh, struct archive *a)
 {
     if (mesh->grid.n == 0) return OK;
     for (int d = 0; d < mesh->grid.dim; d++) {

@@ -26,13 +26,13 @@ static void images_expose(struct exposure *e, const struct mesh *mesh, const str
     int32_t most = nbr[0];
     for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
     for (int l = 0; l < LANES && most >= p->n; l++)
-        if (nbr[l] >= p->n) point_expose(e, mesh, image_root(p, image, nbr[l]));
+        if (nbr[l] >= p->n) point_expose(e, mesh, image_source_particle(p, image, nbr[l]));
 }
 
 /* Returns true if a bond in column k of row block g may lead to an image. */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
-    const int64_t first = column_first(b, g, k);
+    const int64_t first = column_first_if_consecutive(b, g, k);
     return first < 0 || first + LANES > p->n;
 }
 
@@ -55,11 +55,11 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {
-    const unsigned intact = bonds_intact(b, g);
+    const unsigned intact = row_block_intact_lanes(b, g);
     struct column_copy column;
     for (int lane = 0; lane < LANES; lane++)
         if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);
-    for (int64_t k = 0; k < bonds_columns(b, g) && p->n_all > p->n; k++) {
+    for (int64_t k = 0; k < row_block_column_count(b, g) && p->n_all > p->n; k++) {
         if (!meets_images(b, p, g, k)) continue;
         bond_column_read(&column, b, g, k);
         images_expose(e, mesh, p, l->image, column.nbr);
@@ -69,7 +69,7 @@ static void row_block_expose(struct exposure *e, const struct mesh *mesh, const 
 void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
 {
     if (!mesh->place) return;
-    struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t), cells_mark("mesh.exposed_cells", mesh)};
+    struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t), mesh_cell_marks_new("mesh.exposed_cells", mesh)};
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_expose(&e, mesh, p, b, l, g);
     for (int k = 0; k < l->n; k++) { /* driven points and absorbing faces act on nodes */
@@ -78,8 +78,8 @@ void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struc
             point_expose(&e, mesh, l->load[k].particle[q]);
     }
     mesh->exposed = 0;
-    for (int64_t I = next_marked(e.cell, 0, mesh->grid.n); I < mesh->grid.n;
-         I = next_marked(e.cell, I + 1, mesh->grid.n))
+    for (int64_t I = next_marked_index(e.cell, 0, mesh->grid.n); I < mesh->grid.n;
+         I = next_marked_index(e.cell, I + 1, mesh->grid.n))
         cell_expose(mesh, e.point, I);
     memory_free(e.point);
     memory_free(e.cell);

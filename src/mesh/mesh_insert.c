@@ -18,7 +18,8 @@ static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct pa
 {
     uint8_t *mark = NEW("mesh_insert.mark", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < n; k++)
-        for (int c = 0; c < 1 << p->dim; c++) mark[mesh_node(mesh, mesh_point_slot(mesh, p, list[k]) >> p->dim, c)] = 1;
+        for (int c = 0; c < 1 << p->dim; c++)
+            mark[mesh_cell_corner_node(mesh, mesh_point_slot(mesh, p, list[k]) >> p->dim, c)] = 1;
     for (int64_t I = 0; I < mesh->grid.n; I++) t->n += mark[I];
     t->at = NEW("mesh_insert.node", t->n, int32_t);
     t->n = 0;
@@ -55,8 +56,8 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
         p->flag[i] |= FLAG_MESHED;
         for (int c = 0; c < 1 << dim; c++)
             for (int d = 0; d < dim; d++)
-                mesh->grid.momentum[d][mesh_node(mesh, place >> dim, c)] +=
-                    p->mass[i] * mesh_weight(dim, c, (int)(place & ((1 << dim) - 1))) * p->v[d][i];
+                mesh->grid.momentum[d][mesh_cell_corner_node(mesh, place >> dim, c)] +=
+                    p->mass[i] * mesh_shape_function_value(dim, c, (int)(place & ((1 << dim) - 1))) * p->v[d][i];
     }
     for (int64_t k = 0; k < t->n; k++) {
         const int32_t I = t->at[k];
@@ -75,9 +76,9 @@ static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p
         const int32_t i = list[k];
         const int64_t cell = mesh->place[i] >> dim;
         for (int c = 0; c < 1 << dim; c++) {
-            const int64_t I = mesh_node(mesh, cell, c);
-            const real share =
-                p->mass[i] * mesh_weight(dim, c, mesh->place[i] & ((1 << dim) - 1)) * mesh->inverse_mass[I];
+            const int64_t I = mesh_cell_corner_node(mesh, cell, c);
+            const real share = p->mass[i] * mesh_shape_function_value(dim, c, mesh->place[i] & ((1 << dim) - 1)) *
+                               mesh->inverse_mass[I];
             for (int d = 0; d < dim && light[I]; d++) mesh->displacement[d][I] += share * (p->x[d][i] - p->X[d][i]);
         }
     }
@@ -101,7 +102,7 @@ real mesh_insert_points(struct mesh *mesh, struct particles *p, const int32_t *l
         for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
     }
     mesh_insert_nodes_start(mesh, p, light, list, n);
-    mesh_project_near(mesh, p, u, mesh->displacement, t.at, t.n);
+    mesh_fit_listed_nodes(mesh, p, u, mesh->displacement, t.at, t.n);
     for (int d = 0; d < p->dim; d++) memory_free(u[d]);
     memory_free(light);
     memory_free(t.at);

@@ -9,8 +9,9 @@ static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
     real F[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int c = 0; c < 1 << dim; c++)
         for (int b = 0; b < dim; b++) {
-            const real slope = mesh_slope(dim, c, place & ((1 << dim) - 1), b) / mesh->grid.h;
-            for (int a = 0; a < dim; a++) F[a][b] += mesh->displacement[a][mesh_node(mesh, cell, c)] * slope;
+            const real slope = mesh_shape_function_slope(dim, c, place & ((1 << dim) - 1), b) / mesh->grid.h;
+            for (int a = 0; a < dim; a++)
+                F[a][b] += mesh->displacement[a][mesh_cell_corner_node(mesh, cell, c)] * slope;
         }
     return F[0][0] * (F[1][1] * F[2][2] - F[1][2] * F[2][1]) - F[0][1] * (F[1][0] * F[2][2] - F[1][2] * F[2][0]) +
            F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
@@ -23,9 +24,9 @@ static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int d
     real most = 0;
     for (int a = 0; a < dim; a++) {
         const real *u = mesh->displacement[a];
-        real low = u[mesh_node(mesh, cell, 0)], high = low;
+        real low = u[mesh_cell_corner_node(mesh, cell, 0)], high = low;
         for (int c = 1; c < 1 << dim; c++) {
-            const real here = u[mesh_node(mesh, cell, c)];
+            const real here = u[mesh_cell_corner_node(mesh, cell, c)];
             low = real_min(low, here), high = real_max(high, here);
         }
         most = real_max(most, high - low);

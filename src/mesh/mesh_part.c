@@ -7,8 +7,8 @@ static void frame_free_all(struct run *e)
 {
     struct reference_frame *f = e->frame;
     memory_free(f->elastic), memory_free(f->coarse), memory_free(f->room), memory_free(f->choice);
-    levels_free(&f->levels), mesh_free(&f->mesh), hollow_free(&f->hollow), memory_free(f->ring);
-    frame_hollow_points_free(&f->shown);
+    levels_free(&f->levels), mesh_free(&f->mesh), cells_without_particles_free(&f->hollow), memory_free(f->ring);
+    coarse_cell_points_free(&f->shown);
 }
 
 /* Writes the number of cells of each level, and the number of changes. */
@@ -28,9 +28,9 @@ static status frame_state(struct run *e, struct archive *a)
 {
     struct reference_frame *f = e->frame;
     if (a->scope == ARCHIVE_REBUILD) return OK;
-    TRY(mesh_archive(&f->mesh, a));
-    TRY(levels_archive(&f->levels, &e->part, &f->source, a));
-    return active_set_archive(&f->mesh.active, "mesh", a);
+    TRY(mesh_save_or_load(&f->mesh, a));
+    TRY(levels_save_or_load(&f->levels, &e->part, &f->source, a));
+    return active_set_save_or_load(&f->mesh.active, "mesh", a);
 }
 
 const struct part part_frame = {PART(frame, reference_frame), .free = frame_free_all, .summary = put_levels,

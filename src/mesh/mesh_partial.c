@@ -28,9 +28,9 @@ struct mode_terms {
 /* Returns the index of symmetric component ij. */
 static int component(int dim, int i, int j)
 {
-    for (int k = 0; k < symmetric_count(dim); k++) {
+    for (int k = 0; k < symmetric_component_count(dim); k++) {
         int a, b;
-        symmetric_axes(dim, k, &a, &b);
+        symmetric_component_axes(dim, k, &a, &b);
         if ((a == i && b == j) || (a == j && b == i)) return k;
     }
     return -1;
@@ -53,7 +53,7 @@ static void bends_terms(struct mode_terms *t, int dim)
 /* Makes the terms of all modes, t[MODES_MAX], in the order of kernels/mesh/mesh_partial.h. */
 static void modes_terms(struct mode_terms *t, int dim)
 {
-    const int symmetric = symmetric_count(dim);
+    const int symmetric = symmetric_component_count(dim);
     memset(t, 0, sizeof *t * MODES_MAX);
     for (int k = 0; k < symmetric; k++) t[k] = (struct mode_terms){1, {{(uint8_t)k, 0, 1}}};
     bends_terms(t + symmetric, dim);
@@ -74,13 +74,13 @@ struct cell_maker {
 /* Computes the matrix C [n][n] of stress by strain [Pa]; shear strains are angles. */
 static void constants(const struct elastic *m, real *C, int dim)
 {
-    const int n = symmetric_count(dim);
+    const int n = symmetric_component_count(dim);
     for (int t = 0; t < n; t++) {
         real g[DIM_MAX * DIM_MAX] = {0}, s[SYM_MAX];
         int a, b;
-        symmetric_axes(dim, t, &a, &b);
+        symmetric_component_axes(dim, t, &a, &b);
         g[a * dim + b] = 1;
-        mesh_point_stress(m, g, s, dim);
+        point_hooke_stress(m, g, s, dim);
         for (int k = 0; k < n; k++) C[k * n + t] = s[k];
     }
 }
@@ -242,7 +242,7 @@ static void end_share(const struct cell_maker *c, const real *local, int place, 
 /* Returns the partial-stress entry of point i if it has state-based PD-MPM bonds, else -1. */
 static int64_t end_entry(const struct cell_maker *c, int32_t i)
 {
-    return i >= 0 && partial_end(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
+    return i >= 0 && point_has_state_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
 /* Appends the points with state-based PD-MPM bonds in partial cell k to the list mesh->end, from index *n on, which is
@@ -268,7 +268,7 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
     const struct partial_stress *partial = c->source->partial;
     int32_t n = 0;
     if (!partial || !partial->index || !partial->local) return;
-    mesh->ends = NEW("mesh.ends", mesh_groups(mesh) + 1, int32_t);
+    mesh->ends = NEW("mesh.ends", mesh_partial_group_count(mesh) + 1, int32_t);
     for (int64_t k = 0; k < mesh->partial_cells; k++)
         for (int q = 0; q < 1 << c->dim; q++)
             n += end_entry(c, mesh->point[((int64_t)mesh->partial_cell[k] << c->dim) + q]) >= 0;
@@ -330,8 +330,9 @@ static uint8_t partial_material(const struct mesh *mesh, const struct particles 
 /* Returns the parameters of the computation of stiffness matrices. Release `whole` with memory_free. */
 static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
-    struct cell_maker c = {.mesh = mesh, .p = p, .source = s, .dim = dim, .modes = mesh_modes(dim), .columns = n};
+    const int dim = p->dim, n = symmetric_component_count(dim);
+    struct cell_maker c = {
+        .mesh = mesh, .p = p, .source = s, .dim = dim, .modes = cell_deformation_mode_count(dim), .columns = n};
     c.whole = memory_new("mesh.constants", 2 * s->materials, sizeof *c.whole);
     c.isotropic = c.whole + s->materials;
     for (int m = 0; m < s->materials; m++) {
@@ -359,7 +360,7 @@ static void lane_copy(real *to, real *from, int each)
  * stiffness and are not counted. */
 static void groups_fill(struct mesh *mesh)
 {
-    const int64_t whole = mesh_groups(mesh) * LANES, partial_cells = mesh->partial_cells;
+    const int64_t whole = mesh_partial_group_count(mesh) * LANES, partial_cells = mesh->partial_cells;
     while (mesh->partial_cells < whole) mesh_partial_add(mesh, mesh->partial_cell[whole - LANES]);
     mesh->partial_cells = partial_cells;
 }
@@ -382,7 +383,7 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
 /* Returns an array of `each` numbers for every partial cell, uninitialised except for the last group, which is 0. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
-    const int64_t groups = mesh_groups(mesh), size = each * LANES;
+    const int64_t groups = mesh_partial_group_count(mesh), size = each * LANES;
     real *numbers = memory_new_uninitialised(label, groups * size, sizeof *numbers);
     if (groups > 0) array_fill_bytes(numbers + (groups - 1) * size, 0, size, sizeof *numbers);
     return numbers;
@@ -399,7 +400,7 @@ static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
  * (mesh->alike), itself if there is none. Cells that an edge of the body cuts in the same way follow each other. */
 static void alike_find(struct mesh *mesh, int modes)
 {
-    const int64_t groups = mesh_groups(mesh);
+    const int64_t groups = mesh_partial_group_count(mesh);
     const int half = modes * (modes + 1) / 2;
     mesh->alike = NEW("mesh.alike", groups, int32_t);
     for (int64_t g = 0; g < groups; g++) {
@@ -413,7 +414,7 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
-    const int64_t groups = mesh_groups(mesh);
+    const int64_t groups = mesh_partial_group_count(mesh);
     groups_fill(mesh);
     mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
     mesh->partial_force = NEW("mesh.partial_force", groups * unknowns * LANES, real);
@@ -431,7 +432,7 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
             lane_copy(K, lane_of(old->stiffness, from[k], half), half);
     }
     alike_find(mesh, c.modes);
-    mesh_slits_groups(mesh);
+    mesh_slits_store_corners(mesh);
     mesh_partial_ends_make(mesh, &c);
     memory_free(from);
     memory_free(c.whole);
@@ -443,7 +444,7 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
  * (mesh->alike), since it may differ now. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
-    for (int64_t g = mesh_groups(mesh) - 1; g >= 0; g--)
+    for (int64_t g = mesh_partial_group_count(mesh) - 1; g >= 0; g--)
         if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
 }
 
@@ -452,7 +453,7 @@ void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const 
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2;
-    uint8_t *changed = NEW("mesh.changed", mesh_groups(mesh), uint8_t);
+    uint8_t *changed = NEW("mesh.changed", mesh_partial_group_count(mesh), uint8_t);
     for (int64_t k = 0; k < mesh->partial_cells; k++) changed[k / LANES] |= dirty[mesh->partial_cell[k]];
     alike_part(mesh, changed);
     memory_free(changed);

@@ -49,12 +49,12 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
 
 /* Connects the blocks of nodes at slits with the blocks of their second nodes, so that motion spreads from one to the
  * other. To be called after the blocks are made. */
-void mesh_slits_link(struct mesh *mesh);
+void mesh_slits_link_blocks(struct mesh *mesh);
 
 /* Stores the node indices of the corners of those groups of eight partial cells in which a cell touches a slit. Nodes
  * at slits are doubled, so the corners of such cells are not at fixed index distances from the cell. To be called after
  * the groups are made. */
-void mesh_slits_groups(struct mesh *mesh);
+void mesh_slits_store_corners(struct mesh *mesh);
 
 /* Frees the arrays of s. */
 void mesh_slits_free(struct mesh_slits *s);
@@ -62,12 +62,12 @@ void mesh_slits_free(struct mesh_slits *s);
 /* Computes nodal values of a vector field from values at the points of the mesh, by least squares weighted with mass;
  * the iteration starts from the lumped projection. value: dim arrays with a value for each particle; node: dim arrays,
  * receives a value for each node. */
-void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);
+void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);
 
-/* Computes nodal values of a vector field as mesh_project does, but for n listed nodes only; the iteration starts from
- * their present values, and all other nodes are unchanged. list: node indices. */
-void mesh_project_near(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
-                       const int32_t *list, int64_t n);
+/* Computes nodal values of a vector field as mesh_fit_nodal_values does, but for n listed nodes only; the iteration
+ * starts from their present values, and all other nodes are unchanged. list: node indices. */
+void mesh_fit_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
+                           const int32_t *list, int64_t n);
 
 /* Returns the cell of particle i and its number in this cell as (cell << dim) + number, from its reference position,
  * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
@@ -98,10 +98,10 @@ void mesh_blocks_activate(struct mesh *mesh);
  * gradient is 0 or negative at one of its quarter points. */
 bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
 
-/* Allocates all arrays of a mesh that covers the box from ... to [m], without points or cells. like: grid whose anchor
- * and cell size define the nodes; p, source: particles and the slits and voids that double nodes, p = NULL for none.
- * Returns FAILED, with a message, if there are too many nodes. */
-status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to,
+/* Allocates all arrays of a mesh that covers the box from ... to [m], without points or cells. node_grid: grid whose
+ * anchor and cell size define the nodes; p, source: particles and the slits and voids that double nodes, p = NULL for
+ * none. Returns FAILED, with a message, if there are too many nodes. */
+status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *from, const real *to,
                      const struct particles *p, const struct mesh_source *source);
 
 /* Returns true if cell I of level 0 (the finest) is part of a coarse cell, by its refinement level or because its
@@ -113,7 +113,7 @@ static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I)
 
 /* Allocates an array with a byte for each cell of the mesh, all 0, and some padding at its end. label: name of the
  * array for messages about memory. The caller frees it. */
-static inline uint8_t *cells_mark(const char *label, const struct mesh *mesh)
+static inline uint8_t *mesh_cell_marks_new(const char *label, const struct mesh *mesh)
 {
     return NEW(label, mesh->grid.n + LANES, uint8_t);
 }

@@ -16,7 +16,7 @@ static bool box_make(struct mesh *box, const struct particles *p, const struct g
     memset(box, 0, sizeof *box);
     g->dim = p->dim, g->h = like->h;
     for (int d = 0; d < p->dim; d++) {
-        particles_extent(p, p->n, d, &from[d], &to[d]);
+        particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
         g->anchor[d] = like->anchor[d];
     }
     if (!grid_compute_box(g, from, to, INT32_MAX >> p->dim)) return false;
@@ -46,20 +46,21 @@ static void join(int32_t *above, int32_t I, int32_t J)
 }
 
 /* Joins the nodes of each cell without particles. */
-static void hollow_join(int32_t *above, const struct mesh *box, const struct hollow *h)
+static void hollow_join(int32_t *above, const struct mesh *box, const struct cells_without_particles *h)
 {
     for (int64_t I = 0; h && h->absent && I < h->box.n; I++) {
         if (!h->absent[I]) continue;
-        const int64_t cell = grid_same_cell(&h->box, I, &box->grid);
+        const int64_t cell = grid_cell_in_other_grid(&h->box, I, &box->grid);
         for (int c = 0; c < 1 << h->box.dim; c++) join(above, (int32_t)cell, (int32_t)cell + box->corner[c]);
     }
 }
 
-int64_t mesh_count_parts(const struct particles *p, const struct grid *like, const struct hollow *hollow)
+int64_t mesh_count_parts(const struct particles *p, const struct grid *node_grid,
+                         const struct cells_without_particles *hollow)
 {
     struct mesh box;
     int64_t pieces = 0, last = -1;
-    bool fits = box_make(&box, p, like);
+    bool fits = box_make(&box, p, node_grid);
     if (!fits) return 0;
     int32_t *above = NEW("mesh.above", box.grid.n, int32_t);
     for (int64_t i = 0; i < p->n && fits; i++) {

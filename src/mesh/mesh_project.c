@@ -28,7 +28,7 @@ static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int
     const int32_t *point = m->mesh->point + (cell << dim);
     real sum = 0;
     for (int q = 0; q < 1 << dim; q++)
-        if (point[q] >= 0) sum += m->p->mass[point[q]] * mesh_weight(dim, c, q) * value[point[q]];
+        if (point[q] >= 0) sum += m->p->mass[point[q]] * mesh_shape_function_value(dim, c, q) * value[point[q]];
     return sum;
 }
 
@@ -52,7 +52,8 @@ static void row_make(const struct projection *m, int64_t I, real *row)
         const int32_t *point = m->mesh->point + ((I - m->mesh->corner[c]) << dim);
         for (int q = 0; q < 1 << dim; q++)
             for (int k = 0; k < 1 << dim && point[q] >= 0; k++)
-                row[node_around(dim, c, k)] += m->p->mass[point[q]] * mesh_weight(dim, c, q) * mesh_weight(dim, k, q);
+                row[node_around(dim, c, k)] +=
+                    m->p->mass[point[q]] * mesh_shape_function_value(dim, c, q) * mesh_shape_function_value(dim, k, q);
     }
 }
 
@@ -98,8 +99,8 @@ static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const
 {
     real sum = 0;
     for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
-        for (int64_t cell = mesh_cell_at(m->mesh, I, c); cell >= 0; cell = mesh_cell_next(m->mesh, cell))
-            if (mesh_node(m->mesh, cell, c) == I) sum += cell_sum(m, cell, c, value, dim);
+        for (int64_t cell = mesh_cell_at_node(m->mesh, I, c); cell >= 0; cell = mesh_cell_next_part(m->mesh, cell))
+            if (mesh_cell_corner_node(m->mesh, cell, c) == I) sum += cell_sum(m, cell, c, value, dim);
     return sum;
 }
 
@@ -108,7 +109,7 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
 {
     bool beside = false;
     for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.cell && !beside; c++) {
-        const int64_t cell = mesh_cell_at(mesh, I, c);
+        const int64_t cell = mesh_cell_at_node(mesh, I, c);
         beside = cell >= 0 && (mesh->slits.cell[cell] >= 0 || mesh->slits.cut[cell] >= 0);
     }
     return beside;
@@ -119,13 +120,13 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
 {
     real sum = 0;
     for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
-        for (int64_t cell = mesh_cell_at(m->mesh, I, c); cell >= 0; cell = mesh_cell_next(m->mesh, cell))
-            for (int q = 0; q < 1 << dim && mesh_node(m->mesh, cell, c) == I; q++) {
+        for (int64_t cell = mesh_cell_at_node(m->mesh, I, c); cell >= 0; cell = mesh_cell_next_part(m->mesh, cell))
+            for (int q = 0; q < 1 << dim && mesh_cell_corner_node(m->mesh, cell, c) == I; q++) {
                 const int32_t i = m->mesh->point[(cell << dim) + q];
                 real value = 0;
                 for (int k = 0; k < 1 << dim && i >= 0; k++)
-                    value += mesh_weight(dim, k, q) * from[mesh_node(m->mesh, cell, k)];
-                if (i >= 0) sum += m->p->mass[i] * mesh_weight(dim, c, q) * value;
+                    value += mesh_shape_function_value(dim, k, q) * from[mesh_cell_corner_node(m->mesh, cell, k)];
+                if (i >= 0) sum += m->p->mass[i] * mesh_shape_function_value(dim, c, q) * value;
             }
     return sum;
 }
@@ -274,13 +275,13 @@ static void project_all(struct projection m, real *const *value, real *const *no
     memory_free(m.row);
 }
 
-void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node)
+void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node)
 {
     project_all((struct projection){.mesh = mesh, .p = p}, value, node);
 }
 
-void mesh_project_near(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
-                       const int32_t *list, int64_t n)
+void mesh_fit_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
+                           const int32_t *list, int64_t n)
 {
     uint8_t *mark = NEW("mesh.unknown", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < n; k++) mark[list[k]] = 1;

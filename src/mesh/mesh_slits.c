@@ -51,7 +51,7 @@ static void extra_add(struct extras *to, struct extra one)
 static bool positions_parted(const struct slit_maker *m, int32_t i, const real *a, const real *b)
 {
     const struct voids *v = m->source->voids;
-    if (voids_near(v, i) && void_separates_points(v, m->p->body[i], a, b, NULL)) return true;
+    if (particle_is_beside_void(v, i) && void_separates_points(v, m->p->body[i], a, b, NULL)) return true;
     for (int k = 0; k < m->source->slits; k++)
         if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
     return false;
@@ -61,8 +61,8 @@ static bool positions_parted(const struct slit_maker *m, int32_t i, const real *
 static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
-    particle_place(m->p, i, a);
-    particle_place(m->p, j, b);
+    particle_reference_position(m->p, i, a);
+    particle_reference_position(m->p, j, b);
     return positions_parted(m, i, a, b);
 }
 
@@ -176,7 +176,7 @@ static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
 static bool image_parted(const struct slit_maker *m, int32_t i, const struct mirror_plane *plane)
 {
     real a[DIM_MAX], b[DIM_MAX];
-    particle_place(m->p, i, a);
+    particle_reference_position(m->p, i, a);
     memcpy(b, a, sizeof b);
     b[plane->axis] = 2 * plane->at - b[plane->axis];
     return positions_parted(m, i, a, b);
@@ -245,7 +245,7 @@ static void slits_divide(struct slit_maker *m)
         const int64_t place = mesh_point_slot(m->mesh, m->p, i);
         if (place < 0) continue;
         m->point[place] = (int32_t)i;
-        if (voids_near(m->source->voids, i)) void_mark(&m->mesh->grid, place >> dim, m->voids);
+        if (particle_is_beside_void(m->source->voids, i)) void_mark(&m->mesh->grid, place >> dim, m->voids);
     }
     for (int64_t I = 0; I < n; I++)
         if (slit_near(m, I)) cell_divide(m, I);
@@ -404,13 +404,13 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
 static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
 {
     struct mesh_slits *s = &mesh->slits;
-    const struct mesh_link link = {(int32_t)mesh_block(mesh, extra), (int32_t)mesh_block(mesh, base)};
+    const struct mesh_link link = {(int32_t)mesh_block_of_node(mesh, extra), (int32_t)mesh_block_of_node(mesh, base)};
     s->linked[link.extra] = s->linked[link.base] = 1;
     if (s->links > 0 && memcmp(&s->link[s->links - 1], &link, sizeof link) == 0) return;
     s->link[s->links++] = link;
 }
 
-void mesh_slits_link(struct mesh *mesh)
+void mesh_slits_link_blocks(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     int64_t extras = s->nodes;
@@ -420,16 +420,16 @@ void mesh_slits_link(struct mesh *mesh)
     s->link = BARE("slits.link", extras, struct mesh_link);
     s->linked = NEW("slits.linked", mesh->active.blocks, uint8_t);
     for (int64_t I = s->first; I < mesh->grid.n; I++)
-        if (s->base[I - s->first] >= 0) link_add(mesh, I, mesh_base(mesh, I));
+        if (s->base[I - s->first] >= 0) link_add(mesh, I, mesh_regular_node_of(mesh, I));
     for (int64_t I = 0; I < s->first; I++)
         for (int64_t cell = s->next[I]; cell >= 0; cell = s->next[cell]) link_add(mesh, cell, I);
 }
 
-void mesh_slits_groups(struct mesh *mesh)
+void mesh_slits_store_corners(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     const int corners = 1 << mesh->grid.dim;
-    const int64_t groups = mesh_groups(mesh);
+    const int64_t groups = mesh_partial_group_count(mesh);
     int32_t n = 0;
     if (!s->cell) return;
     memory_free(s->group);
@@ -445,7 +445,7 @@ void mesh_slits_groups(struct mesh *mesh)
         for (int c = 0; c < corners && s->group[g] >= 0; c++)
             for (int l = 0; l < LANES; l++)
                 s->lane[((int64_t)s->group[g] * corners + c) * LANES + l] =
-                    (int32_t)mesh_node(mesh, mesh->partial_cell[g * LANES + l], c);
+                    (int32_t)mesh_cell_corner_node(mesh, mesh->partial_cell[g * LANES + l], c);
 }
 
 void mesh_slits_free(struct mesh_slits *s)

@@ -15,17 +15,18 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     const int corners = 1 << dim, n = corners * dim;
     for (int column = 0; column < n; column++) {
         real g[DIM_MAX * DIM_MAX] = {0}, s[SYM_MAX], P[DIM_MAX * DIM_MAX];
-        for (int d = 0; d < dim; d++) g[column % dim * dim + d] = mesh_slope(dim, column / dim, q, d) / h;
-        mesh_point_stress(m, g, s, dim);
-        for (int k = 0; k < symmetric_count(dim); k++) {
+        for (int d = 0; d < dim; d++)
+            g[column % dim * dim + d] = mesh_shape_function_slope(dim, column / dim, q, d) / h;
+        point_hooke_stress(m, g, s, dim);
+        for (int k = 0; k < symmetric_component_count(dim); k++) {
             int a, b;
-            symmetric_axes(dim, k, &a, &b);
+            symmetric_component_axes(dim, k, &a, &b);
             P[a * dim + b] = P[b * dim + a] = s[k];
         }
         for (int c = 0; c < corners; c++)
             for (int a = 0; a < dim; a++)
                 for (int b = 0; b < dim; b++)
-                    K[column * n + c * dim + a] += V * mesh_slope(dim, c, q, b) / h * P[a * dim + b];
+                    K[column * n + c * dim + a] += V * mesh_shape_function_slope(dim, c, q, b) / h * P[a * dim + b];
     }
 }
 
@@ -44,7 +45,7 @@ static void average_dilatation(const struct mesh *mesh, const struct elastic *m,
         real t[CELL_UNKNOWNS_MAX];
         if (i < 0 || p->material[i] != material) continue;
         points++;
-        for (int a = 0; a < n; a++) sum[a] += t[a] = mesh_slope(dim, a / dim, q, a % dim) / mesh->grid.h;
+        for (int a = 0; a < n; a++) sum[a] += t[a] = mesh_shape_function_slope(dim, a / dim, q, a % dim) / mesh->grid.h;
         for (int b = 0; b < n; b++)
             for (int a = 0; a < n; a++) K[b * n + a] -= by * t[a] * t[b];
     }
@@ -106,7 +107,7 @@ static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, re
     real K[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX] = {0}, mass[CORNERS_MAX] = {0};
     for (int q = 0; q < corners; q++) {
         if (!(places >> q & 1)) continue;
-        for (int c = 0; c < corners; c++) mass[c] += density * V * mesh_weight(dim, c, q);
+        for (int c = 0; c < corners; c++) mass[c] += density * V * mesh_shape_function_value(dim, c, q);
         point_stiffness(K, m, dim, h, V, q);
     }
     for (int b = 0; b < n; b++)

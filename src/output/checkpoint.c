@@ -23,11 +23,11 @@ static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint
 /* ---- archive entries --------------------------------------------------------------------------------------------- */
 
 /* Composes the path of an archive entry in the file. Entries lie in one group: '/' becomes '.', so that the name of one
- * entry may be the beginning of another name. path: capacity `room` [byte]. */
-static void entry_path(char *path, size_t room, const char *name)
+ * entry may be the beginning of another name. path: capacity `capacity` [byte]. */
+static void entry_path(char *path, size_t capacity, const char *name)
 {
-    int length = snprintf(path, room, "/state/%s", name);
-    INVARIANT(length > 0 && (size_t)length < room);
+    int length = snprintf(path, capacity, "/state/%s", name);
+    INVARIANT(length > 0 && (size_t)length < capacity);
     for (char *c = path + strlen("/state/"); *c; c++) *c = *c == '/' ? '.' : *c;
 }
 
@@ -91,20 +91,20 @@ static status state_write(struct output *o, const char *path, const char *scene_
     if (!f.failed && s == OK) return OK;
     o->broken = f.failed;
     file_discard(path);
-    return f.failed ? file_fault(path, f.cause) : s;
+    return f.failed ? file_report_write_failure(path, f.cause) : s;
 }
 
 /* Syncs history.csv: the samples before a checkpoint must be on the disk before it. */
 static status history_sync(const struct output *o)
 {
     if (!o->history || (fflush(o->history) == 0 && fsync(fileno(o->history)) == 0)) return OK;
-    return file_fault(path_join(o->folder, "history.csv").text, errno);
+    return file_report_write_failure(path_join(o->folder, "history.csv").text, errno);
 }
 
 status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
-    TRY(output_wait(o)); /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
+    TRY(output_wait_for_frame(o)); /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
     if (o->broken) return FAILED;
     TRY(folder_check_lock(&o->lock, o->folder));
     TRY(history_sync(o));
@@ -115,7 +115,7 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
     if (path_exists(newest.text) && rename(newest.text, previous.text) != 0) {
         int cause = errno;
         file_discard(newest.text);
-        return file_fault(previous.text, cause);
+        return file_report_write_failure(previous.text, cause);
     }
     return file_publish(newest.text);
 }
@@ -129,7 +129,7 @@ static bool same_scene(struct hdf *f, const char *scene_text)
     if (length < 0 || length > SCENE_LONGEST) return false;
     char *stored = NEW("checkpoint.scene", length + 1, char);
     hdf_read_rows(f, "/Cleave/scene", HDF_U8, length, stored);
-    const bool same = !f->failed && strlen(stored) == (size_t)length && scene_text_same(stored, scene_text);
+    const bool same = !f->failed && strlen(stored) == (size_t)length && scene_texts_are_equal(stored, scene_text);
     memory_free(stored);
     return same;
 }
@@ -162,9 +162,9 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
 status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
-    const char *fault = file_damage(newest.text);
+    const char *fault = file_describe_damage(newest.text);
     if (!fault) return state_read(newest.text, scene_text, archive_all, context);
-    const char *older_fault = file_damage(previous.text);
+    const char *older_fault = file_describe_damage(previous.text);
     if (older_fault)
         return status_set(FAILED, "cannot resume: in %s %s %s and %s %s", o->folder, newest_name, fault, previous_name,
                           older_fault);
@@ -172,7 +172,7 @@ status checkpoint_read(const struct output *o, const char *scene_text, archive_a
     TRY(state_read(previous.text, scene_text, archive_all, context));
     /* Rename the damaged file: the next checkpoint would otherwise replace the whole one by it. */
     if (path_exists(newest.text) && rename(newest.text, path_join(o->folder, damaged_name).text) != 0)
-        return file_fault(newest.text, errno);
+        return file_report_write_failure(newest.text, errno);
     return OK;
 }
 

@@ -142,7 +142,7 @@ static const char *open_fault(int fd)
     return hash == end.hash ? NULL : "is damaged (its bytes are not those that were written)";
 }
 
-const char *file_damage(const char *path)
+const char *file_describe_damage(const char *path)
 {
     if (!path_exists(path)) return "is missing";
     /* Open without blocking: a FIFO of this name would otherwise stop the program. */
@@ -153,9 +153,9 @@ const char *file_damage(const char *path)
     return fault;
 }
 
-const char *file_certain_damage(const char *path)
+const char *file_describe_certain_damage(const char *path)
 {
-    const char *fault = file_damage(path);
+    const char *fault = file_describe_damage(path);
     return fault == unread ? NULL : fault;
 }
 
@@ -170,7 +170,7 @@ status file_append_footer(const char *path)
     if (fd >= 0) close(fd);
     if (!fault) return file_append_and_sync(path, &end, sizeof end);
     file_discard(path);
-    return file_fault(path, fault);
+    return file_report_write_failure(path, fault);
 }
 
 status file_contents_hash(const char *path, uint64_t *hash)

@@ -31,10 +31,10 @@ static status entries_guard(const struct folder_kind *kind, const char *folder)
                       kind->what);
 }
 
-status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *text, bool *there)
+status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *text, bool *exists)
 {
     const struct path sign = path_join(folder, kind->sign);
-    *there = false;
+    *exists = false;
     if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
     for (size_t k = 0; k < COUNT_OF(kind->inner) && kind->inner[k]; k++) {
         const struct path inner = path_join(folder, kind->inner[k]);
@@ -43,6 +43,6 @@ status folder_check_writable(const struct folder_kind *kind, const char *folder,
                 REFUSED, "%s is a symbolic link, and a %s would remove and write files elsewhere; choose another -o",
                 inner.text, kind->what);
     }
-    *there = path_is_file(sign.text) && kind->is_sign(sign.text, text);
-    return *there ? OK : entries_guard(kind, folder);
+    *exists = path_is_file(sign.text) && kind->is_sign(sign.text, text);
+    return *exists ? OK : entries_guard(kind, folder);
 }

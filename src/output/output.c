@@ -16,7 +16,7 @@
 #include "output/pictures.h"
 #include "output/summary_read.h"
 
-void output_start(void)
+void output_configure_hdf5(void)
 {
     /* HDF5 1.10 flushes its open files again at exit, and crashes on files that could not be written. */
     H5dont_atexit();
@@ -100,22 +100,22 @@ static int scene_difference(const char **a, const char **b)
     return 0;
 }
 
-bool scene_text_same(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
+bool scene_texts_are_equal(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
 
 bool scene_text_is_echo(const char *text) { return strncmp(text, "name: \"", 7) == 0; }
 
-bool scene_file_same(const char *path, const char *scene_text)
+bool scene_file_has_text(const char *path, const char *scene_text)
 {
     char *text;
     size_t length;
     if (!path_is_file(path) || file_read_whole(path, &text, &length) != OK) return false;
-    const bool same = length == strlen(text) && scene_text_same(text, scene_text);
+    const bool same = length == strlen(text) && scene_texts_are_equal(text, scene_text);
     memory_free(text);
     return same;
 }
 
-/* Describes the first line in which two scenes differ. text: capacity `room` [byte]. */
-static void difference_text(const char *a, const char *b, char *text, size_t room)
+/* Describes the first line in which two scenes differ. text: capacity `capacity` [byte]. */
+static void difference_text(const char *a, const char *b, char *text, size_t capacity)
 {
     const int line = scene_difference(&a, &b);
     a += strspn(a, " "), b += strspn(b, " ");
@@ -124,10 +124,10 @@ static void difference_text(const char *a, const char *b, char *text, size_t roo
     size_t own;
     const int path = (int)(line_meaning(b, &own) - b);
     if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0) {
-        snprintf(text, room, "line %d, %.*s: this list differs from that of the earlier run", line, path, b);
+        snprintf(text, capacity, "line %d, %.*s: this list differs from that of the earlier run", line, path, b);
         return;
     }
-    snprintf(text, room, "line %d was `%.*s` and is now `%.*s`", line, la < SHOWN ? la : SHOWN, a,
+    snprintf(text, capacity, "line %d was `%.*s` and is now `%.*s`", line, la < SHOWN ? la : SHOWN, a,
              lb < SHOWN ? lb : SHOWN, b);
 }
 
@@ -139,7 +139,7 @@ static bool is_scene_of_run(const char *path, const char *scene_text)
     char *text;
     size_t length;
     snprintf(frames.text, sizeof frames.text, "%.*s/frames", (int)(strrchr(path, '/') - path), path);
-    if (scene_file_same(path, scene_text)) return true;
+    if (scene_file_has_text(path, scene_text)) return true;
     if (!path_is_folder(frames.text) || file_read_whole(path, &text, &length) != OK) return false;
     const bool is = scene_text_is_echo(text);
     memory_free(text);
@@ -171,7 +171,7 @@ static status folder_check(const char *folder, const char *scene_text, enum outp
     TRY(folder_check_writable(&run_kind, folder, scene_text, &there));
     if (!there) return OK;
     TRY(file_read_whole(path_join(folder, "scene.yaml").text, &text, &length));
-    const bool same = length == strlen(text) && scene_text_same(text, scene_text);
+    const bool same = length == strlen(text) && scene_texts_are_equal(text, scene_text);
     difference_text(text, scene_text, difference, sizeof difference);
     memory_free(text);
     if (same || mode == OUTPUT_OVERWRITE) return OK;
@@ -406,11 +406,11 @@ status output_add_series(struct output *o, const char *name, const struct region
 
 void output_close(struct output *o)
 {
-    (void)output_wait(o); /* its status was returned by an earlier output_wait */
+    (void)output_wait_for_frame(o); /* its status was returned by an earlier output_wait_for_frame */
     if (o->history) fclose(o->history);
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);
-    output_particles_changed(o);
+    output_discard_particle_order(o);
     for (int k = 0; k <= o->n_series; k++) memory_free(o->series[k].entry);
     memory_free(o->frame_copy);
     *o = (struct output){0};
@@ -452,7 +452,7 @@ static status series_archive(struct frame_series *s, struct archive *a)
     return OK;
 }
 
-status output_archive(struct output *o, struct archive *a)
+status output_save_or_load(struct output *o, struct archive *a)
 {
     for (int k = 0; k <= o->n_series; k++) TRY(series_archive(&o->series[k], a));
     ARCHIVE_VALUE(a, "output/history_bytes", o->history_bytes);

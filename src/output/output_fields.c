@@ -58,18 +58,19 @@ static const int tensor_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 
 static void stress_row(const struct particles *p, int64_t i, real *row)
 {
     for (int k = 0; k < SYM_MAX; k++) row[k] = 0;
-    for (int k = 0; k < symmetric_count(p->dim); k++) row[tensor_place[p->dim][k]] = p->stress[k][i];
-    if (p->plane_strain) row[2] = particle_stress_across(p, i);
+    for (int k = 0; k < symmetric_component_count(p->dim); k++) row[tensor_place[p->dim][k]] = p->stress[k][i];
+    if (p->plane_strain) row[2] = particle_plane_strain_stress(p, i);
 }
 
 static void copy_stress(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     const struct particles *p = s->p;
     const int stored = tensor_stored(p->dim);
-    for (int k = 0; k < symmetric_count(p->dim); k++)
+    for (int k = 0; k < symmetric_component_count(p->dim); k++)
         copy_column(rows, stored, tensor_place[p->dim][k], row, first, end, p->stress[k], NULL);
     if (p->dim != 2) return;
-    for (int64_t r = first; r < end; r++) ((float *)rows)[stored * r + 2] = (float)particle_stress_across(p, row[r]);
+    for (int64_t r = first; r < end; r++)
+        ((float *)rows)[stored * r + 2] = (float)particle_plane_strain_stress(p, row[r]);
 }
 
 /* Fills rows of a field that is derived from another field. */
@@ -290,7 +291,7 @@ static bool field_exists(const struct frame_field *field, const struct frame_sou
     return true;
 }
 
-unsigned frame_fields_of(const struct frame_source *s)
+unsigned frame_field_set_of(const struct frame_source *s)
 {
     unsigned found = 0;
     for (int k = 0; k < FRAME_FIELDS; k++)
@@ -344,12 +345,12 @@ void frame_field_write(struct hdf *h, const struct frame_field *field, int64_t n
     hdf_write_text_attribute(h, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
 
-void frame_units_text(unsigned fields, char *text, size_t room)
+void frame_units_text(unsigned fields, char *text, size_t capacity)
 {
     size_t used = 0;
     text[0] = '\0';
     for (int k = 0; k < FRAME_FIELDS; k++)
-        if (fields >> k & 1 && frame_fields[k].unit[0] && used < room)
-            used += (size_t)snprintf(text + used, room - used, "%s [%s]\n", strrchr(frame_fields[k].path, '/') + 1,
+        if (fields >> k & 1 && frame_fields[k].unit[0] && used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, "%s [%s]\n", strrchr(frame_fields[k].path, '/') + 1,
                                      frame_fields[k].unit);
 }

@@ -40,7 +40,7 @@ extern const struct frame_field frame_cells[CELL_LISTS];
 /* Returns the set of the fields of a frame, one bit per field in the order of frame_fields[]: the basic ones, plastic
  * strain if a material yields, contact force if the scene has contact, fragments if bodies can break, and those that
  * the scene requests. */
-unsigned frame_fields_of(const struct frame_source *s);
+unsigned frame_field_set_of(const struct frame_source *s);
 
 /* Copies the stored components of a field, row by row, to `rows` (frame_field_bytes for each row). Material points of
  * coarse cells (source->extra.more) have 0 in a field that they lack. order: the rows. */
@@ -51,9 +51,9 @@ void frame_field_copy_rows(const struct frame_field *field, const struct frame_s
  * dim: dimension of the body. A failure is stored in h->failed. */
 void frame_field_write(struct hdf *h, const struct frame_field *field, int64_t n, int dim, const char *rows);
 
-/* Writes one line `field [unit]` for every field with a unit in the set `fields` (bits as returned by frame_fields_of)
- * to `text`, which holds `room` bytes. */
-void frame_units_text(unsigned fields, char *text, size_t room);
+/* Writes one line `field [unit]` for every field with a unit in the set `fields` (bits as returned by
+ * frame_field_set_of) to `text`, which holds `capacity` bytes. */
+void frame_units_text(unsigned fields, char *text, size_t capacity);
 
 /* Returns the size of the stored numbers of one row of a field [byte]. dim: dimension of the body. */
 size_t frame_field_bytes(const struct frame_field *field, int dim);

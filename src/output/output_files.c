@@ -114,7 +114,7 @@ static const char *file_remedy(int cause)
     }
 }
 
-status file_fault(const char *path, int cause)
+status file_report_write_failure(const char *path, int cause)
 {
     return status_set(FAILED, "cannot write %s: %s%s", path, cause ? strerror(cause) : "write error",
                       file_remedy(cause));
@@ -217,7 +217,7 @@ static status outcome(const char *path, int fault)
 {
     if (!fault) return OK;
     file_discard(path);
-    return file_fault(path, fault);
+    return file_report_write_failure(path, fault);
 }
 
 status file_append_and_sync(const char *path, const void *tail, size_t length)
@@ -238,7 +238,8 @@ static status file_rename(const char *path)
 status file_sync_folder(const char *path)
 {
     const int fault = sync_folder_of(path);
-    return fault && fault != EACCES ? file_fault(path, fault) : OK; /* EACCES: the folder may be written but not read */
+    return fault && fault != EACCES ? file_report_write_failure(path, fault)
+                                    : OK; /* EACCES: the folder may be written but not read */
 }
 
 status file_publish(const char *path)
@@ -301,12 +302,12 @@ status files_visit(const char *folder, bool (*chosen)(const char *name, const ch
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Reads up to `room` bytes. Returns their number, or -1 on a fault. */
-static int64_t output_files_read_all(int fd, char *bytes, size_t room)
+/* Reads up to `capacity` bytes. Returns their number, or -1 on a fault. */
+static int64_t output_files_read_all(int fd, char *bytes, size_t capacity)
 {
     size_t have = 0;
-    while (have < room) {
-        ssize_t done = read(fd, bytes + have, room - have);
+    while (have < capacity) {
+        ssize_t done = read(fd, bytes + have, capacity - have);
         if (done < 0 && errno != EINTR) return -1;
         if (done == 0) break;
         if (done > 0) have += (size_t)done;

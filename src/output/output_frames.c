@@ -104,7 +104,7 @@ static struct frame_job *job_make(struct output *o, struct frame_series *series,
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
     job->o = o, job->series = series;
     job->n = series->rows.n, job->step = step, job->dim = source->p->dim, job->t = t;
-    job->compress = o->compress, job->fields = frame_fields_of(source);
+    job->compress = o->compress, job->fields = frame_field_set_of(source);
     job_copy_fields(job, source);
     job_choose_particles_file(job, source, scene_text);
     job_drop_contact(job);
@@ -159,12 +159,12 @@ static bool series_shows(const struct frame_series *s, const struct particles *p
 {
     real X[DIM_MAX];
     if (!s->region) return true;
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Selects the rows of a series. They are kept until output_particles_changed and while there are no points of coarse
- * cells, which may change at any step. Returns false if memory is exhausted. */
+/* Selects the rows of a series. They are kept until output_discard_particle_order and while there are no points of
+ * coarse cells, which may change at any step. Returns false if memory is exhausted. */
 static bool rows_make(struct frame_series *s, const struct frame_source *source)
 {
     const struct particles *more = source->extra.more;
@@ -185,7 +185,7 @@ static bool rows_make(struct frame_series *s, const struct frame_source *source)
     return made;
 }
 
-void output_particles_changed(struct output *o)
+void output_discard_particle_order(struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) rows_free(&o->series[k]);
 }
@@ -247,7 +247,7 @@ static void *job_run(void *context)
     return NULL;
 }
 
-status output_wait(struct output *o)
+status output_wait_for_frame(struct output *o)
 {
     struct frame_job *job = o->writing;
     if (!job) return OK;
@@ -260,7 +260,8 @@ status output_wait(struct output *o)
     return s;
 }
 
-/* Adds a frame to the list of its series before it is written. If writing fails, output_wait removes it again. */
+/* Adds a frame to the list of its series before it is written. If writing fails, output_wait_for_frame removes it
+ * again. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frames", s->entry, s->frames + 1);
@@ -287,11 +288,11 @@ status output_frame_begin(struct output *o, int number, const struct particles *
     const struct frame_source source = {p, extra ? *extra : (struct frame_extra){0}};
     struct frame_series *series = &o->series[number];
     char name[PATH_NAME_ROOM];
-    TRY(output_wait(o));
+    TRY(output_wait_for_frame(o));
     if (o->broken) return FAILED;
     TRY(folder_check_lock(&o->lock, o->folder));
     frame_name(series, name, sizeof name, series->frames);
-    if (!rows_make(series, &source)) return file_fault(path_join(o->folder, name).text, ENOMEM);
+    if (!rows_make(series, &source)) return file_report_write_failure(path_join(o->folder, name).text, ENOMEM);
     struct frame_job *job = o->writing = job_make(o, series, &source, t, step, scene_text);
     job->path = path_join(o->folder, name);
     frame_count(series, job);
@@ -306,7 +307,7 @@ status output_frame_begin(struct output *o, int number, const struct particles *
 status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
 {
     TRY(output_frame_begin(o, 0, p, NULL, t, step, scene_text));
-    return output_wait(o);
+    return output_wait_for_frame(o);
 }
 
 /* ---- after a restart --------------------------------------------------------------------------------------------- */
@@ -329,7 +330,7 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
     particles_file_name(s, seen->name, sizeof seen->name, number);
     const struct path path = path_join(folder, seen->name);
     seen->number = number;
-    seen->fault = file_certain_damage(path.text);
+    seen->fault = file_describe_certain_damage(path.text);
     seen->known = !seen->fault && path_is_file(path.text) && particles_file_read_content(path.text, &seen->content);
     if (seen->known && number == s->particles.number && seen->content != s->particles.content)
         seen->fault = "is of another run";
@@ -349,27 +350,28 @@ static bool frame_read_marks(const char *path, real *time, int64_t *content)
 }
 
 /* Returns true if the frame at `path` is lost, and writes a phrase that completes "FRAME ..." to `text`, capacity
- * `room` [byte]. Returns false if the frame has no fault or cannot be read. particles: the particles file to which the
- * frame should link. */
+ * `capacity` [byte]. Returns false if the frame has no fault or cannot be read. particles: the particles file to which
+ * the frame should link. */
 static bool frame_is_lost(const char *path, const struct frame_entry *e, const struct particles_seen *particles,
-                          char *text, size_t room)
+                          char *text, size_t capacity)
 {
     real time = NAN;
     int64_t content = 0;
-    const char *fault = file_certain_damage(path);
-    if (fault) return snprintf(text, room, "%s", fault) > 0;
+    const char *fault = file_describe_certain_damage(path);
+    if (fault) return snprintf(text, capacity, "%s", fault) > 0;
     if (!path_is_file(path)) return false;
-    if (particles->fault) return snprintf(text, room, "links to %s, which %s", particles->name, particles->fault) > 0;
+    if (particles->fault)
+        return snprintf(text, capacity, "links to %s, which %s", particles->name, particles->fault) > 0;
     if (!frame_read_marks(path, &time, &content)) return false;
-    if (!bits_equal(time, e->time)) return snprintf(text, room, "is another one") > 0;
+    if (!bits_equal(time, e->time)) return snprintf(text, capacity, "is another one") > 0;
     if (!particles->known || content == particles->content) return false;
-    return snprintf(text, room, "and %s, to which it links, are of different runs", particles->name) > 0;
+    return snprintf(text, capacity, "and %s, to which it links, are of different runs", particles->name) > 0;
 }
 
-/* Marks the lost frames of a series, adds their number to *lost and writes the first of all to `text`, capacity `room`
- * [byte]. Frames marked at an earlier restart that are there again lose their mark. A particles file that is lost is
- * not used for further frames. */
-static void series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t room)
+/* Marks the lost frames of a series, adds their number to *lost and writes the first of all to `text`, capacity
+ * `capacity` [byte]. Frames marked at an earlier restart that are there again lose their mark. A particles file that is
+ * lost is not used for further frames. */
+static void series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t capacity)
 {
     struct particles_seen seen = {.number = -1};
     for (int k = 0; k < s->frames; k++) {
@@ -379,7 +381,7 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
         const struct path path = path_join(o->folder, name);
         s->entry[k].fields &= ~FRAME_LOST;
         if (!frame_is_lost(path.text, &s->entry[k], &seen, fault, sizeof fault)) continue;
-        if ((*lost)++ == 0) snprintf(text, room, "%s %s", name, fault);
+        if ((*lost)++ == 0) snprintf(text, capacity, "%s %s", name, fault);
         s->entry[k].fields |= FRAME_LOST;
     }
     if (seen.fault) s->particles.number = -1;
@@ -395,18 +397,18 @@ static status series_index(const struct output *o, struct frame_series *series)
     return s;
 }
 
-status output_frames_check(struct output *o, int *lost, char *text, size_t room)
+status output_index_drop_lost_frames(struct output *o, int *lost, char *text, size_t capacity)
 {
     *lost = 0;
     for (int k = 0; k <= o->n_series; k++) {
         if (o->series[k].frames == 0) continue;
-        series_check(o, &o->series[k], lost, text, room);
+        series_check(o, &o->series[k], lost, text, capacity);
         TRY(series_index(o, &o->series[k]));
     }
     if (*lost == 0) return OK;
     const size_t used = strlen(text);
-    if (*lost > 1) snprintf(text + used, room - used, ", and %d frames more are lost", *lost - 1);
+    if (*lost > 1) snprintf(text + used, capacity - used, ", and %d frames more are lost", *lost - 1);
     strncat(text, ": the indices leave out what is lost; a run of its own would make it again",
-            room - strlen(text) - 1);
+            capacity - strlen(text) - 1);
     return OK;
 }

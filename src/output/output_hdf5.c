@@ -105,7 +105,7 @@ status hdf_close_written(struct hdf *f, const char *path, bool *broken)
     if (!f->failed) return OK;
     *broken = true;
     file_discard(path);
-    return file_fault(path, f->cause);
+    return file_report_write_failure(path, f->cause);
 }
 
 void hdf_create_group(struct hdf *f, const char *name)
@@ -217,7 +217,7 @@ void hdf_create_link(struct hdf *f, const char *name, const char *file)
     if (ready(f)) good(f, H5Lcreate_external(file, name, f->file, name, H5P_DEFAULT, H5P_DEFAULT));
 }
 
-bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t room)
+bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t capacity)
 {
     H5L_info_t link;
     char value[1024];
@@ -227,7 +227,7 @@ bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t room
         return false;
     if (link.u.val_size <= sizeof value && good(f, H5Lget_val(f->file, name, value, sizeof value, H5P_DEFAULT)) &&
         good(f, H5Lunpack_elink_val(value, link.u.val_size, NULL, &target, NULL)))
-        snprintf(file, room, "%s", target);
+        snprintf(file, capacity, "%s", target);
     return true;
 }
 
@@ -244,18 +244,18 @@ static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name,
 }
 
 void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns,
-                       const struct hdf_source *source, int sources, int more)
+                       const struct hdf_source *source, int sources, int extra_rows)
 {
     hsize_t all[2] = {0, (hsize_t)columns}, at[2] = {0, 0};
     const int rank = columns > 1 ? 2 : 1;
     hid_t space = -1, list = -1, set = -1;
     if (!ready(f)) return;
-    for (int k = 0; k < sources; k++) all[0] += (hsize_t)(source[k].rows + more);
+    for (int k = 0; k < sources; k++) all[0] += (hsize_t)(source[k].rows + extra_rows);
     if (!good(f, space = H5Screate_simple(rank, all, NULL)) || !good(f, list = H5Pcreate(H5P_DATASET_CREATE)) ||
         !good(f, H5Pset_obj_track_times(list, false)))
         return;
     for (int k = 0; k < sources; k++) {
-        const hsize_t shape[2] = {(hsize_t)(source[k].rows + more), (hsize_t)columns};
+        const hsize_t shape[2] = {(hsize_t)(source[k].rows + extra_rows), (hsize_t)columns};
         if (source[k].file && shape[0] > 0 && !source_map(f, list, space, name, at, &source[k], shape, rank)) return;
         at[0] += shape[0];
     }

@@ -42,7 +42,7 @@ static status line_end(struct output *o, struct line *l)
     errno = 0;
     const bool whole = fclose(l->to) == 0 && fwrite(l->text, 1, l->length, o->history) == l->length &&
                        fflush(o->history) == 0 && !ferror(o->history);
-    const status s = whole ? OK : file_fault(history_path(o).text, errno);
+    const status s = whole ? OK : file_report_write_failure(history_path(o).text, errno);
     if (whole)
         o->history_bytes += (int64_t)l->length, o->history_hash = hash_bytes(o->history_hash, l->text, l->length);
     free(l->text);
@@ -53,7 +53,7 @@ static status line_end(struct output *o, struct line *l)
 static status history_header(struct output *o, const struct column *column)
 {
     struct line l;
-    if (!line_begin(&l)) return file_fault(history_path(o).text, ENOMEM);
+    if (!line_begin(&l)) return file_report_write_failure(history_path(o).text, ENOMEM);
     for (int k = 0; k < o->columns; k++) {
         const char *end = k + 1 < o->columns ? "," : "\n";
         char name[sizeof column->name];
@@ -105,7 +105,7 @@ status output_history_open(struct output *o, const struct column *column, int co
     if (resume) TRY(history_cut(o));
     TRY(file_check_replaceable(path.text));
     o->history = history_file(path.text, resume);
-    if (!o->history) return file_fault(path.text, errno);
+    if (!o->history) return file_report_write_failure(path.text, errno);
     if (resume) return OK;
     o->history_bytes = 0, o->history_hash = HASH_START;
     return history_header(o, column);
@@ -114,7 +114,7 @@ status output_history_open(struct output *o, const struct column *column, int co
 status output_write_history(struct output *o, const real *value)
 {
     struct line l;
-    if (!line_begin(&l)) return file_fault(history_path(o).text, ENOMEM);
+    if (!line_begin(&l)) return file_report_write_failure(history_path(o).text, ENOMEM);
     for (int k = 0; k < o->columns; k++) {
         /* Remove the sign of a NaN, which has no meaning and would make files of equal runs differ. */
         const real a = isnan(value[k]) ? fabs(NAN) : value[k];

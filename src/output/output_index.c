@@ -10,14 +10,14 @@
 #include "output/output_files.h"
 #include "particles_file.h"
 
-void frame_name(const struct frame_series *s, char *name, size_t room, int number)
+void frame_name(const struct frame_series *s, char *name, size_t capacity, int number)
 {
-    snprintf(name, room, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, number);
+    snprintf(name, capacity, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, number);
 }
 
-void series_file(const struct frame_series *s, char *name, size_t room, const char *end)
+void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *end)
 {
-    snprintf(name, room, "%s%s", s->name[0] ? s->name : "frames", end);
+    snprintf(name, capacity, "%s%s", s->name[0] ? s->name : "frames", end);
 }
 
 /* Writes frames.hdf.series. */
@@ -96,7 +96,7 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
 {
     static const char *const end[INDICES] = {".hdf.series", ".xdmf"};
     char name[PATH_NAME_ROOM];
-    series_file(s, name, sizeof name, end[which]);
+    series_file_name(s, name, sizeof name, end[which]);
     return path_join(folder, name);
 }
 
@@ -107,7 +107,7 @@ static status index_make(struct frame_indices *index, const char *folder, const 
     FILE *out = memory_stream_open(&index->text[which], &index->length[which]);
     if (out) print[which](out, s);
     const bool whole = out && fclose(out) == 0;
-    return whole ? OK : file_fault(index_path(folder, s, which).text, ENOMEM);
+    return whole ? OK : file_report_write_failure(index_path(folder, s, which).text, ENOMEM);
 }
 
 status frame_indices_make(struct frame_indices *index, const char *folder, const struct frame_series *s)

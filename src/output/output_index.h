@@ -21,12 +21,12 @@ status frame_indices_write(const struct frame_indices *index, const char *folder
 /* Releases the texts of *index. */
 void frame_indices_free(struct frame_indices *index);
 
-/* Writes the file name of frame `number` of a series, relative to the folder of the run, to `name`, which holds `room`
- * bytes. */
-void frame_name(const struct frame_series *s, char *name, size_t room, int number);
+/* Writes the file name of frame `number` of a series, relative to the folder of the run, to `name`, which holds
+ * `capacity` bytes. */
+void frame_name(const struct frame_series *s, char *name, size_t capacity, int number);
 
-/* Writes the name of an index file of a series, relative to the folder of the run, to `name`, which holds `room`
+/* Writes the name of an index file of a series, relative to the folder of the run, to `name`, which holds `capacity`
  * bytes: the name of the series followed by the ending `end`. */
-void series_file(const struct frame_series *s, char *name, size_t room, const char *end);
+void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *end);
 
 #endif

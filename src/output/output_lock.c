@@ -35,7 +35,7 @@ static status lock_file_check(int fd, const char *path)
 {
     char begin[sizeof lock_begin - 1];
     const ssize_t length = pread(fd, begin, sizeof begin, 0);
-    if (length < 0) return file_fault(path, errno);
+    if (length < 0) return file_report_write_failure(path, errno);
     if (length == 0 || (length == (ssize_t)sizeof begin && memcmp(begin, lock_begin, sizeof begin) == 0)) return OK;
     return status_set(REFUSED, "%s is not the lock file of a run; choose another -o", path);
 }
@@ -77,7 +77,7 @@ status folder_lock(struct folder_lock *l, const char *folder)
     *l = (struct folder_lock){.fd = -1};
     for (int k = 0; k < TRIES && l->fd < 0; k++) {
         const int fd = open(path.text, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-        if (fd < 0) return file_fault(path.text, errno);
+        if (fd < 0) return file_report_write_failure(path.text, errno);
         const int fault = lock_try(fd);
         if (fault == EAGAIN) {
             const status s = say_holder(fd, folder);

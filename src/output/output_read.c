@@ -39,14 +39,15 @@ static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int6
 }
 
 /* Reads all fields of a frame; stress in the order of struct particles, with zz last in the plane. */
-static void read_fields(struct frame *f, struct hdf *h)
+static void read_fields(struct output_frame *f, struct hdf *h)
 {
     static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
     int dim = f->dim;
     read_columns(h, "/Cleave/reference", f->n, dim, dim, plain, f->X);
     read_columns(h, "/VTKHDF/PointData/displacement", f->n, 3, dim, plain, f->u);
     read_columns(h, "/VTKHDF/PointData/velocity", f->n, 3, dim, plain, f->v);
-    read_columns(h, "/VTKHDF/PointData/stress", f->n, 6, frame_stresses(dim), dim == 2 ? plane : plain, f->stress);
+    read_columns(h, "/VTKHDF/PointData/stress", f->n, 6, frame_stress_component_count(dim), dim == 2 ? plane : plain,
+                 f->stress);
     f->damage = read_list(h, "/VTKHDF/PointData/damage", HDF_F32, f->n);
     f->kind = read_list(h, "/VTKHDF/PointData/kind", HDF_U8, f->n);
     f->material = read_list(h, "/VTKHDF/PointData/material", HDF_U8, f->n);
@@ -59,7 +60,7 @@ static void read_fields(struct frame *f, struct hdf *h)
 }
 
 /* Reads dimension, time, step and number of particles. A value out of range is recorded as a fault of the file. */
-static void read_size(struct frame *f, struct hdf *h, int64_t bytes)
+static void read_size(struct output_frame *f, struct hdf *h, int64_t bytes)
 {
     int32_t dim = 0;
     hdf_read_attribute(h, "/Cleave", "dim", HDF_I32, &dim);
@@ -72,14 +73,14 @@ static void read_size(struct frame *f, struct hdf *h, int64_t bytes)
     f->n = n;
 }
 
-status frame_read(struct frame *f, const char *path)
+status frame_read(struct output_frame *f, const char *path)
 {
     struct hdf h;
     struct stat s;
-    *f = (struct frame){0};
+    *f = (struct output_frame){0};
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode))
         return status_set(FAILED, "cannot read %s: there is no such file", path);
-    const char *fault = file_damage(path);
+    const char *fault = file_describe_damage(path);
     if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
     crash_message_set_file(path);
     hdf_open(&h, path);
@@ -94,7 +95,7 @@ status frame_read(struct frame *f, const char *path)
     return linked == OK ? status_set(FAILED, "cannot read %s: it is no whole frame of this program", path) : linked;
 }
 
-void frame_free(struct frame *f)
+void frame_free(struct output_frame *f)
 {
     for (int d = 0; d < DIM_MAX; d++) {
         memory_free(f->X[d]);
@@ -109,24 +110,25 @@ void frame_free(struct frame *f)
     memory_free(f->id);
     memory_free(f->fragment);
     memory_free(f->spacing);
-    *f = (struct frame){0};
+    *f = (struct output_frame){0};
 }
 
 /* ---- one field by name ------------------------------------------------------------------------------------------- */
 
 /* Fills row[SYM_MAX] with the velocity or stress of particle i, from which another field is derived. Components that
  * the space does not have are 0. */
-static void source_row(const struct frame *f, enum derived_from from, int64_t i, real *row)
+static void source_row(const struct output_frame *f, enum derived_from from, int64_t i, real *row)
 {
     static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* order of read_fields */
     memset(row, 0, SYM_MAX * sizeof *row);
     if (from == FROM_VELOCITY)
         for (int d = 0; d < f->dim; d++) row[d] = f->v[d][i];
     else
-        for (int k = 0; k < frame_stresses(f->dim); k++) row[(f->dim == 2 ? plane : plain)[k]] = f->stress[k][i];
+        for (int k = 0; k < frame_stress_component_count(f->dim); k++)
+            row[(f->dim == 2 ? plane : plain)[k]] = f->stress[k][i];
 }
 
-static float *derive_field(const struct frame *f, const struct derived_field *field)
+static float *derive_field(const struct output_frame *f, const struct derived_field *field)
 {
     float *value = NEW("frame.derived", f->n * field->columns, float);
 #pragma omp parallel for schedule(static)
@@ -142,7 +144,7 @@ static float *derive_field(const struct frame *f, const struct derived_field *fi
 /* Largest accepted number of components of a field, a guard against damaged files. */
 enum { COLUMNS_MOST = 16 };
 
-status frame_field_read(const struct frame *f, const char *path, const char *name, int *columns, float **value)
+status frame_field_read(const struct output_frame *f, const char *path, const char *name, int *columns, float **value)
 {
     char place[PATH_NAME_ROOM];
     struct hdf h;

@@ -163,7 +163,7 @@ static status series_temporal(struct output *o, const struct frame_series *serie
     a.has = NEW("temporal.has", series->frames, uint32_t);
     a.start = NEW("temporal.start", series->frames, int64_t);
     frames_look(&a, series);
-    series_file(series, name, sizeof name, ".vtkhdf");
+    series_file_name(series, name, sizeof name, ".vtkhdf");
     if (a.n > 0) s = temporal_write(&a, path_join(o->folder, name).text, scene_text, &o->broken);
     memory_free(a.start), memory_free(a.has), memory_free(a.particles), memory_free(a.frame);
     memory_free(a.source), memory_free(a.time);
@@ -174,14 +174,14 @@ void output_temporal_remove(const struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) {
         char name[PATH_NAME_ROOM];
-        series_file(&o->series[k], name, sizeof name, ".vtkhdf");
+        series_file_name(&o->series[k], name, sizeof name, ".vtkhdf");
         unlink(path_join(o->folder, name).text);
     }
 }
 
 status output_write_temporal(struct output *o, const char *scene_text)
 {
-    TRY(output_wait(o));
+    TRY(output_wait_for_frame(o));
     if (o->broken) return FAILED;
     TRY(folder_check_lock(&o->lock, o->folder));
     for (int k = 0; k <= o->n_series; k++) TRY(series_temporal(o, &o->series[k], scene_text));

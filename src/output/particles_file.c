@@ -14,9 +14,9 @@ static const char *const linked[] = {
     "/VTKHDF/Connectivity",    "/VTKHDF/Offsets",         "/VTKHDF/Types",
     "/VTKHDF/FieldData/units", "/VTKHDF/FieldData/scene", "/Cleave/scene"};
 
-void particles_file_name(const struct frame_series *s, char *name, size_t room, int number)
+void particles_file_name(const struct frame_series *s, char *name, size_t capacity, int number)
 {
-    snprintf(name, room, "frames%s%s/particles_%06d.h5", s->name[0] ? "_" : "", s->name, number);
+    snprintf(name, capacity, "frames%s%s/particles_%06d.h5", s->name[0] ? "_" : "", s->name, number);
 }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
@@ -101,7 +101,7 @@ status particles_file_write(const struct particles_file *f, bool *broken)
 {
     struct hdf h;
     int64_t content = 0;
-    if (!particles_file_damage(f->path.text, &content) && content == f->content) return OK;
+    if (!particles_file_describe_damage(f->path.text, &content) && content == f->content) return OK;
     hdf_create(&h, file_begin_temporary(f->path.text).text, f->compress);
     particles_write_contents(&h, f);
     TRY(hdf_close_written(&h, f->path.text, broken));
@@ -132,9 +132,9 @@ bool particles_file_read_content(const char *path, int64_t *content)
     return !h.failed;
 }
 
-const char *particles_file_damage(const char *path, int64_t *content)
+const char *particles_file_describe_damage(const char *path, int64_t *content)
 {
-    const char *fault = file_damage(path);
+    const char *fault = file_describe_damage(path);
     if (fault) return fault;
     return particles_file_read_content(path, content) ? NULL : "is no particles file";
 }
@@ -150,7 +150,7 @@ status particles_file_check(struct hdf *h, const char *path)
     const char *slash = strrchr(path, '/');
     const int folder = slash ? (int)(slash + 1 - path) : 0;
     snprintf(file.text, sizeof file.text, "%.*s%s", folder, path, name);
-    const char *fault = particles_file_damage(file.text, &found);
+    const char *fault = particles_file_describe_damage(file.text, &found);
     if (!fault && found != content) fault = "is of another run";
     if (!fault) return OK;
     return status_set(FAILED, "cannot read %s: %s beside it, to which it links, %s", path, name, fault);

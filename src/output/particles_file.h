@@ -24,8 +24,8 @@ struct particles_file {
 };
 
 /* Writes the name of particles file `number` of a series, relative to the folder of the run, to `name`, which holds
- * `room` bytes. */
-void particles_file_name(const struct frame_series *s, char *name, size_t room, int number);
+ * `capacity` bytes. */
+void particles_file_name(const struct frame_series *s, char *name, size_t capacity, int number);
 
 /* Copies the contents of the particles file for the rows of a series from *source to *f, and computes their hash.
  * fields: bit set of the fields of the frames. Release with particles_file_free. */
@@ -48,7 +48,7 @@ bool particles_file_read_content(const char *path, int64_t *content);
 
 /* Checks the particles file `path`. Stores the hash of its contents in *content. Returns NULL if the file is whole,
  * else a phrase that completes "PATH ..." in a message (a static text). */
-const char *particles_file_damage(const char *path, int64_t *content);
+const char *particles_file_describe_damage(const char *path, int64_t *content);
 
 /* Checks the particles file to which the open frame h, the file `path`, links. Returns OK if it is whole and belongs to
  * the frame, or if the frame is complete by itself, as those of earlier versions; else FAILED. */

@@ -37,10 +37,10 @@ static const struct picture_end {
                      true},
 };
 
-/* Reads up to `room` bytes from the end of an open file. Returns their number. */
-static size_t read_end(int fd, int64_t length, char *to, size_t room)
+/* Reads up to `capacity` bytes from the end of an open file. Returns their number. */
+static size_t read_end(int fd, int64_t length, char *to, size_t capacity)
 {
-    const size_t wanted = length < (int64_t)room ? (size_t)length : room;
+    const size_t wanted = length < (int64_t)capacity ? (size_t)length : capacity;
     const ssize_t have = pread(fd, to, wanted, (off_t)(length - (int64_t)wanted));
     return have < 0 ? 0 : (size_t)have;
 }
@@ -99,7 +99,7 @@ status picture_publish(const char *path, enum picture_format format)
     if (fd >= 0 && close(fd) != 0 && !fault) fault = errno;
     if (!fault) return file_publish(path);
     file_discard(path);
-    if (fault > 0) return file_fault(path, fault);
+    if (fault > 0) return file_report_write_failure(path, fault);
     return status_set(FAILED,
                       "cannot write %s: the picture is cut short, as on a full disk; free space or choose "
                       "another -o",

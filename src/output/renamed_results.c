@@ -19,7 +19,7 @@ static const struct {
     {"conversion.return_energy", "conversion.reversion_energy"},
 };
 
-const char *result_present_name(const char *name)
+const char *result_current_name(const char *name)
 {
     for (size_t k = 0; k < COUNT_OF(renamed); k++)
         if (strcmp(name, renamed[k].old) == 0) return renamed[k].now;
@@ -30,5 +30,5 @@ const char *result_other_name(const char *name)
 {
     for (size_t k = 0; k < COUNT_OF(renamed); k++)
         if (strcmp(name, renamed[k].now) == 0) return renamed[k].old;
-    return result_present_name(name);
+    return result_current_name(name);
 }

@@ -48,10 +48,10 @@ static struct colour along_stops(const struct stop *stop, int stops, double at)
                            (uint8_t)lround(a->blue + share * (b->blue - a->blue)), 255};
 }
 
-struct colour colour_sequential(double at) { return along_stops(sequential, COUNT_OF(sequential), at); }
-struct colour colour_diverging(double at) { return along_stops(diverging, COUNT_OF(diverging), at); }
-struct colour colour_damage(double at) { return along_stops(damage_stops, COUNT_OF(damage_stops), at); }
-struct colour colour_bonds(double at) { return along_stops(bond_stops, COUNT_OF(bond_stops), at); }
+struct colour colour_sequential(double position) { return along_stops(sequential, COUNT_OF(sequential), position); }
+struct colour colour_diverging(double position) { return along_stops(diverging, COUNT_OF(diverging), position); }
+struct colour colour_damage(double position) { return along_stops(damage_stops, COUNT_OF(damage_stops), position); }
+struct colour colour_bonds(double position) { return along_stops(bond_stops, COUNT_OF(bond_stops), position); }
 struct colour colour_points(void) { return (struct colour){236, 233, 226, 255}; }
 
 /* Returns the colour of a fragment: light grey for fragment 0, the heaviest one; nine colours in turn for others;

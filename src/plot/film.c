@@ -83,7 +83,7 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
     f->process = (int)fork();
     if (f->process == 0) become_ffmpeg(word, ends[0], f->complaints ? fileno(f->complaints) : -1);
     const int cause = errno;
-    if (f->process > 0) interrupt_cleanup_set(LEAVING_FILM, aside.text, f->process);
+    if (f->process > 0) interrupt_cleanup_register(LEAVING_FILM, aside.text, f->process);
     interrupt_cleanup_block(false);
     close(ends[0]);
     f->to = ends[1];
@@ -124,13 +124,13 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
         fed = status_set(FAILED, "%s: ffmpeg made no film: %s", sheet.path, reason);
     }
     if (fed != OK) file_discard(sheet.path);
-    interrupt_cleanup_set(LEAVING_FILM, NULL, 0);
+    interrupt_cleanup_register(LEAVING_FILM, NULL, 0);
     if (f->complaints) fclose(f->complaints);
     return fed;
 }
 
 status film_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
-                 const struct cloud *cloud, int clouds)
+                 const struct plotted_particles *cloud, int clouds)
 {
     struct ffmpeg f;
     struct path picture;
@@ -141,11 +141,11 @@ status film_draw(struct sheet sheet, const char *title, enum map map, const stru
     unlink(path_temporary(sheet.path).text); /* a link of this name is not followed */
     status s = ffmpeg_start(&f, sheet);
     for (int k = 0; s == OK && k < clouds; k++) {
-        interrupt_cleanup_set(LEAVING_FRAME, picture.text, 0);
+        interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
         s = maps_draw((struct sheet){picture.text, PICTURE_PNG}, title, map, view, &cloud[k], 1);
         if (s == OK) s = ffmpeg_feed(&f, picture.text);
         unlink(picture.text);
-        interrupt_cleanup_set(LEAVING_FRAME, NULL, 0);
+        interrupt_cleanup_register(LEAVING_FRAME, NULL, 0);
     }
     return ffmpeg_end(&f, sheet, s);
 }

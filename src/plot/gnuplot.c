@@ -148,7 +148,7 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     interrupt_cleanup_block(true);
     status s = file_check_replaceable(path);
     if (s == OK) s = gnuplot_start(g);
-    if (s == OK) interrupt_cleanup_set(LEAVING_PICTURE, g->aside, g->process);
+    if (s == OK) interrupt_cleanup_register(LEAVING_PICTURE, g->aside, g->process);
     interrupt_cleanup_block(false);
     if (s != OK) {
         gnuplot_release(g);
@@ -190,7 +190,7 @@ status gnuplot_close(struct gnuplot *g)
         s = picture_publish(g->path, g->format);
     }
     if (s != OK) remove(g->aside);
-    interrupt_cleanup_set(LEAVING_PICTURE, NULL, 0);
+    interrupt_cleanup_register(LEAVING_PICTURE, NULL, 0);
     gnuplot_release(g);
     return s;
 }

@@ -19,13 +19,13 @@ void panel_write_margins(FILE *to, const struct layout *layout, double left, dou
 /* Writes the gnuplot commands for tics and labels of a panel with a flat map. metre: unit of the axes; column: column
  * of the panel, from 0, the only one with labels at its left axis; lowest: no panel is below it, so that its lower
  * axis has labels. */
-void panel_write_axes(FILE *to, const struct layout *layout, const struct view *view, const struct cloud *c,
+void panel_write_axes(FILE *to, const struct layout *layout, const struct view *view, const struct plotted_particles *c,
                       const struct unit *metre, int column, bool lowest);
 
 /* Writes the gnuplot commands that draw the coordinate axes of an outside view as arrows at the lower left corner of a
  * panel, and a bar of known length. metre: unit of the axes of the panel. */
-void panel_write_directions(FILE *to, const struct layout *layout, const struct view *view, const struct cloud *c,
-                            const struct unit *metre);
+void panel_write_directions(FILE *to, const struct layout *layout, const struct view *view,
+                            const struct plotted_particles *c, const struct unit *metre);
 
 /* Writes the gnuplot commands and data that plot the image pixel[height][width], row 0 at the bottom. from: its lower
  * left corner; step: width and height of a pixel, both in units of the axes. more: further elements of the plot

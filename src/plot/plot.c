@@ -20,13 +20,13 @@ static struct path sheet_path(const struct plot_request *r, enum picture which)
 }
 
 static status draw_map(const struct plot_request *r, const char *path, enum map map, const struct view *view,
-                       const struct cloud *cloud, int clouds)
+                       const struct plotted_particles *cloud, int clouds)
 {
     char title[TITLE_LENGTH], what[64] = "damage";
     if (map == MAP_KIND) snprintf(what, sizeof what, "method and damage");
     if (map == MAP_FRAGMENT) snprintf(what, sizeof what, "%d fragments", (int)cloud[0].fragments);
     if (map == MAP_CRACKS) snprintf(what, sizeof what, "cracks, where damage is above %.2f", CRACK_DAMAGE);
-    compose_title(title, r->folder, what, &cloud[0]);
+    picture_compose_title(title, r->folder, what, &cloud[0]);
     return maps_draw((struct sheet){path, r->format}, title, map, view, cloud, clouds);
 }
 
@@ -37,7 +37,7 @@ struct contents {
     double cracked;
 }; /* cracked: share of particles on cracks in the last frame */
 
-static struct contents contents_of(const struct cloud *cloud, int clouds)
+static struct contents contents_of(const struct plotted_particles *cloud, int clouds)
 {
     struct contents has = {0};
     for (int c = 0; c < clouds; c++)
@@ -55,15 +55,15 @@ static struct contents contents_of(const struct cloud *cloud, int clouds)
 static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view)
 {
     for (int k = 0; k < frames->listed; k++) {
-        struct frame f;
-        struct cloud c;
+        struct output_frame f;
+        struct plotted_particles c;
         const int number = frames->list[k].number;
         TRY(run_read_frame(&f, r->folder, number));
-        cloud_make(&c, &f, &r->projection);
+        plotted_particles_make(&c, &f, &r->projection);
         frame_free(&f);
         status s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
         if (s == OK) s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_KIND, number).text, MAP_KIND, view, &c, 1);
-        cloud_free(&c);
+        plotted_particles_free(&c);
         TRY(s);
     }
     return OK;
@@ -71,11 +71,11 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 
 /* Draws the maps of damage, of the kinds of particles and of fragments, each only if the frames contain such. The
  * same maps for every frame follow if r->every is set. scene: for its pre-cracks in 2D; may be NULL. */
-static status draw_views(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud,
-                         const struct scene *scene)
+static status draw_views(const struct plot_request *r, const struct run_frames *frames,
+                         const struct plotted_particles *cloud, const struct scene *scene)
 {
     struct view view = view_around(cloud, frames->shown);
-    const struct cloud *last = &cloud[frames->shown - 1];
+    const struct plotted_particles *last = &cloud[frames->shown - 1];
     const struct contents has = contents_of(cloud, frames->shown);
     if (scene && scene->dim == 2) view.notches = scene->cracks, view.notch = scene->crack;
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
@@ -84,18 +84,20 @@ static status draw_views(const struct plot_request *r, const struct run_frames *
                       latest = sheet_path(r, DRAWN_LAST);
     const bool damaged = has.damage || view.notches > 0;
     TRY(damaged ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
-                : nothing_to_draw(damage.text, "no bond is broken; --field von_mises, speed, ... draw other fields"));
+                : report_nothing_to_draw(damage.text,
+                                         "no bond is broken; --field von_mises, speed, ... draw other fields"));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
-                  : nothing_to_draw(kind.text, "all particles are of one method"));
+                  : report_nothing_to_draw(kind.text, "all particles are of one method"));
     TRY(damaged || has.kinds ? draw_map(r, latest.text, damaged ? MAP_DAMAGE : MAP_KIND, &view, last, 1)
-                             : nothing_to_draw(latest.text, "it would show neither damage nor two methods"));
+                             : report_nothing_to_draw(latest.text, "it would show neither damage nor two methods"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));
     return r->every ? draw_every(r, frames, &view) : OK;
 }
 
 /* Draws the maps of flat clouds. Pre-cracks are read from the scene.yaml of the run; without this file they are left
  * out. */
-static status draw_flat(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud)
+static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
+                        const struct plotted_particles *cloud)
 {
     struct scene scene;
     const bool known = scene_read(&scene, path_join(r->folder, "scene.yaml").text, NULL, 0) == OK;
@@ -105,34 +107,37 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
 }
 
 /* Draws the maps of a three-dimensional run in an outside view, and its cracks. */
-static status draw_outside(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud)
+static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
+                           const struct plotted_particles *cloud)
 {
     const struct view view = view_around(cloud, frames->shown);
     const struct path cracks = sheet_path(r, DRAWN_CRACKS);
     TRY(draw_map(r, sheet_path(r, DRAWN_SURFACE).text, MAP_DAMAGE, &view, cloud, frames->shown));
     const struct contents has = contents_of(cloud, frames->shown);
-    if (!has.cracks) return nothing_to_draw(cracks.text, "no particle is damaged enough");
-    if (has.cracked > 0.5) return nothing_to_draw(cracks.text, "most particles are damaged, not those of cracks alone");
+    if (!has.cracks) return report_nothing_to_draw(cracks.text, "no particle is damaged enough");
+    if (has.cracked > 0.5)
+        return report_nothing_to_draw(cracks.text, "most particles are damaged, not those of cracks alone");
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 
 /* Draws pictures of clouds, cloud[frames->shown]. */
-typedef status draw_clouds_fn(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud);
+typedef status draw_clouds_fn(const struct plot_request *r, const struct run_frames *frames,
+                              const struct plotted_particles *cloud);
 
 /* Reads the selected frames as clouds and calls `draw`. */
 static status draw_clouds(const struct plot_request *r, const struct run_frames *frames, draw_clouds_fn *draw)
 {
-    struct cloud *cloud = NEW("plot.clouds", frames->shown, struct cloud);
+    struct plotted_particles *cloud = NEW("plot.clouds", frames->shown, struct plotted_particles);
     status s = OK;
     for (int k = 0; s == OK && k < frames->shown; k++) {
-        struct frame f;
+        struct output_frame f;
         s = run_read_frame(&f, r->folder, frames->show[k].number);
         if (s != OK) break;
-        cloud_make(&cloud[k], &f, &r->projection);
+        plotted_particles_make(&cloud[k], &f, &r->projection);
         frame_free(&f);
     }
     if (s == OK) s = draw(r, frames, cloud);
-    for (int k = 0; k < frames->shown; k++) cloud_free(&cloud[k]);
+    for (int k = 0; k < frames->shown; k++) plotted_particles_free(&cloud[k]);
     memory_free(cloud);
     return s;
 }
@@ -144,21 +149,21 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
 {
     char title[TITLE_LENGTH];
     const int skipped = frames->shown > 1 && frames->show[0].number == 0;
-    compose_title(title, r->folder, "beside the exact solution", NULL);
-    return bar_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, r->folder, probe,
-                    frames->show + skipped, frames->shown - skipped);
+    picture_compose_title(title, r->folder, "beside the exact solution", NULL);
+    return bar_and_exact_solution_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, r->folder,
+                                       probe, frames->show + skipped, frames->shown - skipped);
 }
 
 /* Draws profiles of a bar: with the closed-form solution if a probe has one, else from the particles. */
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
-    if (bar_find_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
-    struct frame *f = NULL;
+    if (exact_probe_find(r->folder, probe)) return plot_draw_bar(r, frames, probe);
+    struct output_frame *f = NULL;
     TRY(frames_read(&f, r->folder, frames));
-    compose_title(title, r->folder, "profiles", NULL);
+    picture_compose_title(title, r->folder, "profiles", NULL);
     const status s =
-        profiles_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, f, frames->shown);
+        bar_profiles_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, f, frames->shown);
     frames_free(f, frames->shown);
     return s;
 }
@@ -166,10 +171,10 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* Draws a slice of a run and, in 3D, an outside view. */
-static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct frame *last)
+static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;
-    TRY(projection_complete(&r->projection, last));
+    TRY(projection_complete_slice(&r->projection, last));
     TRY(draw_clouds(r, frames, draw_flat));
     if (last->dim < 3) return OK;
     r->projection.outside = true;
@@ -179,8 +184,8 @@ static status draw_solid(struct plot_request *r, const struct run_frames *frames
 static status draw_frames(struct plot_request *r)
 {
     struct run_frames frames;
-    struct frame last;
-    TRY(run_frames_choose(&frames, r));
+    struct output_frame last;
+    TRY(run_frames_select(&frames, r));
     status s = run_read_frame(&last, r->folder, frames.show[frames.shown - 1].number);
     if (s == OK) {
         s = last.dim == 1 ? draw_profiles(r, &frames) : draw_solid(r, &frames, &last);
@@ -200,8 +205,8 @@ status run_draw_pictures(const struct plot_request *request)
     const struct path pictures = pictures_folder(r.folder);
     TRY(pictures_folder_make(pictures.text));
     if (frames) TRY(draw_frames(&r));
-    compose_title(title, r.folder, "", NULL);
-    if (history) TRY(curves_draw(r.folder, title, r.format));
+    picture_compose_title(title, r.folder, "", NULL);
+    if (history) TRY(history_curves_draw(r.folder, title, r.format));
     if (printf("pictures in %s\n", printable_name(pictures.text).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));
     return OK;

@@ -51,7 +51,7 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
 
 /* Finds the probes with a closed-form solution whose profiles are in the folder, and stores the name of the first one
  * in alphabetical order. Returns false if there is none. */
-bool bar_find_probe(const char *folder, char name[NAME_MAX_LENGTH])
+bool exact_probe_find(const char *folder, char name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
     bool found = false;
@@ -84,12 +84,13 @@ static void extend(struct scale *s, const struct history *h, const char *column)
     }
 }
 
-/* Writes a power of ten with superscript digits in UTF-8. text: capacity `room` [byte]. */
-static void power_text(char *text, size_t room, int power)
+/* Writes a power of ten with superscript digits in UTF-8. text: capacity `capacity` [byte]. */
+static void power_text(char *text, size_t capacity, int power)
 {
     static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     int size = power < 0 ? -power : power;
-    snprintf(text, room, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? raised[size / 10 % 10] : "", raised[size % 10]);
+    snprintf(text, capacity, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? raised[size / 10 % 10] : "",
+             raised[size % 10]);
 }
 
 /* Returns range, unit and label of panel q for the values of all frames, with a margin at both ends. Strains have a
@@ -104,7 +105,7 @@ static struct scale scale_of(const struct history *h, int frames, int q)
     double largest = fmax(-s.low, s.high);
     snprintf(s.label, sizeof s.label, "%s", quantity[q].label);
     if (*quantity[q].unit) {
-        struct unit u = unit_for(largest, quantity[q].unit);
+        struct unit u = unit_for_largest_value(largest, quantity[q].unit);
         s.factor = u.factor;
         snprintf(s.label, sizeof s.label, "%s [%s]", quantity[q].label, u.name);
     } else if (largest > 0 && strcmp(quantity[q].label, "strain") == 0) {
@@ -170,7 +171,7 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
 /* Plots the curves of panel q for the selected frames, exact solutions dashed. */
 static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
 {
-    struct unit second = unit_for(show[frames - 1].time, "s");
+    struct unit second = unit_for_largest_value(show[frames - 1].time, "s");
     for (int k = 0; k < frames; k++)
         fprintf(to, "%s$f%d using 1:%d with lines lw 2.2 lc rgb '%s' title '%.4g %s'", k ? ", " : "plot ", k, 2 * q + 2,
                 curve_colour[k % CURVE_COLOURS], show[k].time / second.factor, second.name);
@@ -219,8 +220,8 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     return gnuplot_close(&g);
 }
 
-status bar_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
-                const struct listed_frame *show, int frames)
+status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
+                                   const struct listed_frame *show, int frames)
 {
     struct history *h = NEW("plot.profiles", frames, struct history);
     status s = OK;

@@ -46,7 +46,7 @@ static int leaves_cube(const struct camera *eye, const double *half, const doubl
 }
 
 /* Computes the half sizes of a particle's cube [m]; a cube smaller than a pixel is enlarged to one pixel. */
-static void cube_of(const struct scene_canvas *v, const struct cloud *c, int64_t i, double *half)
+static void cube_of(const struct scene_canvas *v, const struct plotted_particles *c, int64_t i, double *half)
 {
     const double least = 0.6 / v->per_metre[0], own = HALF * (c->size ? c->size[i] : c->spacing);
     for (int k = 0; k < 3; k++) half[k] = fmax(own, least);
@@ -54,7 +54,7 @@ static void cube_of(const struct scene_canvas *v, const struct cloud *c, int64_t
 }
 
 /* Paints the cube of particle i on the pixels on which it is nearer to the viewer than what is painted there. */
-static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i, struct colour colour)
+static void paint_cube(struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct colour colour)
 {
     double half[3], at[2], reach[2] = {0, 0};
     int from[2], to[2];
@@ -88,8 +88,8 @@ static void canvas_clear_depth(struct scene_canvas *v)
     for (int64_t q = 0; q < (int64_t)v->size[0] * v->size[1]; q++) v->depth[q] = -INFINITY;
 }
 
-void boxes_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
-                 enum map map)
+void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
+                           const struct plotted_particles *c, enum map map)
 {
     const int64_t pixels = (int64_t)width * height;
     struct scene_canvas v = {

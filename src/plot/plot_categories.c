@@ -15,8 +15,8 @@ struct colour category_colour(const struct plot_field *field, float value)
 }
 
 /* Writes the name of a value; names of bodies and materials are those of the scene s (NULL: unknown). name: capacity
- * `room` [byte]. */
-static void category_name(char *name, size_t room, const char *field, int value, const struct scene *s)
+ * `capacity` [byte]. */
+static void category_name(char *name, size_t capacity, const char *field, int value, const struct scene *s)
 {
     const char *known = NULL;
     if (strcmp(field, "kind") == 0) known = value == KIND_MPM ? "material points" : "peridynamics";
@@ -25,13 +25,13 @@ static void category_name(char *name, size_t room, const char *field, int value,
     if (strcmp(field, "body") == 0 && s && value < s->bodies) known = s->body[value].name;
     if (strcmp(field, "material") == 0 && s && value < s->materials) known = s->material[value].name;
     if (known && *known)
-        snprintf(name, room, "%s", known);
+        snprintf(name, capacity, "%s", known);
     else
-        snprintf(name, room, "%s %d", field, value);
+        snprintf(name, capacity, "%s %d", field, value);
 }
 
 /* Returns the value of particle i, at least -1 also for damaged files. */
-static int category_value(const struct cloud *c, int64_t i)
+static int category_value(const struct plotted_particles *c, int64_t i)
 {
     static const float MOST = 1 << 24;
     return (int)fminf(fmaxf(c->value[i], -1), MOST);
@@ -39,7 +39,7 @@ static int category_value(const struct cloud *c, int64_t i)
 
 /* Returns an allocated array seen[1 + value] that is true for each value that occurs in a cloud. Stores the largest
  * value in *last. */
-static bool *values_seen(int *last, const struct cloud *cloud, int clouds)
+static bool *values_seen(int *last, const struct plotted_particles *cloud, int clouds)
 {
     *last = -1;
     for (int c = 0; c < clouds; c++)
@@ -52,7 +52,7 @@ static bool *values_seen(int *last, const struct cloud *cloud, int clouds)
 }
 
 void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
-                     const struct cloud *cloud, int clouds)
+                     const struct plotted_particles *cloud, int clouds)
 {
     struct scene scene;
     const bool known = scene_read(&scene, path_join(folder, "scene.yaml").text, NULL, 0) == OK;

@@ -23,7 +23,7 @@ static int64_t sample_count(int64_t n)
 
 /* Returns the mean distance of the `dim` nearest neighbours of particle i [m]: even the corner of a lattice has `dim`
  * neighbours at one spacing. */
-static double near_distance(const struct frame *f, int64_t i)
+static double near_distance(const struct output_frame *f, int64_t i)
 {
     double nearest[DIM_MAX];
     for (int k = 0; k < f->dim; k++) nearest[k] = INFINITY;
@@ -42,14 +42,14 @@ static double near_distance(const struct frame *f, int64_t i)
     return sum / f->dim;
 }
 
-static double least_spacing(const struct frame *f)
+static double least_spacing(const struct output_frame *f)
 {
     double least = INFINITY;
     for (int64_t i = 0; i < f->n; i++) least = fmin(least, f->spacing[i]);
     return least;
 }
 
-double frame_spacing(const struct frame *f)
+double frame_spacing(const struct output_frame *f)
 {
     double distance[SAMPLES];
     int64_t samples = sample_count(f->n), known = 0;
@@ -64,7 +64,7 @@ double frame_spacing(const struct frame *f)
 
 /* Returns true if the direction from particle i to its nearest neighbour in the map is within 8 degrees of an
  * axis. */
-static bool lies_along(const struct cloud *c, int64_t i)
+static bool lies_along(const struct plotted_particles *c, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
     for (int64_t j = 0; j < c->n; j++) {
@@ -80,7 +80,7 @@ static bool lies_along(const struct cloud *c, int64_t i)
 
 /* Returns true if the particles appear to be on a lattice along the axes of the map: lies_along holds for 90 % of a
  * sample. */
-static bool is_aligned(const struct cloud *c)
+static bool is_aligned(const struct plotted_particles *c)
 {
     int64_t samples = sample_count(c->n), along = 0;
     for (int64_t k = 0; k < samples; k++) along += lies_along(c, k * c->n / samples);
@@ -90,7 +90,7 @@ static bool is_aligned(const struct cloud *c)
 /* ---- slices ------------------------------------------------------------------------------------------------------ */
 
 /* Computes the extent of the reference positions of all particles along axis d [m]. */
-static void frame_extent(const struct frame *f, int d, double *from, double *to)
+static void frame_extent(const struct output_frame *f, int d, double *from, double *to)
 {
     *from = INFINITY, *to = -INFINITY;
     for (int64_t i = 0; i < f->n; i++) {
@@ -100,7 +100,7 @@ static void frame_extent(const struct frame *f, int d, double *from, double *to)
 }
 
 /* Returns the thinnest direction of a solid; the last of equal ones. */
-static int thinnest_direction(const struct frame *f)
+static int thinnest_direction(const struct output_frame *f)
 {
     double thinnest = INFINITY;
     int normal = 2;
@@ -115,7 +115,7 @@ static int thinnest_direction(const struct frame *f)
 }
 
 /* Returns the coordinate of the particle nearest to `wanted` [m]. */
-static double nearest_coordinate(const struct frame *f, int normal, double wanted)
+static double nearest_coordinate(const struct output_frame *f, int normal, double wanted)
 {
     double best = INFINITY, at = wanted;
     for (int64_t i = 0; i < f->n; i++) {
@@ -129,7 +129,7 @@ static double nearest_coordinate(const struct frame *f, int normal, double wante
 
 /* Returns the coordinate of the layer with the largest sum of damage [m]; among layers with at least 0.98 of this sum,
  * and among all layers of an undamaged body, the one nearest to the middle. */
-static double damaged_layer(const struct frame *f, int normal)
+static double damaged_layer(const struct output_frame *f, int normal)
 {
     enum { LAYERS_MAX = 100000 };
     static const double NEARLY = 0.98;
@@ -152,7 +152,7 @@ static double damaged_layer(const struct frame *f, int normal)
     return nearest_coordinate(f, normal, at);
 }
 
-status projection_complete(struct projection *projection, const struct frame *f)
+status projection_complete_slice(struct projection *projection, const struct output_frame *f)
 {
     if (f->dim < 3 || projection->outside) return OK;
     if (projection->normal < 0) projection->normal = thinnest_direction(f);
@@ -191,7 +191,7 @@ struct camera camera_along(int axis, int side)
 }
 
 /* Computes the current position of a particle [m]. */
-static void place_now(const struct frame *f, int64_t i, double *x)
+static void place_now(const struct output_frame *f, int64_t i, double *x)
 {
     for (int d = 0; d < 3; d++) x[d] = d < f->dim ? (double)f->X[d][i] + f->u[d][i] : 0;
 }
@@ -203,7 +203,7 @@ static double along(const double *direction, const double *x)
 
 /* Appends the current position of particle i along the axes of the map to the cloud, and extends the bounding box of
  * the cloud by its reference position. */
-static void cloud_place(struct cloud *c, const struct frame *f, int64_t i)
+static void cloud_place(struct plotted_particles *c, const struct output_frame *f, int64_t i)
 {
     const int64_t k = c->n;
     double x[3], X[3];
@@ -218,7 +218,8 @@ static void cloud_place(struct cloud *c, const struct frame *f, int64_t i)
     }
 }
 
-static void cloud_allocate(struct cloud *c, const struct frame *f, const struct projection *projection)
+static void cloud_allocate(struct plotted_particles *c, const struct output_frame *f,
+                           const struct projection *projection)
 {
     for (int k = 0; k < (f->dim == 3 && projection->outside ? 3 : 2); k++)
         c->position[k] = NEW("plot.position", f->n, float);
@@ -230,7 +231,7 @@ static void cloud_allocate(struct cloud *c, const struct frame *f, const struct 
 }
 
 /* Sets the axes of the map: x and y in 2D, the in-plane axes of a slice, or the directions of a camera. */
-static void cloud_axes(struct cloud *c, const struct frame *f, const struct projection *projection)
+static void cloud_axes(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {
     c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along(2, 1);
     if (f->dim < 3 || projection->outside) return;
@@ -240,18 +241,19 @@ static void cloud_axes(struct cloud *c, const struct frame *f, const struct proj
     c->camera = camera_along(c->normal, c->normal == 1 ? -1 : 1);
 }
 
-void cloud_make(struct cloud *c, const struct frame *f, const struct projection *projection)
+void plotted_particles_make(struct plotted_particles *c, const struct output_frame *f,
+                            const struct projection *projection)
 {
     struct projection open = {.normal = -1};
-    if (!projection) (void)projection_complete(&open, f), projection = &open;
-    *c = (struct cloud){.axis = {0, 1},
-                        .normal = -1,
-                        .t = f->t,
-                        .spacing = frame_spacing(f),
-                        .in_steps = projection->in_steps,
-                        .step = f->step,
-                        .from = {INFINITY, INFINITY},
-                        .to = {-INFINITY, -INFINITY}};
+    if (!projection) (void)projection_complete_slice(&open, f), projection = &open;
+    *c = (struct plotted_particles){.axis = {0, 1},
+                                    .normal = -1,
+                                    .t = f->t,
+                                    .spacing = frame_spacing(f),
+                                    .in_steps = projection->in_steps,
+                                    .step = f->step,
+                                    .from = {INFINITY, INFINITY},
+                                    .to = {-INFINITY, -INFINITY}};
     cloud_axes(c, f, projection);
     cloud_allocate(c, f, projection);
     for (int64_t i = 0; i < f->n; i++) {
@@ -268,7 +270,7 @@ void cloud_make(struct cloud *c, const struct frame *f, const struct projection 
     c->aligned = !c->position[2] && is_aligned(c);
 }
 
-void cloud_free(struct cloud *c)
+void plotted_particles_free(struct plotted_particles *c)
 {
     for (int k = 0; k < DIM_MAX; k++) memory_free(c->position[k]);
     memory_free(c->damage);
@@ -277,5 +279,5 @@ void cloud_free(struct cloud *c)
     memory_free(c->size);
     memory_free(c->value);
     memory_free(c->colour);
-    *c = (struct cloud){0};
+    *c = (struct plotted_particles){0};
 }

@@ -77,7 +77,8 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     double factor[2] = {metre.factor, 0.01}; /* the share in percent */
     char label[64];
     struct gnuplot g;
-    if (largest[0] == 0 && largest[1] == 0) return nothing_to_draw(sheet.path, "no crack, no peridynamic particle");
+    if (largest[0] == 0 && largest[1] == 0)
+        return report_nothing_to_draw(sheet.path, "no crack, no peridynamic particle");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
     curves_write_data(g.to, s, column, factor, 2);
     curves_write_title(g.to, title, "crack");
@@ -120,7 +121,7 @@ static void choose_energies(struct energies *e, const struct history *h)
         e->column[e->n] = column;
         e->row[e->n++] = &ledger[k];
     }
-    e->joule = unit_for(largest, "J");
+    e->joule = unit_for_largest_value(largest, "J");
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
 }
 
@@ -163,7 +164,7 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     int balance = history_find_column(s->h, "balance_error");
     const double percent = 0.01;
     choose_energies(&e, s->h);
-    if (e.n == 0) return nothing_to_draw(sheet.path, "all energies are 0");
+    if (e.n == 0) return report_nothing_to_draw(sheet.path, "all energies are 0");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, balance >= 0 ? 760 : 600));
     curves_write_data(g.to, s, e.column, e.factor, e.n);
     curves_write_title(g.to, title, "energy");
@@ -185,7 +186,7 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     return gnuplot_close(&g);
 }
 
-status curves_draw(const char *folder, const char *title, enum picture_format format)
+status history_curves_draw(const char *folder, const char *title, enum picture_format format)
 {
     struct history h;
     TRY(history_read(&h, folder));
@@ -194,12 +195,12 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
     const char *ending = picture_ending[format];
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
-        s.second = in_steps ? (struct unit){1, ""} : unit_for(history_at(&h, h.rows - 1, s.time), "s");
+        s.second = in_steps ? (struct unit){1, ""} : unit_for_largest_value(history_at(&h, h.rows - 1, s.time), "s");
         result = draw_crack((struct sheet){picture_path(folder, DRAWN_CRACK, ending).text, format}, title, &s);
         if (result == OK)
             result = draw_energy((struct sheet){picture_path(folder, DRAWN_ENERGY, ending).text, format}, title, &s);
         if (result == OK) result = sif_curves_draw(folder, title, &s);
-        if (result == OK) result = paths_draw(folder, title, &s);
+        if (result == OK) result = crack_paths_draw(folder, title, &s);
         if (result == OK && in_steps)
             result = load_displacement_draw((struct sheet){picture_path(folder, DRAWN_LOAD, ending).text, format},
                                             title, &h);
@@ -214,14 +215,14 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
 /* ---- profiles ---------------------------------------------------------------------------------------------------- */
 
 /* Writes the colour of the curve of frame k of `frames`: a fixed colour each if there are few frames, else a shade of
- * a scale from dark to light. text: capacity `room` [byte]. */
-static void frame_colour(char *text, size_t room, int k, int frames)
+ * a scale from dark to light. text: capacity `capacity` [byte]. */
+static void frame_colour(char *text, size_t capacity, int k, int frames)
 {
     const struct colour c = colour_sequential(0.88 * k / fmax(frames - 1, 1));
     if (frames <= CURVE_COLOURS)
-        snprintf(text, room, "%s", curve_colour[k]);
+        snprintf(text, capacity, "%s", curve_colour[k]);
     else
-        snprintf(text, room, "#%02x%02x%02x", c.red, c.green, c.blue);
+        snprintf(text, capacity, "#%02x%02x%02x", c.red, c.green, c.blue);
 }
 
 struct station {
@@ -236,7 +237,7 @@ static int plot_curves_by_place(const void *a, const void *b)
 
 /* Sets the range of the axis along the bar to the positions in all frames, extended by half a spacing at both ends.
  * metre: unit of the axis [m]. */
-static void profile_range(FILE *to, const struct frame *frame, int frames, double metre)
+static void profile_range(FILE *to, const struct output_frame *frame, int frames, double metre)
 {
     const double half = 0.5 * frame_spacing(&frame[0]);
     double from = INFINITY, end = -INFINITY;
@@ -250,7 +251,7 @@ static void profile_range(FILE *to, const struct frame *frame, int frames, doubl
 }
 
 /* Sends the data block $fK: the bar from left to right, with an empty line at each separation. */
-static void send_profile(FILE *to, const struct frame *f, int k, double spacing, const struct unit *unit)
+static void send_profile(FILE *to, const struct output_frame *f, int k, double spacing, const struct unit *unit)
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
     for (int64_t i = 0; i < f->n; i++)
@@ -274,7 +275,7 @@ static double largest_in(const float *a, int64_t n)
 }
 
 /* Chooses units of position, velocity and stress for all frames. */
-static void choose_units(struct unit *unit, const struct frame *frame, int frames)
+static void choose_units(struct unit *unit, const struct output_frame *frame, int frames)
 {
     double largest[3] = {0};
     for (int k = 0; k < frames; k++) {
@@ -283,13 +284,13 @@ static void choose_units(struct unit *unit, const struct frame *frame, int frame
         largest[2] = fmax(largest[2], largest_in(frame[k].stress[0], frame[k].n));
     }
     unit[0] = unit_for_length(largest[0]);
-    unit[1] = unit_for(largest[1], "m/s");
-    unit[2] = unit_for(largest[2], "Pa");
+    unit[1] = unit_for_largest_value(largest[1], "m/s");
+    unit[2] = unit_for_largest_value(largest[2], "Pa");
 }
 
-static void plot_profile(FILE *to, const struct frame *frame, int frames, int column)
+static void plot_profile(FILE *to, const struct output_frame *frame, int frames, int column)
 {
-    struct unit second = unit_for(frame[frames - 1].t, "s");
+    struct unit second = unit_for_largest_value(frame[frames - 1].t, "s");
     fputs("plot ", to);
     for (int k = 0; k < frames; k++) {
         char colour[8];
@@ -301,14 +302,14 @@ static void plot_profile(FILE *to, const struct frame *frame, int frames, int co
 }
 
 /* Returns the number of panels: damage, the last, is left out if it is zero everywhere. */
-static int profile_panels(const struct frame *frame, int frames)
+static int profile_panels(const struct output_frame *frame, int frames)
 {
     double damage = 0;
     for (int k = 0; k < frames; k++) damage = fmax(damage, largest_in(frame[k].damage, frame[k].n));
     return damage > 0 ? 3 : 2;
 }
 
-status profiles_draw(struct sheet sheet, const char *title, const struct frame *frame, int frames)
+status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frames)
 {
     struct gnuplot g;
     struct unit unit[3];
@@ -340,7 +341,7 @@ status profiles_draw(struct sheet sheet, const char *title, const struct frame *
 }
 
 /* Sends the data block $fK: position and value, with an empty line at each separation. */
-static void send_field(FILE *to, const struct frame *f, int k, const float *value, double spacing,
+static void send_field(FILE *to, const struct output_frame *f, int k, const float *value, double spacing,
                        const double factor[2])
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
@@ -356,14 +357,14 @@ static void send_field(FILE *to, const struct frame *f, int k, const float *valu
 }
 
 status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
-                           const struct frame *frame, int frames)
+                           const struct output_frame *frame, int frames)
 {
     struct gnuplot g;
     struct unit unit[3];
     choose_units(unit, frame, frames);
     double largest = 0;
     for (int k = 0; k < frames; k++) largest = fmax(largest, largest_in(value[k], frame[k].n));
-    const struct unit own = unit_for(largest, field->unit);
+    const struct unit own = unit_for_largest_value(largest, field->unit);
     const double factor[2] = {unit[0].factor, *field->unit ? own.factor : 1};
     char label[64];
     snprintf(label, sizeof label, *field->unit ? "%s [%s]" : "%s", field->name, own.name);

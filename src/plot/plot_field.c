@@ -106,7 +106,7 @@ status plot_field_find(const struct plot_field **field, const char *name, int di
     return field_unknown(name, names);
 }
 
-status plot_field_read(float **value, const struct plot_field *field, const struct frame *f, const char *path)
+status plot_field_read(float **value, const struct plot_field *field, const struct output_frame *f, const char *path)
 {
     float *row = NULL;
     int columns = 0;

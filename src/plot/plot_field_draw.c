@@ -29,7 +29,7 @@ static enum map map_of_field(const struct plot_field *field)
     return field->scale == CATEGORY ? MAP_CATEGORY : MAP_FIELD;
 }
 
-static bool same_everywhere(const struct cloud *cloud, int clouds)
+static bool same_everywhere(const struct plotted_particles *cloud, int clouds)
 {
     for (int c = 0; c < clouds; c++)
         for (int64_t i = 0; i < cloud[c].n; i++)
@@ -37,13 +37,13 @@ static bool same_everywhere(const struct cloud *cloud, int clouds)
     return true;
 }
 
-static void field_title(char *title, const struct plot_request *r, const struct cloud *c)
+static void field_title(char *title, const struct plot_request *r, const struct plotted_particles *c)
 {
     char name[TITLE_LENGTH];
     snprintf(name, sizeof name, "%s", r->projection.field->name);
     for (char *at = name; *at; at++)
         if (*at == '_') *at = ' ';
-    compose_title(title, r->folder, name, c);
+    picture_compose_title(title, r->folder, name, c);
 }
 
 /* Prints the named values and how many more there are. */
@@ -69,7 +69,8 @@ static status say_field(const char *path, const struct view *view, const struct 
     return ferror(stdout) || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 
-static status draw_field_clouds(const struct plot_request *r, const char *path, const struct cloud *cloud, int clouds)
+static status draw_field_clouds(const struct plot_request *r, const char *path, const struct plotted_particles *cloud,
+                                int clouds)
 {
     char title[TITLE_LENGTH];
     struct view view = view_around(cloud, clouds);
@@ -80,7 +81,7 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
         char why[96];
         snprintf(why, sizeof why, "%s is %.4g%s%s everywhere", r->projection.field->name, cloud[0].value[0],
                  *r->projection.field->unit ? " " : "", r->projection.field->unit);
-        return nothing_to_draw(path, why);
+        return report_nothing_to_draw(path, why);
     }
     field_title(title, r, &cloud[0]);
     const enum map map = map_of_field(r->projection.field);
@@ -89,20 +90,20 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
         categories_find(&categories, r->projection.field, r->folder, cloud, clouds);
         view.categories = &categories;
     }
-    TRY(picture_moves(r->format) ? film_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds)
-                                 : maps_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds));
+    TRY(picture_is_film(r->format) ? film_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds)
+                                   : maps_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds));
     return say_field(path, &view, r, clouds, cloud[clouds - 1].n);
 }
 
 /* Reads a selected frame and the values of the field, and fills its cloud. */
-static status read_cloud(struct cloud *c, struct plot_request *r, const struct listed_frame *shown)
+static status read_cloud(struct plotted_particles *c, struct plot_request *r, const struct listed_frame *shown)
 {
-    struct frame f;
+    struct output_frame f;
     float *value = NULL;
     TRY(run_read_frame(&f, r->folder, shown->number));
     const status s = plot_field_read(&value, r->projection.field, &f, run_frame_path(r->folder, shown->number).text);
     r->projection.value = value;
-    if (s == OK) cloud_make(c, &f, &r->projection);
+    if (s == OK) plotted_particles_make(c, &f, &r->projection);
     memory_free(value);
     frame_free(&f);
     return s;
@@ -110,11 +111,11 @@ static status read_cloud(struct cloud *c, struct plot_request *r, const struct l
 
 static status draw_field_map(struct plot_request *r, const char *path, const struct run_frames *frames)
 {
-    struct cloud *cloud = NEW("plot.clouds", frames->shown, struct cloud);
+    struct plotted_particles *cloud = NEW("plot.clouds", frames->shown, struct plotted_particles);
     status s = OK;
     for (int k = 0; s == OK && k < frames->shown; k++) s = read_cloud(&cloud[k], r, &frames->show[k]);
     if (s == OK) s = draw_field_clouds(r, path, cloud, frames->shown);
-    for (int k = 0; k < frames->shown; k++) cloud_free(&cloud[k]);
+    for (int k = 0; k < frames->shown; k++) plotted_particles_free(&cloud[k]);
     memory_free(cloud);
     return s;
 }
@@ -122,8 +123,8 @@ static status draw_field_map(struct plot_request *r, const char *path, const str
 static status draw_field_bar(const struct plot_request *r, const char *path, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH];
-    struct frame *f = NULL;
-    if (picture_moves(r->format))
+    struct output_frame *f = NULL;
+    if (picture_is_film(r->format))
         return status_set(REFUSED, "plot: --format %s: runs in one dimension have no films; take png, svg or pdf",
                           picture_ending[r->format]);
     TRY(frames_read(&f, r->folder, frames));
@@ -155,7 +156,7 @@ static status projection_check(const struct plot_request *r, int dim)
 
 static status field_of_frames(struct plot_request *r, const struct run_frames *frames)
 {
-    struct frame last;
+    struct output_frame last;
     struct path path;
     TRY(run_read_frame(&last, r->folder, frames->show[frames->shown - 1].number));
     const int dim = last.dim;
@@ -166,7 +167,7 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
             stderr,
             "plot: principal_stress is the largest one; the others are principal_stress_2 and principal_stress_3\n");
     if (s == OK && dim == 3 && r->projection.normal < 0) r->projection.outside = true;
-    if (s == OK) s = projection_complete(&r->projection, &last);
+    if (s == OK) s = projection_complete_slice(&r->projection, &last);
     frame_free(&last);
     TRY(s);
     TRY(field_path(&path, r, r->projection.field->name));
@@ -177,10 +178,10 @@ status field_draw_picture(const struct plot_request *request)
 {
     struct plot_request r = *request;
     struct run_frames frames;
-    if (picture_moves(r.format)) TRY(film_check_encoder());
-    if (r.panels == 0) r.panels = picture_moves(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
+    if (picture_is_film(r.format)) TRY(film_check_encoder());
+    if (r.panels == 0) r.panels = picture_is_film(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
     r.projection.in_steps = run_has_load_steps(r.folder);
-    TRY(run_frames_choose(&frames, &r));
+    TRY(run_frames_select(&frames, &r));
     const status s = field_of_frames(&r, &frames);
     run_frames_free(&frames);
     return s;

@@ -19,7 +19,7 @@ enum { PATH_LENGTH = 4096 };
 
 /* Returns the unit with the SI prefix for which the number for `largest` has one to three digits before the point.
  * name: the unit without prefix. */
-struct unit unit_for(double largest, const char *name)
+struct unit unit_for_largest_value(double largest, const char *name)
 {
     static const struct {
         double factor;
@@ -36,7 +36,7 @@ struct unit unit_for(double largest, const char *name)
 
 struct unit unit_for_length(double largest)
 {
-    return largest > 5e-4 && largest < 10 ? (struct unit){1e-3, "mm"} : unit_for(largest, "m");
+    return largest > 5e-4 && largest < 10 ? (struct unit){1e-3, "mm"} : unit_for_largest_value(largest, "m");
 }
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
@@ -56,7 +56,7 @@ struct path run_frame_path(const char *folder, int number)
     return path_join(folder, name);
 }
 
-status run_read_frame(struct frame *f, const char *folder, int number)
+status run_read_frame(struct output_frame *f, const char *folder, int number)
 {
     const struct path path = run_frame_path(folder, number);
     return path.text[0] ? frame_read(f, path.text) : status_set(FAILED, "%s: the name is too long", folder);
@@ -90,7 +90,7 @@ static status times_within(const struct run_frames *f, const double *time, int t
     if (f->listed == 0) return OK;
     const double first = f->list[0].time, last = f->list[f->listed - 1].time;
     const double beside = f->listed > 1 ? (last - first) / (f->listed - 1) : INFINITY;
-    const struct unit second = unit_for(last, "s");
+    const struct unit second = unit_for_largest_value(last, "s");
     for (int k = 0; k < times; k++)
         if (time[k] < fmin(first - beside, 0) || time[k] > last + beside)
             return status_set(REFUSED, "plot: --times: %.4g %s is not in the run: its frames go from %.4g to %.4g %s",
@@ -99,7 +99,7 @@ static status times_within(const struct run_frames *f, const double *time, int t
     return OK;
 }
 
-status run_frames_choose(struct run_frames *f, const struct plot_request *r)
+status run_frames_select(struct run_frames *f, const struct plot_request *r)
 {
     *f = (struct run_frames){0};
     TRY(frames_list(r->folder, &f->listed, &f->list));
@@ -120,9 +120,9 @@ void run_frames_free(struct run_frames *f)
     *f = (struct run_frames){0};
 }
 
-status frames_read(struct frame **f, const char *folder, const struct run_frames *frames)
+status frames_read(struct output_frame **f, const char *folder, const struct run_frames *frames)
 {
-    *f = NEW("plot.frames", frames->shown, struct frame);
+    *f = NEW("plot.frames", frames->shown, struct output_frame);
     for (int k = 0; k < frames->shown; k++) {
         const status s = run_read_frame(&(*f)[k], folder, frames->show[k].number);
         if (s == OK) continue;
@@ -132,7 +132,7 @@ status frames_read(struct frame **f, const char *folder, const struct run_frames
     return OK;
 }
 
-void frames_free(struct frame *f, int n)
+void frames_free(struct output_frame *f, int n)
 {
     for (int k = 0; k < n; k++) frame_free(&f[k]);
     memory_free(f);
@@ -172,7 +172,7 @@ status picture_destination(struct path *path, const char *out, const char *name,
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
 /* Prints that a picture is not drawn, and why, and removes an older picture of this name if Cleave drew it. */
-status nothing_to_draw(const char *path, const char *why)
+status report_nothing_to_draw(const char *path, const char *why)
 {
     const char *slash = strrchr(path, '/');
     if (picture_has_mark(path)) remove(path);
@@ -181,7 +181,7 @@ status nothing_to_draw(const char *path, const char *why)
                : OK;
 }
 
-void compose_title(char *title, const char *folder, const char *what, const struct cloud *c)
+void picture_compose_title(char *title, const char *folder, const char *what, const struct plotted_particles *c)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
     if (summary_string(folder, "name", name, sizeof name) != OK) {

@@ -102,7 +102,7 @@ static void draw_notches(FILE *to, const struct view *view, double metre)
     }
 }
 
-void panel_write_axes(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
+void panel_write_axes(FILE *to, const struct layout *l, const struct view *view, const struct plotted_particles *c,
                       const struct unit *metre, int column, bool lowest)
 {
     const int size[2] = {l->panel_width, l->panel_height};
@@ -116,8 +116,8 @@ void panel_write_axes(FILE *to, const struct layout *l, const struct view *view,
     }
 }
 
-void panel_write_directions(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
-                            const struct unit *metre)
+void panel_write_directions(FILE *to, const struct layout *l, const struct view *view,
+                            const struct plotted_particles *c, const struct unit *metre)
 {
     const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width;
     const double corner[2] = {view->from[0] / metre->factor + 34 * pixel, view->from[1] / metre->factor + 20 * pixel};
@@ -141,8 +141,9 @@ void panel_write_directions(FILE *to, const struct layout *l, const struct view 
 
 /* Draws panel number `place`, counted row by row: the map of a cloud with axes and title. second: unit of time in the
  * titles; lowest: the panel has labels below, since no other one is there. */
-static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
-                                 enum map map, const struct unit *second, int place, bool lowest)
+static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view,
+                                 const struct plotted_particles *c, enum map map, const struct unit *second, int place,
+                                 bool lowest)
 {
     int column = place % l->columns, row = place / l->columns;
     double from[2], step[2], largest = 0;
@@ -167,7 +168,7 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     else
         panel_write_axes(to, l, view, c, &metre, column, lowest);
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
-    raster_paint(pixel, size[0], size[1], view, c, map);
+    raster_paint_particles(pixel, size[0], size[1], view, c, map);
     panel_write_image(to, pixel, size[0], size[1], from, step, "");
     memory_free(pixel);
 }
@@ -183,7 +184,7 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     struct bar_scale s = {.high = view->top, .tics = view->top > 0.6 ? 0.2 : 0.1};
     snprintf(s.label, sizeof s.label, "%s", map == MAP_KIND ? "peridynamic damage" : "damage");
     if (map != MAP_FIELD) return s;
-    const struct unit u = unit_for(fmax(fabs(view->low), fabs(view->high)), view->field->unit);
+    const struct unit u = unit_for_largest_value(fmax(fabs(view->low), fabs(view->high)), view->field->unit);
     const bool plain = !*view->field->unit;
     s.low = view->low / (plain ? 1 : u.factor), s.high = view->high / (plain ? 1 : u.factor);
     s.tics = plot_maps_tic_distance(s.high - s.low, 300, 50);
@@ -293,7 +294,7 @@ static void draw_title(FILE *to, const struct layout *l, const char *title, int6
 }
 
 status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
-                 const struct cloud *cloud, int clouds)
+                 const struct plotted_particles *cloud, int clouds)
 {
     struct gnuplot g;
     const double aspect = (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]);
@@ -303,7 +304,7 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
     draw_title(g.to, &l, title, view->outside);
     if (map == MAP_KIND || map == MAP_FRAGMENT) draw_key(g.to, &l, map);
     if (map == MAP_CATEGORY) draw_categories(g.to, &l, view->categories);
-    struct unit second = unit_for(cloud[clouds - 1].t, "s");
+    struct unit second = unit_for_largest_value(cloud[clouds - 1].t, "s");
     for (int k = 0; k < clouds; k++) {
         plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
         fputs("unset label\nunset object\n", g.to); /* drawn once for all panels */

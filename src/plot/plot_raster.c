@@ -22,7 +22,8 @@ struct canvas {
 
 /* Paints particle i on all pixels that it covers and that no better particle has: nearer to the centre of the pixel,
  * or, if several particles are on one pixel, more damaged. */
-static void paint_particle(struct canvas *v, const struct view *view, const struct cloud *c, int64_t i, enum map map)
+static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *c, int64_t i,
+                           enum map map)
 {
     double at[2], reach[2];
     int from[2], to[2], size[2] = {v->width, v->height};
@@ -50,12 +51,12 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
     }
 }
 
-void raster_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
-                  enum map map)
+void raster_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
+                            const struct plotted_particles *c, enum map map)
 {
     int64_t pixels = (int64_t)width * height;
     if (c->position[2] || c->tall > 0) {
-        boxes_paint(pixel, width, height, view, c, map);
+        cubes_paint_particles(pixel, width, height, view, c, map);
         return;
     }
     struct canvas v = {.pixel = pixel, .rank = NEW("plot.rank", pixels, float), .width = width, .height = height};

@@ -55,7 +55,7 @@ static void find_factors(struct factors *f, const struct history *h)
         f->percent[k] = 0.01;
         for (int m = 0; m < 2; m++) largest = fmax(largest, curves_largest_value(h, f->column[2 * k + m]));
     }
-    f->unit = unit_for(largest, "Pa√m");
+    f->unit = unit_for_largest_value(largest, "Pa√m");
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
 }
 
@@ -224,7 +224,7 @@ static void plot_tip_paths(FILE *to, const struct tip_path *w, int n, const stru
                     end[0] / metre->factor, end[1] / metre->factor);
 }
 
-status paths_draw(const char *folder, const char *title, const struct series *s)
+status crack_paths_draw(const char *folder, const char *title, const struct series *s)
 {
     const struct history *h = s->h;
     struct tip_path path[PATHS_SHOWN];

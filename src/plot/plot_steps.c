@@ -161,10 +161,10 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     struct reactions r;
     struct gnuplot g;
     reactions_find(&r, h);
-    if (r.n == 0) return nothing_to_draw(sheet.path, "no reaction probe records the force of a support");
+    if (r.n == 0) return report_nothing_to_draw(sheet.path, "no reaction probe records the force of a support");
     if (!(r.displacement > 0))
-        return nothing_to_draw(sheet.path, "no support with a reaction probe and no point probe moves");
-    const struct unit newton = unit_for(r.force, "N"), metre = unit_for_length(r.displacement);
+        return report_nothing_to_draw(sheet.path, "no support with a reaction probe and no point probe moves");
+    const struct unit newton = unit_for_largest_value(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, h, &r, newton, metre);
     curves_write_title(g.to, title, "load and displacement");
@@ -242,10 +242,10 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
     const double grown = curves_largest_value(h, area);
     double toughness[TOUGHNESSES_SHOWN] = {0}, top = curves_largest_value(h, rate);
     struct gnuplot g;
-    if (!(grown > 0)) return nothing_to_draw(sheet.path, "no crack has grown");
+    if (!(grown > 0)) return report_nothing_to_draw(sheet.path, "no crack has grown");
     const int n = toughnesses_of(folder, toughness);
     for (int k = 0; k < n; k++) top = fmax(top, toughness[k]);
-    const struct unit square = unit_for_area(grown), joule = unit_for(top, "J/m²");
+    const struct unit square = unit_for_area(grown), joule = unit_for_largest_value(top, "J/m²");
     const double mean = history_at(h, h->rows - 1, released) / history_at(h, h->rows - 1, area);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     release_send(g.to, h, area, rate, square, joule.factor);

@@ -47,7 +47,7 @@ static struct span values_extent(const float *value, int64_t n)
 
 /* Returns the range to be shown along axis k. It contains, for each frame, all particles but 1 % at each end,
  * extended by 20 % of their range, and the initial body, but is not larger than the extent of all particles. */
-static struct span span_along(const struct cloud *cloud, int clouds, int k)
+static struct span span_along(const struct plotted_particles *cloud, int clouds, int k)
 {
     static const double SHARE = 0.01, BESIDE = 0.2;
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
@@ -65,7 +65,7 @@ static struct span span_along(const struct cloud *cloud, int clouds, int k)
 }
 
 /* Returns the number of particles of a cloud that are outside the rectangle of the view. */
-static int64_t count_outside(const struct view *v, const struct cloud *c)
+static int64_t count_outside(const struct view *v, const struct plotted_particles *c)
 {
     int64_t outside = 0;
     for (int64_t i = 0; i < c->n; i++) {
@@ -76,7 +76,7 @@ static int64_t count_outside(const struct view *v, const struct cloud *c)
     return outside;
 }
 
-struct view view_around(const struct cloud *cloud, int clouds)
+struct view view_around(const struct plotted_particles *cloud, int clouds)
 {
     struct view v = {.top = 0.5};
     double longest = 0, reach = 0;
@@ -102,7 +102,7 @@ struct view view_around(const struct cloud *cloud, int clouds)
 }
 
 /* Returns the smallest range that contains the result of bulk_of for the values of every cloud. */
-static struct span values_bulk(const struct cloud *cloud, int clouds, double share, int64_t few)
+static struct span values_bulk(const struct plotted_particles *cloud, int clouds, double share, int64_t few)
 {
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
     struct span s = {INFINITY, -INFINITY};
@@ -114,7 +114,7 @@ static struct span values_bulk(const struct cloud *cloud, int clouds, double sha
     return s;
 }
 
-void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds)
+void view_set_field(struct view *v, const struct plot_field *field, const struct plotted_particles *cloud, int clouds)
 {
     struct span s = values_bulk(cloud, clouds, 0.002, 3);
     if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0); /* include the values of a few particles */
@@ -131,7 +131,7 @@ struct colour map_colour(const struct view *v, enum map map, double a)
     return colour_damage(a);
 }
 
-struct colour particle_colour(const struct view *v, const struct cloud *c, int64_t i, enum map map)
+struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map)
 {
     if (c->colour) return c->colour[i];
     if (map == MAP_FRAGMENT && c->fragment) return fragment_colour(c->fragment[i]);

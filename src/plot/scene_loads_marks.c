@@ -22,7 +22,7 @@ static int add_words(char *text, int length, const char *words)
 static int add_value(char *text, int length, double value, const char *unit)
 {
     char words[64];
-    const struct unit u = unit_for(value, unit);
+    const struct unit u = unit_for_largest_value(value, unit);
     snprintf(words, sizeof words, " %.3g %s", value / u.factor, u.name);
     return add_words(text, length, words);
 }
@@ -76,7 +76,7 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
         load_displacement_at(&(struct load){.boundary = b, .particle = l->particle}, p, k, t, vector);
     } else if (b->kind == BOUNDARY_VELOCITY) {
         real X[DIM_MAX];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         const struct prescribed_motion driving = prescribed_motion_make(b, p->dim, t, e->clock.dt);
         for (int d = 0; d < p->dim; d++)
             vector[d] = b->components >> d & 1 ? prescribed_velocity_at(&driving, X, d, true) : 0;
@@ -126,7 +126,7 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 {
     const struct particles *p = &e->part;
     uint8_t *selected = NEW("plot.selected", p->n, uint8_t), *on = NEW("plot.on", p->n, uint8_t);
-    load_mark_region(l->boundary, p, e->scene->spacing, selected);
+    load_mark_particles_in_region(l->boundary, p, e->scene->spacing, selected);
     const struct boundary *all = e->boundary ? e->boundary : e->scene->boundary;
     pressure_visit_faces(all, e->scene->boundaries, (int)(l - e->loads.load), p, e->scene->spacing, selected, face_on,
                          on);
@@ -140,7 +140,7 @@ static struct acting acting_of(const struct run *e, const struct load *l, const 
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };
     const struct time_function *f = &boundary_of(e, l)->time;
-    const bool fixed = l->boundary->frozen && boundary_is_force(l->boundary);
+    const bool fixed = l->boundary->frozen && boundary_applies_force(l->boundary);
     const int64_t every = 1 + l->n / LOOKED_AT;
     struct acting most = acting_at(e, l, on, fixed ? e->scene->duration : 0, every);
     bool changes = false;
@@ -206,7 +206,7 @@ static bool chosen_has(const struct chosen *c, const struct particles *p, int32_
 {
     real X[DIM_MAX];
     bool on = true;
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (int d = 0; d < p->dim; d++) {
         const int64_t layer = (int64_t)floor((X[d] - c->from[d]) / c->spacing + 0.5);
         const int64_t first = ((c->layers[d] - 1) % c->every) / 2; /* centred between both ends */
@@ -231,7 +231,7 @@ static struct chosen choose_particles(const struct marks *m, const struct load *
         double from = INFINITY, to = -INFINITY;
         for (int64_t k = 0; k < l->n; k++) {
             real X[DIM_MAX];
-            particle_place(p, l->particle[k], X);
+            particle_reference_position(p, l->particle[k], X);
             from = fmin(from, X[d]), to = fmax(to, X[d]);
         }
         c.from[d] = from, c.layers[d] = (int64_t)floor((to - from) / c.spacing + 1.5);
@@ -255,10 +255,10 @@ static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t 
         const double size = vector_at(m->engine, l, k, acting->t, acts);
         if (!(size > 0 && isfinite(size))) continue;
         const bool inward = b->kind != BOUNDARY_TRACTION || acts[b->face] * b->side <= 0;
-        particle_place(p, l->particle[k], X);
+        particle_reference_position(p, l->particle[k], X);
         for (int d = 0; d < p->dim; d++) vector[d] = m->arrow * acts[d] / acting->most;
         for (int d = 0; d < p->dim && inward; d++) X[d] -= vector[d];
-        mark_add_point(m, X, vector);
+        marks_add_point(m, X, vector);
     }
 }
 
@@ -268,8 +268,8 @@ static void points_of_load(struct marks *m, const struct load *l)
     for (int64_t k = 0; k < l->n; k++) {
         real X[DIM_MAX];
         if (!chosen_has(&chosen, &m->engine->part, l->particle[k])) continue;
-        particle_place(&m->engine->part, l->particle[k], X);
-        mark_add_point(m, X, NULL);
+        particle_reference_position(&m->engine->part, l->particle[k], X);
+        marks_add_point(m, X, NULL);
     }
 }
 
@@ -278,7 +278,7 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
 {
     const struct particles *p = &m->engine->part;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, X[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) particles_extent(p, p->n, d, &low[d], &high[d]);
+    for (int d = 0; d < p->dim; d++) particles_coordinate_range(p, p->n, d, &low[d], &high[d]);
     const int a = b->axis == 0 ? 1 : 0, c = b->axis == 2 ? 1 : 2;
     for (int k = 0; k < (p->dim == 3 ? 5 : 2); k++) {
         const bool up = k == 1 || k == 2, far = k == 2 || k == 3;
@@ -286,7 +286,7 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
         X[b->axis] = b->at;
         if (p->dim > 1) X[a] = up ? high[a] + m->arrow : low[a] - m->arrow;
         if (p->dim == 3) X[c] = far ? high[c] + m->arrow : low[c] - m->arrow;
-        mark_add_point(m, X, NULL);
+        marks_add_point(m, X, NULL);
     }
 }
 
@@ -303,7 +303,7 @@ static void boundary_mark(struct marks *m, int number)
     uint8_t *on = b->kind == BOUNDARY_PRESSURE ? faces_of_pressure(m->engine, l) : NULL;
     if (*unit_of_value(b) && !is_support(b, s->dim)) acting = acting_of(m->engine, l, on);
     describe_boundary(text, b, s->dim, &acting);
-    mark_begin(m);
+    marks_begin_block(m);
     if (b->kind == BOUNDARY_MIRROR) {
         mirror_plane_mark(m, b);
         snprintf(how, sizeof how, "with lines lw 2 dt (12,4,3,4) lc rgb '%s'", colour);
@@ -316,7 +316,7 @@ static void boundary_mark(struct marks *m, int number)
         snprintf(how, sizeof how, "using 1:2:3:4 with vectors %s size screen 0.012,22 lw 1.8 lc rgb '%s'",
                  b->kind == BOUNDARY_VELOCITY ? "head empty" : "head filled", colour);
     }
-    mark_end(m, how, text);
+    marks_end_block(m, how, text);
     memory_free(on);
 }
 
@@ -348,7 +348,7 @@ static void rigid_arrows(struct marks *m, double fastest)
         const real *v = s->body[s->bodies + k].velocity;
         double vector[DIM_MAX] = {0};
         for (int d = 0; d < s->dim; d++) vector[d] = m->arrow * v[d] / fastest;
-        if (value_size(v, s->dim) > 0) mark_add_point(m, m->engine->rigid->body[k].x, vector);
+        if (value_size(v, s->dim) > 0) marks_add_point(m, m->engine->rigid->body[k].x, vector);
     }
 }
 
@@ -366,16 +366,16 @@ void marks_draw_velocities(struct marks *m)
         moving += v > 0;
     }
     if (fastest == 0) return;
-    mark_begin(m);
+    marks_begin_block(m);
     const int64_t stride = stride_for(moving, p->dim == 1 ? ARROWS_BAR : ARROWS_FIELD);
     for (int64_t i = 0, k = 0; i < p->n; i++) {
         double vector[DIM_MAX];
         real X[DIM_MAX];
         if (speed_at_start(p, i) == 0 || k++ % stride != 0) continue;
         for (int d = 0; d < p->dim; d++) X[d] = p->x[d][i], vector[d] = m->arrow * p->v[d][i] / fastest;
-        mark_add_point(m, X, vector);
+        marks_add_point(m, X, vector);
     }
     rigid_arrows(m, fastest);
     add_value(text, snprintf(text, sizeof text, "velocity, at most"), fastest, "m/s");
-    mark_end(m, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'", text);
+    marks_end_block(m, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'", text);
 }

@@ -21,9 +21,9 @@ static double marks_across(const double *axis, const double *x, int dim)
     return sum;
 }
 
-void mark_begin(struct marks *m) { fprintf(m->to, "$m%d << EOD\n", m->blocks); }
+void marks_begin_block(struct marks *m) { fprintf(m->to, "$m%d << EOD\n", m->blocks); }
 
-void mark_add_point(struct marks *m, const real *X, const double *vector)
+void marks_add_point(struct marks *m, const real *X, const double *vector)
 {
     const int dim = m->engine->part.dim;
     fprintf(m->to, "%.9g %.9g", marks_across(m->camera.right, X, dim) / m->metre,
@@ -37,7 +37,7 @@ void mark_add_point(struct marks *m, const real *X, const double *vector)
 /* Ends a line: the next position begins another one. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
-void mark_end(struct marks *m, const char *how, const char *text)
+void marks_end_block(struct marks *m, const char *how, const char *text)
 {
     fputs("NaN NaN NaN NaN\nEOD\n", m->to); /* a data block must not be empty */
     fprintf(m->plot, ", $m%d %s ", m->blocks++, how);
@@ -60,8 +60,8 @@ void marks_add_colour_key(struct marks *m, struct colour c, const char *text)
 /* Sends the outline of a crack as a line. */
 static void crack_line(struct marks *m, const struct crack *c)
 {
-    for (int k = 0; k < c->n; k++) mark_add_point(m, c->corner[k], NULL);
-    if (c->n > 2) mark_add_point(m, c->corner[0], NULL);
+    for (int k = 0; k < c->n; k++) marks_add_point(m, c->corner[k], NULL);
+    if (c->n > 2) marks_add_point(m, c->corner[0], NULL);
     mark_break(m);
 }
 
@@ -70,19 +70,20 @@ void marks_draw_cracks(struct marks *m)
     const struct scene *s = m->engine->scene;
     char text[96];
     if (s->cracks > 0) {
-        mark_begin(m);
+        marks_begin_block(m);
         for (int k = 0; k < s->cracks; k++) crack_line(m, &s->crack[k]);
         snprintf(text, sizeof text, "%d pre-crack%s", s->cracks, s->cracks > 1 ? "s" : "");
-        mark_end(m, s->dim == 1 ? "with points pt 2 ps 2 lw 3 lc rgb '#7a1020'" : "with lines lw 3.2 lc rgb '#7a1020'",
-                 text);
+        marks_end_block(
+            m, s->dim == 1 ? "with points pt 2 ps 2 lw 3 lc rgb '#7a1020'" : "with lines lw 3.2 lc rgb '#7a1020'",
+            text);
     }
     for (int k = 0; k < s->growths; k++) {
         double arrow[DIM_MAX];
         for (int d = 0; d < s->dim; d++) arrow[d] = m->arrow * s->growth[k].direction[d];
         snprintf(text, sizeof text, "%.40s: a crack grows from here", s->growth[k].name);
-        mark_begin(m);
-        mark_add_point(m, s->growth[k].at, arrow);
-        mark_end(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'", text);
+        marks_begin_block(m);
+        marks_add_point(m, s->growth[k].at, arrow);
+        marks_end_block(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'", text);
     }
 }
 
@@ -99,8 +100,8 @@ static void box_lines(struct marks *m, const real *from, const real *to, int dim
             if (k >> a & 1) continue;
             for (int d = 0; d < dim; d++) X[0][d] = X[1][d] = k >> d & 1 ? to[d] : from[d];
             X[1][a] = to[a];
-            mark_add_point(m, X[0], NULL);
-            mark_add_point(m, X[1], NULL);
+            marks_add_point(m, X[0], NULL);
+            marks_add_point(m, X[1], NULL);
             mark_break(m);
         }
 }
@@ -110,15 +111,15 @@ static void circle_line(struct marks *m, const real *centre, double radius)
     for (int k = 0; k <= CIRCLE; k++) {
         const double angle = 2 * M_PI * k / CIRCLE;
         const real X[DIM_MAX] = {centre[0] + radius * cos(angle), centre[1] + radius * sin(angle), 0};
-        mark_add_point(m, X, NULL);
+        marks_add_point(m, X, NULL);
     }
 }
 
 /* Marks the initial position of every crack tip. */
 static void tip_marks(struct marks *m)
 {
-    const struct tips *t = &m->engine->fracture->tips;
-    for (int k = 0; k < t->n; k++) mark_add_point(m, t->tip[k].origin, NULL);
+    const struct crack_tips *t = &m->engine->fracture->tips;
+    for (int k = 0; k < t->n; k++) marks_add_point(m, t->tip[k].origin, NULL);
 }
 
 /* Draws the position or line of a probe; a probe without a position is listed in the key only. */
@@ -126,34 +127,34 @@ static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
     const struct probe_request *p = &s->probe[k];
-    const struct observed seen = run_observed(m->engine);
+    const struct observed_run seen = observed_run_of(m->engine);
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0}, radius;
     static const char point[] = "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'";
     static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";
-    mark_begin(m);
+    marks_begin_block(m);
     if (probes_sif_contour(&m->engine->probing->probes, k, &seen, from, &radius)) {
         circle_line(m, from, radius);
-        mark_end(m, line, text);
+        marks_end_block(m, line, text);
     } else if (p->kind == PROBE_LINE) {
-        mark_add_point(m, p->from, NULL);
-        mark_add_point(m, p->to, NULL);
-        mark_end(m, line, text);
+        marks_add_point(m, p->from, NULL);
+        marks_add_point(m, p->to, NULL);
+        marks_end_block(m, line, text);
     } else if (p->has_at) {
-        mark_add_point(m, p->at, NULL);
-        mark_end(m, point, text);
+        marks_add_point(m, p->at, NULL);
+        marks_end_block(m, point, text);
     } else if (p->kind == PROBE_TIP && m->engine->fracture->tips.n > 0) {
         tip_marks(m);
-        mark_end(m, point, text);
+        marks_end_block(m, point, text);
     } else if (p->region.n > 0 && region_bounds(&p->region, s->dim, from, to)) {
         box_lines(m, from, to, s->dim);
-        mark_end(m, line, text);
+        marks_end_block(m, line, text);
     } else {
         char words[256] = "";
         if (*text && p->kind == PROBE_REACTION)
             snprintf(words, sizeof words, "%.80s: at %.60s", text, p->boundary);
         else if (*text)
             snprintf(words, sizeof words, "%.80s: everywhere", text);
-        mark_end(m, "with points pt -1", words);
+        marks_end_block(m, "with points pt -1", words);
     }
 }
 
@@ -169,8 +170,8 @@ void marks_draw_probes(struct marks *m)
     }
     if (more == 0) return;
     snprintf(text, sizeof text, "and %d more probes", more);
-    mark_begin(m);
-    mark_end(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
+    marks_begin_block(m);
+    marks_end_block(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
 }
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
@@ -184,13 +185,13 @@ void marks_draw_regions(struct marks *m)
         char text[NAME_MAX_LENGTH + 16], how[96];
         if (!region_bounds(&s->named[k].region, s->dim, from, to)) continue;
         snprintf(text, sizeof text, "region %.60s", s->named[k].name);
-        mark_begin(m);
+        marks_begin_block(m);
         box_lines(m, from, to, s->dim);
         /* The darker fragment colours; when they repeat, each repetition has another dash pattern. */
         const struct colour c = fragment_colour(1 + k);
         snprintf(how, sizeof how, "with lines lw 2.4 dt (%d,3) lc rgb '#%02x%02x%02x'", 3 + 4 * (k / 9), c.red, c.green,
                  c.blue);
-        mark_end(m, how, text);
+        marks_end_block(m, how, text);
     }
 }
 
@@ -232,10 +233,10 @@ void marks_draw_levels(struct marks *m)
     const struct mesh_levels *l = &m->engine->frame->levels;
     for (int level = 1; level <= l->n && m->engine->part.dim == 2; level++) {
         char text[96], how[96];
-        mark_begin(m);
+        marks_begin_block(m);
         const int64_t n = level_cells_draw(m, level);
         snprintf(text, sizeof text, "level %d: %lld cells of %d spacings", level, (long long)n, 2 << level);
         snprintf(how, sizeof how, "with lines lw 0.7 lc rgb '%s'", colour[level]);
-        mark_end(m, how, n > 0 ? text : "");
+        marks_end_block(m, how, n > 0 ? text : "");
     }
 }

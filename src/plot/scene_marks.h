@@ -17,16 +17,16 @@ struct marks {
 };
 
 /* Begins a gnuplot data block, which holds the points or arrows of one kind of symbol. Add its lines with
- * mark_add_point and end it with mark_end. */
-void mark_begin(struct marks *m);
+ * marks_add_point and end it with marks_end_block. */
+void marks_begin_block(struct marks *m);
 
 /* Adds a line to the data block: the point X [m], projected onto the picture, and the projection of `vector` [m], NULL
  * for none. */
-void mark_add_point(struct marks *m, const real *X, const double *vector);
+void marks_add_point(struct marks *m, const real *X, const double *vector);
 
 /* Ends the data block and adds the element that draws it to the plot command. how: style in that element; text: line
  * of the key, "" for none. */
-void mark_end(struct marks *m, const char *how, const char *text);
+void marks_end_block(struct marks *m, const char *how, const char *text);
 
 /* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */
 void marks_draw_loads(struct marks *m);

@@ -36,7 +36,7 @@ static int part_number(const struct scene *s, const struct particles *p, int64_t
 }
 
 /* Appends a square particle to a cloud, at the position x projected on the picture plane. size: edge [m]. */
-static void cloud_add(struct cloud *c, const real *x, int dim, double size, struct colour colour)
+static void cloud_add(struct plotted_particles *c, const real *x, int dim, double size, struct colour colour)
 {
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
     for (int a = 0; a < 3; a++) {
@@ -51,7 +51,7 @@ static void cloud_add(struct cloud *c, const real *x, int dim, double size, stru
 
 /* Appends particles to a cloud, coloured by material or body. spacing: edges of the points of coarse cells [m]; NULL:
  * particles with the spacing of the scene, of which peridynamic ones are darker. */
-static void cloud_add_particles(struct cloud *c, const struct scene *s, const struct particles *part,
+static void cloud_add_particles(struct plotted_particles *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
     const bool both = part->n_of[KIND_PD] > 0 && part->n_of[KIND_MPM] > 0;
@@ -75,7 +75,7 @@ static int64_t rigid_sites(const struct scene *s, const struct particles *part, 
     if (!region_bounds(shape, s->dim, from, to))
         for (int d = 0; d < s->dim; d++) {
             const real beside = 0.08 * particles_longest_edge(part);
-            particles_extent(part, part->n, d, &from[d], &to[d]);
+            particles_coordinate_range(part, part->n, d, &from[d], &to[d]);
             from[d] -= beside, to[d] += beside;
         }
     for (int d = 0; d < s->dim; d++) thinnest = fmin(thinnest, to[d] - from[d]);
@@ -87,7 +87,7 @@ static int64_t rigid_sites(const struct scene *s, const struct particles *part, 
     return n;
 }
 
-static void cloud_add_rigid(struct cloud *c, const struct scene *scene, const struct particles *part,
+static void cloud_add_rigid(struct plotted_particles *c, const struct scene *scene, const struct particles *part,
                             const struct region *shape)
 {
     const int dim = scene->dim;
@@ -104,23 +104,23 @@ static void cloud_add_rigid(struct cloud *c, const struct scene *scene, const st
 }
 
 /* Collects everything that has a position from the run. */
-static void scene_cloud(struct cloud *c, struct run *e, const struct camera *camera)
+static void scene_cloud(struct plotted_particles *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
     real from[DIM_MAX];
     int64_t count[DIM_MAX];
     double step;
-    const bool hollow = frame_hollow_make_points(e->frame, &e->part, s->material, false);
+    const bool hollow = coarse_cell_points_make(e->frame, &e->part, s->material, false);
     int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         room += rigid_sites(e->scene, &e->part, &s->body[b].shape, from, count, &step);
-    *c = (struct cloud){.axis = {0, 1},
-                        .normal = -1,
-                        .spacing = s->spacing,
-                        .aligned = true,
-                        .camera = s->dim == 3 ? *camera : camera_along(2, 1),
-                        .from = {INFINITY, INFINITY},
-                        .to = {-INFINITY, -INFINITY}};
+    *c = (struct plotted_particles){.axis = {0, 1},
+                                    .normal = -1,
+                                    .spacing = s->spacing,
+                                    .aligned = true,
+                                    .camera = s->dim == 3 ? *camera : camera_along(2, 1),
+                                    .from = {INFINITY, INFINITY},
+                                    .to = {-INFINITY, -INFINITY}};
     for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->position[a] = NEW("plot.position", room, float);
     c->damage = NEW("plot.damage", room, float);
     c->size = NEW("plot.size", room, float);
@@ -147,7 +147,8 @@ static void rigid_words(char *text, const struct scene_body *b, int dim)
     double speed = 0;
     int length = snprintf(text, TEXT_ROOM, "%.48s: rigid", b->name);
     for (int d = 0; d < dim; d++) speed += square(b->velocity[d]);
-    const struct unit mass = unit_for(1e3 * b->mass, "g"), fast = unit_for(sqrt(speed), "m/s");
+    const struct unit mass = unit_for_largest_value(1e3 * b->mass, "g"),
+                      fast = unit_for_largest_value(sqrt(speed), "m/s");
     if (b->mass > 0)
         length +=
             snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", 1e3 * b->mass / mass.factor, mass.name);
@@ -188,7 +189,7 @@ static int key_lines(const struct scene *s)
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
 /* Returns the view with a margin for arrows beside the body. */
-static struct view scene_view(const struct cloud *c, double arrow)
+static struct view scene_view(const struct plotted_particles *c, double arrow)
 {
     struct view v = view_around(c, 1);
     for (int a = 0; a < 2; a++) v.from[a] -= arrow, v.to[a] += arrow;
@@ -196,7 +197,10 @@ static struct view scene_view(const struct cloud *c, double arrow)
     return v;
 }
 
-static double arrow_length(const struct cloud *c) { return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]); }
+static double arrow_length(const struct plotted_particles *c)
+{
+    return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
+}
 
 static struct layout scene_layout(const struct view *v, int lines)
 {
@@ -223,7 +227,7 @@ static void draw_scene_title(FILE *to, const struct layout *l, const struct scen
             1 - 28.0 / l->height);
 }
 
-static void set_panel(FILE *to, const struct layout *l, const struct view *v, const struct cloud *c,
+static void set_panel(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
                       const struct unit *metre)
 {
     panel_write_margins(to, l, PICTURE_LEFT, PICTURE_ABOVE);
@@ -241,7 +245,7 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
 }
 
 /* Sends the image, then the marks, in one plot command. */
-static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct cloud *c,
+static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
                        const struct unit *metre, const char *marks)
 {
     double step[2], from[2];
@@ -249,12 +253,12 @@ static void plot_scene(FILE *to, const struct layout *l, const struct view *v, c
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     for (int a = 0; a < 2; a++)
         from[a] = v->from[a] / metre->factor, step[a] = (v->to[a] - v->from[a]) / metre->factor / size[a];
-    boxes_paint(pixel, size[0], size[1], v, c, MAP_DAMAGE);
+    cubes_paint_particles(pixel, size[0], size[1], v, c, MAP_DAMAGE);
     panel_write_image(to, pixel, size[0], size[1], from, step, marks);
     memory_free(pixel);
 }
 
-static status draw_scene(struct sheet sheet, struct run *e, struct cloud *c)
+static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c)
 {
     struct gnuplot g;
     char *elements = NULL;
@@ -300,7 +304,7 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
 static status draw_made(struct run *e, const struct scene *s, const struct plot_request *r)
 {
     struct path path;
-    struct cloud c;
+    struct plotted_particles c;
     if (r->projection.outside && s->dim < 3)
         return status_set(REFUSED, "plot: --view is for scenes in space; this one has %d dimension%s", s->dim,
                           s->dim > 1 ? "s" : "");
@@ -309,7 +313,7 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     scene_cloud(&c, e, &r->projection.camera);
     const int64_t drawn = c.n;
     const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c);
-    cloud_free(&c);
+    plotted_particles_free(&c);
     TRY(drew);
     const int said =
         printf("%s: %lld particles, %d boundary condition%s, %d pre-crack%s, %d probe%s\n",
@@ -324,7 +328,7 @@ status scene_draw_picture(const char *path, const struct scene_override *overrid
     struct scene s = {0};
     struct run e = {0};
     struct pilot_wish wish;
-    if (picture_moves(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
+    if (picture_is_film(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
     TRY(scene_read_or_pilot_wish(&s, &wish, path, override, overrides));
     if (wish.wanted) {
         s = wish.provisional;

@@ -74,9 +74,9 @@ int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, 
     cut = 0;
     for (int64_t k = 0; k < n; k++) {
         const int64_t i = list ? list[k] : k;
-        if (p->flag[i] & FLAG_CRACKED) particle_place(p, i, place[cut++].X);
+        if (p->flag[i] & FLAG_CRACKED) particle_reference_position(p, i, place[cut++].X);
     }
-    const int64_t ends = positions_group_middle(place, cut, p->dim, horizon * (1 + 1e-6), along, middle);
+    const int64_t ends = positions_cluster_centre(place, cut, p->dim, horizon * (1 + 1e-6), along, middle);
     memory_free(place);
     return ends;
 }
@@ -91,10 +91,11 @@ static bool driven_breaks(const struct particles *p)
     return any != 0;
 }
 
-bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t)
+bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken_bonds,
+                               real t)
 {
-    w->bonds_broken += broken;
-    if (broken == 0) return false;
+    w->bonds_broken += broken_bonds;
+    if (broken_bonds == 0) return false;
     if (isnan(w->break_time)) {
         w->break_ends = diagnostics_first_break(p, NULL, p->n, horizon, w->break_position);
         if (w->break_ends > 0) w->break_time = t;
@@ -164,7 +165,7 @@ status diagnostics_divergence(const struct particles *p, bool peridynamic, bool 
     return first < p->n ? divergence_report(p, first, limit, step, t) : OK;
 }
 
-status diagnostics_archive(struct diagnostics *w, struct archive *a)
+status diagnostics_save_or_load(struct diagnostics *w, struct archive *a)
 {
     ARCHIVE_VALUE(a, "diagnostics/now", w->now);
     ARCHIVE_VALUE(a, "diagnostics/energy_start", w->energy_start);

@@ -23,7 +23,7 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
 static void put_when(struct json *j, const struct scene *scene, const struct run_clock *clock, const char *what, real t)
 {
     char key[NAME_MAX_LENGTH];
-    const bool in_steps = scene_in_steps(scene);
+    const bool in_steps = scene_has_load_steps(scene);
     snprintf(key, sizeof key, "%s_%s", what, in_steps ? "step" : "time");
     if (!in_steps)
         json_real(j, key, t);
@@ -32,7 +32,7 @@ static void put_when(struct json *j, const struct scene *scene, const struct run
 }
 
 /* Writes position, growth, times and speeds of a crack tip. */
-static void put_tip(struct json *j, const struct scene *s, const struct run_clock *clock, const struct tip *tip)
+static void put_tip(struct json *j, const struct scene *s, const struct run_clock *clock, const struct crack_tip *tip)
 {
     const int dim = s->dim;
     json_open(j, NULL, '{');
@@ -43,8 +43,8 @@ static void put_tip(struct json *j, const struct scene *s, const struct run_cloc
     json_real(j, "angle_deg", tip_angle(tip, dim));
     put_when(j, s, clock, "start", tip->start_time);
     put_when(j, s, clock, "arrest", tip->arrest_time);
-    if (!scene_in_steps(s)) json_real(j, "speed_max", tip->speed_max);
-    if (!scene_in_steps(s)) json_real(j, "speed_mean", tip->speed_mean);
+    if (!scene_has_load_steps(s)) json_real(j, "speed_max", tip->speed_max);
+    if (!scene_has_load_steps(s)) json_real(j, "speed_mean", tip->speed_mean);
     json_close(j, '}');
 }
 
@@ -60,7 +60,7 @@ static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
 /* Writes time and position of the first breaks, the length of the longest crack, and every crack tip. */
 static void put_crack(struct json *j, const struct run *e)
 {
-    const struct tip *longest = tips_longest(&e->fracture->tips);
+    const struct crack_tip *longest = tips_longest(&e->fracture->tips);
     int dim = e->part.dim;
     json_open(j, "crack", '{');
     put_when(j, e->scene, &e->clock, "start", e->diagnostics->break_time);
@@ -71,9 +71,9 @@ static void put_crack(struct json *j, const struct run *e)
         put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
         json_real(j, "length_end", longest->growth);
         json_real(j, "angle_deg", tip_angle(longest, dim));
-        json_count(j, "tied", tips_count_tied(&e->fracture->tips));
+        json_count(j, "tied", tips_count_longest(&e->fracture->tips));
     }
-    if (longest && !scene_in_steps(e->scene)) {
+    if (longest && !scene_has_load_steps(e->scene)) {
         json_real(j, "tip_speed_max", longest->speed_max);
         json_real(j, "tip_speed_mean", longest->speed_mean);
     }
@@ -89,7 +89,10 @@ static void put_balance_and_crack(const struct run *e, struct json *j)
     put_crack(j, e);
 }
 
-static status diagnostics_state(struct run *e, struct archive *a) { return diagnostics_archive(e->diagnostics, a); }
+static status diagnostics_state(struct run *e, struct archive *a)
+{
+    return diagnostics_save_or_load(e->diagnostics, a);
+}
 
 const struct part part_diagnostics = {PART(diagnostics, diagnostics), .state = diagnostics_state,
                                       .summary = put_balance_and_crack};

@@ -62,8 +62,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
         columns_by_axis(s, q, "", dim, "kg m/s");
         break;
     case PROBE_EXACT:
-        for (int k = 0; k < bar_figures_count(q->request.form); k++) {
-            struct column c = bar_figure(q->request.form, k);
+        for (int k = 0; k < bar_result_count(q->request.form); k++) {
+            struct column c = bar_result_column(q->request.form, k);
             column_add(s, q, c.name, c.unit);
         }
         break;
@@ -85,9 +85,9 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 
 /* Returns the largest distance of a position in the body from the nearest particle [m]: half the diagonal of a
  * lattice cell, times 1.5 for irregular particles. */
-static real nearest_reach(const struct observed *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
+static real nearest_reach(const struct observed_run *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 
-int32_t particle_nearest(const struct observed *o, const real *X)
+int32_t particle_nearest(const struct observed_run *o, const real *X)
 {
     const struct particles *p = o->part;
     real reach = real_min(nearest_reach(o), o->cells->edge), least = INFINITY;
@@ -121,7 +121,7 @@ static void position_text(const real *X, int dim, char *text, size_t size)
 }
 
 /* Finds the particle nearest to the point of a POINT probe. Returns REFUSED if the point is outside the body. */
-static status bind_point(struct probe *q, const struct observed *o)
+static status bind_point(struct probe *q, const struct observed_run *o)
 {
     q->list = NEW("probes.list", 1, int32_t);
     q->list[q->n++] = particle_nearest(o, q->request.at);
@@ -132,7 +132,7 @@ static status bind_point(struct probe *q, const struct observed *o)
 }
 
 /* Finds the particles nearest to the stations of a LINE probe. Returns REFUSED if all stations are outside the body. */
-static status bind_line(struct probe *q, const struct observed *o)
+static status bind_line(struct probe *q, const struct observed_run *o)
 {
     int dim = o->part->dim, inside = 0;
     real X[DIM_MAX];
@@ -150,13 +150,13 @@ static status bind_line(struct probe *q, const struct observed *o)
 
 /* Lists the particles of the probe's region, including those on its surface within round-off. REFUSED if there is
  * none. */
-static status bind_region(struct probe *q, const struct observed *o)
+static status bind_region(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     real X[DIM_MAX];
     q->list = NEW("probes.list", p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++) {
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         if (region_contains(&q->request.region, X, p->dim, ON_SURFACE * o->spacing)) q->list[q->n++] = (int32_t)i;
     }
     if (q->n > 0) return OK;
@@ -165,20 +165,20 @@ static status bind_region(struct probe *q, const struct observed *o)
 
 /* Returns REFUSED unless the named boundary prescribes a motion or, in load steps, a force; the message lists those
  * that do. */
-static status bind_support(const struct probe *q, const struct observed *o)
+static status bind_support(const struct probe *q, const struct observed_run *o)
 {
     char known[512] = "";
     size_t used = 0;
     for (int k = 0; k < o->loads->n; k++) {
         const struct boundary *b = o->loads->load[k].boundary;
-        bool has_reaction = b->kind == BOUNDARY_VELOCITY || (o->in_steps && boundary_is_force(b));
+        bool has_reaction = b->kind == BOUNDARY_VELOCITY || (o->in_steps && boundary_applies_force(b));
         if (strcmp(b->name, q->request.boundary) == 0 && has_reaction) return OK;
         if (strcmp(b->name, q->request.boundary) == 0)
             return status_set(REFUSED, "probe \"%s\": boundary \"%s\" prescribes no motion%s, and has no reaction",
                               q->request.name, b->name,
-                              o->in_steps            ? " and no force"
-                              : boundary_is_force(b) ? " (its force is that of the scene)"
-                                                     : "");
+                              o->in_steps                 ? " and no force"
+                              : boundary_applies_force(b) ? " (its force is that of the scene)"
+                                                          : "");
         if (has_reaction && used < sizeof known)
             used += (size_t)snprintf(known + used, sizeof known - used, "%s\"%s\"", used > 0 ? ", " : "", b->name);
     }
@@ -187,7 +187,7 @@ static status bind_support(const struct probe *q, const struct observed *o)
 }
 
 /* Finds the growing crack that a GROWTH probe measures by its name, or the first one if the probe names none. */
-static status bind_growth(struct probe *q, const struct observed *o)
+static status bind_growth(struct probe *q, const struct observed_run *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
         if (!q->request.of[0] || strcmp(o->growth[k].rule->name, q->request.of) == 0) q->growth = k;
@@ -195,7 +195,7 @@ static status bind_growth(struct probe *q, const struct observed *o)
 }
 
 /* Binds a probe to its particles, by its kind. */
-static status probe_bind(struct probe *q, const struct observed *o)
+static status probe_bind(struct probe *q, const struct observed_run *o)
 {
     switch (q->request.kind) {
     case PROBE_POINT:
@@ -224,7 +224,7 @@ static status probe_bind(struct probe *q, const struct observed *o)
     }
 }
 
-status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o)
+status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed_run *o)
 {
     *s = (struct probes){.n = n};
     s->probe = NEW("probes.probe", n, struct probe);
@@ -263,7 +263,7 @@ void probes_free(struct probes *s)
 
 /* Stores time, position and number of the first bonds that break in the region of a BREAK probe, if any break in this
  * step. Bonds of driven particles do not count. */
-static void step_break(struct probe *q, const struct observed *o)
+static void step_break(struct probe *q, const struct observed_run *o)
 {
     q->memory.ends = diagnostics_first_break(o->part, q->list, q->n, o->horizon, q->memory.position);
     if (q->memory.ends == 0) return; /* bonds of driven particles do not count */
@@ -272,7 +272,7 @@ static void step_break(struct probe *q, const struct observed *o)
 }
 
 /* Updates the largest reaction and the sum of squared reactions of a REACTION probe. */
-static void step_reaction(struct probe *q, const struct observed *o)
+static void step_reaction(struct probe *q, const struct observed_run *o)
 {
     const int dim = o->part->dim;
     real force[DIM_MAX], displacement[DIM_MAX], square_sum;
@@ -293,7 +293,7 @@ static bool any_cut(const struct particles *p)
     return any & FLAG_LOST_BOND;
 }
 
-void probes_update_breaks(struct probes *s, const struct observed *o)
+void probes_update_broken_bonds(struct probes *s, const struct observed_run *o)
 {
     bool waits_for_break = false;
     for (int k = 0; k < s->n; k++) {
@@ -310,32 +310,32 @@ void probes_update_breaks(struct probes *s, const struct observed *o)
     }
 }
 
-void probes_update_step(struct probes *s, const struct observed *o)
+void probes_update_every_step(struct probes *s, const struct observed_run *o)
 {
     for (int k = 0; k < s->n; k++)
         if (s->probe[k].request.kind == PROBE_REACTION) step_reaction(&s->probe[k], o);
-    probes_update_breaks(s, o);
+    probes_update_broken_bonds(s, o);
 }
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
 
 /* Stores position and growth of the tip; NAN and 0 without a tip. */
-static void sample_tip(const struct probe *q, const struct observed *o, real *value)
+static void sample_tip(const struct probe *q, const struct observed_run *o, real *value)
 {
-    const struct tip *tip = probe_tip(q, o->tips);
+    const struct crack_tip *tip = probe_tip(q, o->tips);
     int dim = o->part->dim;
     for (int d = 0; d < dim; d++) value[d] = tip ? tip->place[d] : NAN;
     value[dim] = tip ? tip->growth : 0;
 }
 
 /* Stores kinetic, strain and fracture energy of the region. */
-static void probes_sample_energy(const struct probe *q, const struct observed *o, real *value)
+static void probes_sample_energy(const struct probe *q, const struct observed_run *o, real *value)
 {
     struct energies e = probe_energies(q, o);
     value[0] = e.kinetic, value[1] = e.strain, value[2] = e.fracture;
 }
 
-void probes_sample(struct probes *s, const struct observed *o)
+void probes_sample_begin(struct probes *s, const struct observed_run *o)
 {
     const int dim = o->part->dim;
     s->sampled = o->t;
@@ -359,10 +359,10 @@ void probes_sample(struct probes *s, const struct observed *o)
             probe_momentum(q, o->part, value);
             break;
         case PROBE_EXACT:
-            bar_figures(q->bar, o, value);
+            bar_compute_results(q->bar, o, value);
             break;
         case PROBE_GROWTH:
-            growth_readings(&o->growth[q->growth], value);
+            growing_crack_readings(&o->growth[q->growth], value);
             break;
         case PROBE_RIGID:
             rigid_probe_sample(q, o, value);
@@ -381,7 +381,7 @@ static bool has_motion(const struct probe *q)
     return kind == PROBE_POINT || kind == PROBE_ENERGY || kind == PROBE_MOMENTUM || kind == PROBE_RIGID;
 }
 
-void probes_store_motion(struct probes *s, const struct observed *o)
+void probes_store_motion(struct probes *s, const struct observed_run *o)
 {
     for (int k = 0; k < s->n; k++) {
         if (s->probe[k].request.kind == PROBE_SIF) sif_probe_store_motion(&s->probe[k], o);
@@ -390,14 +390,14 @@ void probes_store_motion(struct probes *s, const struct observed *o)
 }
 
 /* Computes and stores the stress-intensity factors of a SIF probe. */
-static void sample_sif(struct probe *q, const struct observed *o, real t_velocity, real *value)
+static void sample_sif(struct probe *q, const struct observed_run *o, real t_velocity, real *value)
 {
     sif_probe_sample(q, o, t_velocity);
     for (int f = 0; f < SIF_FIGURES; f++) value[f] = q->memory.factors[f];
 }
 
 /* Stores the components of the reaction force in value[dim]. The forces are those of the step just made. */
-static void sample_force(const struct probe *q, const struct observed *o, real *value)
+static void sample_force(const struct probe *q, const struct observed_run *o, real *value)
 {
     real displacement[DIM_MAX];
     probe_reaction(q, o->loads, o->part->dim, value, displacement);
@@ -409,7 +409,7 @@ static void sample_velocity(const struct probe *q, const struct particles *p, re
     for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_velocity(q, p, d, 0);
 }
 
-void probes_sample_end(struct probes *s, const struct observed *o, const struct velocity_time *now)
+void probes_sample_end(struct probes *s, const struct observed_run *o, const struct velocity_time *now)
 {
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
@@ -426,7 +426,7 @@ void probes_sample_end(struct probes *s, const struct observed *o, const struct 
             sample_velocity(q, o->part, value);
             break;
         case PROBE_ENERGY:
-            value[0] = probe_kinetic(q, o->part);
+            value[0] = probe_kinetic_energy(q, o->part);
             break;
         case PROBE_MOMENTUM:
             probe_momentum(q, o->part, value);
@@ -446,7 +446,7 @@ void probes_sample_end(struct probes *s, const struct observed *o, const struct 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
 /* Saves the state of all probes to an archive, or restores it. */
-status probes_archive(struct probes *s, struct archive *a)
+status probes_save_or_load(struct probes *s, struct archive *a)
 {
     if (s->n == 0) return OK;
     struct probe_memory *memory = NEW("probes.memory", s->n, struct probe_memory);

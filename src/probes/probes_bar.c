@@ -25,12 +25,12 @@ static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, i
  * is added behind its left and subtracted at its right particle, so that prefix sums are the forces of the bonds
  * across each particle. end[n]: half the force of the bonds that end at each particle [N]. Each bond is added
  * once. */
-static void add_bonds(const struct bar *b, const struct observed *o, real *between, real *end)
+static void add_bonds(const struct bar *b, const struct observed_run *o, real *between, real *end)
 {
     const struct bonds *bonds = o->bonds;
     for (int64_t row = 0; row < bonds->rows; row++) {
         int32_t i = bonds->particle[row];
-        for (struct bond_iterator it = bonds_of_row(bonds, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, row); bond_next(&it);) {
             const int32_t j = it.bond.nbr;
             if (it.bond.w == 0 || j < i) continue;
             real force = bond_force_of(bonds, o->part, &it.bond, i);
@@ -44,7 +44,7 @@ static void add_bonds(const struct bar *b, const struct observed *o, real *betwe
     }
 }
 
-void bar_bond_flux(const struct bar *b, const struct observed *o, real *flux)
+void bar_bond_flux(const struct bar *b, const struct observed_run *o, real *flux)
 {
     real *between = NEW("probes.between", b->n + 1, real), *end = NEW("probes.end", b->n + 1, real), crossing = 0;
     if (o->bonds && o->bonds->rows > 0) add_bonds(b, o, between, end);
@@ -67,7 +67,7 @@ static void measure_strain(struct bar *b, const struct particles *p)
     }
 }
 
-void bar_measure_fields(struct bar *b, const struct observed *o)
+void bar_measure_fields(struct bar *b, const struct observed_run *o)
 {
     for (int64_t k = 0; k < b->n; k++) {
         int32_t i = b->order[k];
@@ -93,7 +93,7 @@ const struct column bar_reading[BAR_READINGS] = {{"x", "m"},
                                                  {"exact_stress", "Pa"},
                                                  {"exact_strain", "1"}};
 
-void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, real *value)
+void bar_compute_profile_line(const struct bar *b, const struct observed_run *o, int64_t rank, real *value)
 {
     int32_t i = b->order[rank];
     struct exact_values e = exact_solution_at(&b->exact, o->part->X[0][i], o->t);
@@ -161,14 +161,14 @@ static const struct {
 };
 _Static_assert((int)FIGURES <= (int)BAR_FIGURES_MAX, "room for the figures of a bar");
 
-int bar_figures_count(enum exact_form form)
+int bar_result_count(enum exact_form form)
 {
     int n = 0;
     for (int k = 0; k < FIGURES; k++) n += figures[k].forms >> form & 1;
     return n;
 }
 
-struct column bar_figure(enum exact_form form, int k)
+struct column bar_result_column(enum exact_form form, int k)
 {
     struct column c = {0};
     int f = -1;
@@ -180,7 +180,7 @@ struct column bar_figure(enum exact_form form, int k)
 }
 
 /* Computes the L1 and L2 errors of stress, E x strain and velocity, and the L2 error of displacement. */
-static void errors(const struct bar *b, const struct observed *o, real *value)
+static void errors(const struct bar *b, const struct observed_run *o, real *value)
 {
     real sum[7] = {0};
     for (int64_t k = 0; k < b->n; k++) {
@@ -229,7 +229,7 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
 }
 
 /* Computes figures at fronts and plateaus; those that do not exist at this time stay NAN. */
-static void fronts(const struct bar *b, const struct observed *o, real *value)
+static void fronts(const struct bar *b, const struct observed_run *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];
     const struct exact *e = &b->exact;
@@ -247,7 +247,7 @@ static void fronts(const struct bar *b, const struct observed *o, real *value)
         value[STRAIN_ELASTIC] = mean_between(b, o->part, b->strain, from, to);
 }
 
-void bar_figures(struct bar *b, const struct observed *o, real *value)
+void bar_compute_results(struct bar *b, const struct observed_run *o, real *value)
 {
     real all[FIGURES];
     int n = 0;

@@ -42,7 +42,7 @@ static void find_order(struct bar *b, const struct particles *p)
 
 /* Finds the particles of the bar. Returns REFUSED unless it has one material and is one row of particles without a
  * gap. */
-static status find_bar(struct probe *q, const struct observed *o)
+static status find_bar(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     struct bar *b = q->bar;
@@ -81,7 +81,7 @@ static bool acts_on(const struct load *l, int32_t particle)
 }
 
 /* Finds the kind of each end: fixed at a mirror or where the outermost particle is constrained, else free. */
-static status find_ends(struct probe *q, const struct observed *o)
+static status find_ends(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;
     const real position[2] = {b->exact.left, b->exact.right};
@@ -121,7 +121,7 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
 }
 
 /* Returns the number of loads of a kind. *found: the last of them; unchanged if there is none. */
-static int probes_bar_make_count_of(const struct observed *o, enum boundary_kind kind, const struct load **found)
+static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_kind kind, const struct load **found)
 {
     int n = 0;
     for (int k = 0; o->loads && k < o->loads->n; k++)
@@ -131,7 +131,7 @@ static int probes_bar_make_count_of(const struct observed *o, enum boundary_kind
 
 /* Finds the traction on one end of the bar and stores its stress, positive in tension. REFUSED unless there is
  * exactly one, on a free end and constant in time. */
-static status find_traction(struct probe *q, const struct observed *o)
+static status find_traction(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;
     const struct load *l = NULL;
@@ -151,7 +151,7 @@ static status find_traction(struct probe *q, const struct observed *o)
 }
 
 /* Checks and stores the loads of the bar. Returns REFUSED for loads that the closed form does not describe. */
-static status find_load(struct probe *q, const struct observed *o)
+static status find_load(struct probe *q, const struct observed_run *o)
 {
     const struct load *other = NULL;
     const struct material *m = &o->material[o->part->material[0]];
@@ -185,7 +185,7 @@ static status find_load(struct probe *q, const struct observed *o)
     return OK;
 }
 
-status bar_make(struct probe *q, const struct observed *o)
+status bar_make(struct probe *q, const struct observed_run *o)
 {
     const struct probe_request *r = &q->request;
     q->bar = NEW("probes.bar", 1, struct bar);

@@ -17,7 +17,10 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
 };
 
 /* Returns the number of stress readings; in plane strain zz is last. */
-static int stresses_count(const struct particles *p) { return symmetric_count(p->dim) + (p->plane_strain != NULL); }
+static int stresses_count(const struct particles *p)
+{
+    return symmetric_component_count(p->dim) + (p->plane_strain != NULL);
+}
 
 /* Returns the number of readings of flow laws: plastic strain, and the temperature of materials that heat. */
 static int law_readings_count(const struct particles *p)
@@ -54,8 +57,8 @@ void particle_readings(const struct particles *p, int64_t i, real *value)
 {
     for (int d = 0; d < p->dim; d++) *value++ = p->x[d][i] - p->X[d][i];
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
-    for (int a = 0; a < symmetric_count(p->dim); a++) *value++ = p->stress[a][i];
-    if (p->plane_strain) *value++ = particle_stress_across(p, i);
+    for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][i];
+    if (p->plane_strain) *value++ = particle_plane_strain_stress(p, i);
     *value++ = p->damage[i];
     if (p->plastic_work) *value++ = p->plastic_strain[i];
     if (p->temperature) *value++ = p->temperature[i];
@@ -64,7 +67,7 @@ void particle_readings(const struct particles *p, int64_t i, real *value)
 const struct column growth_figure[GROWTH_FIGURES] = {
     {"x", "m"}, {"y", "m"}, {"length", "m"}, {"speed", "m/s"}, {"K_eq", "Pa m^(1/2)"}};
 
-void growth_readings(const struct growth *g, real *value)
+void growing_crack_readings(const struct growing_crack *g, real *value)
 {
     const real reading[GROWTH_FIGURES] = {g->place[0], g->place[1], g->grown, g->speed, g->intensity};
     memcpy(value, reading, sizeof reading);
@@ -73,10 +76,10 @@ void growth_readings(const struct growth *g, real *value)
 /* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
 /* Returns the crack tip that a TIP probe follows at present; NULL if there is none. */
-const struct tip *probe_tip(const struct probe *q, const struct tips *t)
+const struct crack_tip *probe_tip(const struct probe *q, const struct crack_tips *t)
 {
     if (t->n == 0) return NULL;
-    const struct tip *chosen = q->request.has_at ? NULL : tips_longest(t);
+    const struct crack_tip *chosen = q->request.has_at ? NULL : tips_longest(t);
     if (chosen || !q->request.has_at) return chosen ? chosen : &t->tip[0];
     real least = INFINITY;
     for (int k = 0; k < t->n; k++) {
@@ -107,7 +110,7 @@ void probe_reaction(const struct probe *q, const struct loads *l, int dim, real 
 
 struct region_sum {
     const struct probe *q;
-    const struct observed *o;
+    const struct observed_run *o;
     int component;
 };
 
@@ -144,7 +147,7 @@ static real bond_term(const void *context, int64_t k)
     int64_t row = row_at(s, k);
     if (row < 0) return 0;
     real sum = 0;
-    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
         sum += bond_energy_of(b, p, &it.bond, s->q->list[k]);
     return 0.5 * sum;
 }
@@ -167,16 +170,16 @@ static real broken_term(const void *context, int64_t k)
     return row >= 0 && !driven ? s->o->bonds->broken[row] : 0;
 }
 
-real probe_kinetic(const struct probe *q, const struct particles *p)
+real probe_kinetic_energy(const struct probe *q, const struct particles *p)
 {
-    return reproducible_sum(q->n, kinetic_term, &(struct region_sum){.q = q, .o = &(struct observed){.part = p}});
+    return reproducible_sum(q->n, kinetic_term, &(struct region_sum){.q = q, .o = &(struct observed_run){.part = p}});
 }
 
-struct energies probe_energies(const struct probe *q, const struct observed *o)
+struct energies probe_energies(const struct probe *q, const struct observed_run *o)
 {
     struct region_sum s = {.q = q, .o = o};
     return (struct energies){
-        .kinetic = probe_kinetic(q, o->part),
+        .kinetic = probe_kinetic_energy(q, o->part),
         .strain = reproducible_sum(q->n, bond_term, &s) +
                   points_strain_energy_of_list(o->part, o->material, o->partial, q->list, q->n),
         .fracture = reproducible_sum(q->n, fracture_term, &s),
@@ -185,7 +188,7 @@ struct energies probe_energies(const struct probe *q, const struct observed *o)
 
 void probe_momentum(const struct probe *q, const struct particles *p, real *momentum)
 {
-    const struct observed o = {.part = p};
+    const struct observed_run o = {.part = p};
     for (int d = 0; d < p->dim; d++)
         momentum[d] = reproducible_sum(q->n, momentum_term, &(struct region_sum){.q = q, .o = &o, .component = d});
 }
@@ -196,7 +199,7 @@ struct emitter {
     void (*emit)(void *context, const char *probe, const char *quantity, real value);
     void *context;
     const struct probe *q;
-    const struct observed *o;
+    const struct observed_run *o;
     const real *sampled; /* columns of the probe at a sample of this time; NULL if there is none */
 };
 
@@ -214,7 +217,7 @@ static void put_position(const struct emitter *e, const real *X)
 
 static void figures_tip(const struct emitter *e)
 {
-    const struct tip *tip = probe_tip(e->q, e->o->tips);
+    const struct crack_tip *tip = probe_tip(e->q, e->o->tips);
     if (!tip) return;
     const bool moves = e->o->load_step == 0;
     if (moves) probes_figures_put(e, "start_time", tip->start_time);
@@ -224,7 +227,7 @@ static void figures_tip(const struct emitter *e)
     if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
     if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_position(e, tip->place);
-    probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_count_tied(e->o->tips)));
+    probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_count_longest(e->o->tips)));
 }
 
 /* Reports time and position of the first break and broken bonds; each bond is counted once, not by its two entries. */
@@ -259,7 +262,7 @@ static void figures_reaction(const struct emitter *e)
 /* Reports the residual nodal force over the force of the stress on the face of a grid cell. */
 static void figures_patch(const struct emitter *e)
 {
-    const struct observed *o = e->o;
+    const struct observed_run *o = e->o;
     real h = o->grid && o->grid->h > 0 ? o->grid->h : o->spacing;
     real reference = o->strain_stress * pow(h, o->part->dim - 1) * o->thickness;
     probes_figures_put(e, "residual_max", reference > 0 ? o->residual_step0 / reference : NAN);
@@ -334,8 +337,8 @@ static void figures_exact(const struct emitter *e)
 {
     real value[BAR_FIGURES_MAX];
     enum exact_form form = e->q->request.form;
-    bar_figures(e->q->bar, e->o, value);
-    for (int k = 0; k < bar_figures_count(form); k++) probes_figures_put(e, bar_figure(form, k).name, value[k]);
+    bar_compute_results(e->q->bar, e->o, value);
+    for (int k = 0; k < bar_result_count(form); k++) probes_figures_put(e, bar_result_column(form, k).name, value[k]);
 }
 
 static void figures_sif(const struct emitter *e)
@@ -345,10 +348,10 @@ static void figures_sif(const struct emitter *e)
 
 static void figures_growth(const struct emitter *e)
 {
-    const struct growth *g = &e->o->growth[e->q->growth];
+    const struct growing_crack *g = &e->o->growth[e->q->growth];
     probes_figures_put(e, "start_time", g->start_time);
     probes_figures_put(e, "length_end", g->grown);
-    probes_figures_put(e, "angle_deg", growth_angle(g));
+    probes_figures_put(e, "angle_deg", growing_crack_angle(g));
     probes_figures_put(e, "direction_deg",
                        atan2(g->rule->direction[1], g->rule->direction[0]) * 180 / 3.14159265358979323846);
     probes_figures_put(e, "experiment_deg", e->q->request.experiment);
@@ -360,7 +363,7 @@ static void figures_rigid(const struct emitter *e)
     for (int k = 0; k < RIGID_FIGURES; k++) probes_figures_put(e, rigid_figure[k].name, e->q->memory.rigid.most[k]);
 }
 
-void probes_visit_results(const struct probes *s, const struct observed *o,
+void probes_visit_results(const struct probes *s, const struct observed_run *o,
                           void (*emit)(void *context, const char *probe, const char *quantity, real value),
                           void *context)
 {

@@ -12,7 +12,7 @@ static void copy_listed(const struct probe *q, real *const *from, real **to, int
     }
 }
 
-void probe_motion_store(struct probe *q, const struct observed *o)
+void probe_motion_store(struct probe *q, const struct observed_run *o)
 {
     struct sampled_motion *m = &q->motion;
     m->kept = true, m->t = o->t, m->t_velocity = o->t_velocity;
@@ -20,7 +20,7 @@ void probe_motion_store(struct probe *q, const struct observed *o)
     copy_listed(q, o->part->v, m->v, o->part->dim);
 }
 
-void probe_motion_interpolate(struct probe *q, const struct observed *o, const struct velocity_time *now)
+void probe_motion_interpolate(struct probe *q, const struct observed_run *o, const struct velocity_time *now)
 {
     struct sampled_motion *m = &q->motion;
     const struct particles *p = o->part;

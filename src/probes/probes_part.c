@@ -12,14 +12,14 @@ static void probing_free_all(struct run *e)
     memory_free(q->pulse);
 }
 
-int64_t cracks_grow(struct run *e)
+int64_t cracks_grow_one_step(struct run *e)
 {
     int64_t released = 0;
     for (int k = 0; k < e->scene->growths; k++) {
-        struct control r;
-        const bool known = probes_sif_values(&e->probing->probes, e->scene->growth[k].probe, &r);
-        released += growth_extend_crack(&e->fracture->growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL,
-                                        e->clock.t, e->clock.dt);
+        struct growth_control r;
+        const bool known = probes_get_sif(&e->probing->probes, e->scene->growth[k].probe, &r);
+        released += growing_crack_advance(&e->fracture->growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL,
+                                          e->clock.t, e->clock.dt);
     }
     return released;
 }
@@ -27,12 +27,12 @@ int64_t cracks_grow(struct run *e)
 real particles_largest_stress(const struct particles *p)
 {
     real most = 0;
-    for (int c = 0; c < symmetric_count(p->dim); c++)
+    for (int c = 0; c < symmetric_component_count(p->dim); c++)
         for (int64_t i = 0; i < p->n; i++) most = real_max(most, fabs(p->stress[c][i]));
     return most;
 }
 
-void pulses_list(const struct scene *s, struct probing *probing)
+void scene_list_pulses(const struct scene *s, struct probing *probing)
 {
     probing->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
     for (int k = 0; k < s->initials; k++)
@@ -42,7 +42,7 @@ void pulses_list(const struct scene *s, struct probing *probing)
 static status probing_state(struct run *e, struct archive *a)
 {
     ARCHIVE_VALUE(a, "engine/residual_step0", e->probing->residual_step0);
-    return probes_archive(&e->probing->probes, a);
+    return probes_save_or_load(&e->probing->probes, a);
 }
 
 const struct part part_probing = {PART(probing, probing), .free = probing_free_all, .state = probing_state};

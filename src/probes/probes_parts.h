@@ -75,14 +75,14 @@ void particle_readings(const struct particles *p, int64_t i, real *value);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles of a probe to q->motion,
  * before the time step. */
-void probe_motion_store(struct probe *q, const struct observed *o);
+void probe_motion_store(struct probe *q, const struct observed_run *o);
 
 /* Computes the velocities of a probe's particles at the time of the sample, after the time step: interpolated between
  * the velocities copied by probe_motion_store and the present ones; after the last step extrapolated, with the present
  * positions. now: time of the present velocities, and a factor on the result that removes half a step of damping. Does
  * nothing if probe_motion_store was not called, as for equilibria: probe_velocity then returns the present velocities.
  */
-void probe_motion_interpolate(struct probe *q, const struct observed *o, const struct velocity_time *now);
+void probe_motion_interpolate(struct probe *q, const struct observed_run *o, const struct velocity_time *now);
 
 /* Discards the positions and velocities interpolated for a sample, so that probe_position and probe_velocity return
  * the present values again. */
@@ -111,14 +111,14 @@ extern const char *const axis_name[DIM_MAX];
 
 /* Returns the number of the particle nearest to the reference position X, dim components [m]. Returns -1 if X is
  * outside the bodies: no particle is within 3/4 of the diagonal of a lattice cell. */
-int32_t particle_nearest(const struct observed *o, const real *X);
+int32_t particle_nearest(const struct observed_run *o, const real *X);
 
 /* Computes the reference position X of the station of a LINE probe, dim components [m]. Stations 0 .. points - 1 are
  * equidistant from one end of the line to the other. */
 void station_position(const struct probe *q, int dim, int station, real *X);
 
 /* Returns the crack tip that a TIP probe follows at present, or NULL if there is none. The tip belongs to *t. */
-const struct tip *probe_tip(const struct probe *q, const struct tips *t);
+const struct crack_tip *probe_tip(const struct probe *q, const struct crack_tips *t);
 
 /* Computes the sum of the reactions of all supports (in load steps also loads) of the probe's boundary, force[dim]
  * [N], and the mean displacement of their particles, displacement[dim] [m]. */
@@ -129,10 +129,10 @@ struct energies {
 };
 
 /* Returns the kinetic, strain and fracture energy of the particles of a probe [J]. */
-struct energies probe_energies(const struct probe *q, const struct observed *o);
+struct energies probe_energies(const struct probe *q, const struct observed_run *o);
 
 /* Returns the kinetic energy of the particles of a probe [J], with the velocities of probe_velocity. */
-real probe_kinetic(const struct probe *q, const struct particles *p);
+real probe_kinetic_energy(const struct probe *q, const struct particles *p);
 
 /* Computes the momentum of the particles of a probe, momentum[dim] [kg m/s], with the velocities of probe_velocity. */
 void probe_momentum(const struct probe *q, const struct particles *p, real *momentum);
@@ -145,15 +145,15 @@ struct pulse_shares {
 
 /* Stores the largest initial speed of the body as the incident amplitude of a PULSE probe. Returns REFUSED if nothing
  * moves at the start. */
-status pulse_probe_start(struct probe *q, const struct observed *o);
+status pulse_probe_start(struct probe *q, const struct observed_run *o);
 
 /* Returns the reflected and transmitted amplitudes of a PULSE probe, relative to its incident amplitude, and the
  * energy change of the present state relative to that of the run on material points alone. */
-struct pulse_shares pulse_compute_shares(const struct probe *q, const struct observed *o);
+struct pulse_shares pulse_compute_shares(const struct probe *q, const struct observed_run *o);
 
 /* Tests whether broken bonds separate a bar into two parts along x. If so, stores the position of the plane of
  * separation and the time in q->memory; else changes nothing. */
-void spall_probe_sample(struct probe *q, const struct observed *o);
+void spall_probe_sample(struct probe *q, const struct observed_run *o);
 
 /* Computes the mean velocity along x of the lighter part of a separated bar, *speed, and of the remaining part,
  * *speed_rest [m/s]. */
@@ -165,7 +165,7 @@ extern const struct column growth_figure[GROWTH_FIGURES];
 
 /* Computes the reported quantities of a growing crack (position of its tip, length, speed, equivalent stress-intensity
  * factor) and stores them in value[GROWTH_FIGURES], in the order of growth_figure[]. */
-void growth_readings(const struct growth *g, real *value);
+void growing_crack_readings(const struct growing_crack *g, real *value);
 
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------------------- */
 
@@ -175,18 +175,18 @@ extern const struct column sif_figure[SIF_FIGURES];
 /* Finds the crack tip of a SIF probe, its integration contours, and the material around the tip. Returns REFUSED if
  * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
  * another crack tip or material. */
-status sif_probe_start(struct probe *q, const struct observed *o);
+status sif_probe_start(struct probe *q, const struct observed_run *o);
 
 /* Frees the crack tip and the contours of a SIF probe. w may be NULL. */
 void sif_probe_free(struct sif_tracked *w);
 
 /* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of a SIF probe, before the
  * time step. */
-void sif_probe_store_motion(struct probe *q, const struct observed *o);
+void sif_probe_store_motion(struct probe *q, const struct observed_run *o);
 
 /* Computes K_I, K_II, J and the spread between contours of a SIF probe at the time of the sample, and stores them in
  * q->memory.factors. t_velocity: time of the present velocities [s]. */
-void sif_probe_sample(struct probe *q, const struct observed *o, real t_velocity);
+void sif_probe_sample(struct probe *q, const struct observed_run *o, real t_velocity);
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
 
@@ -194,11 +194,11 @@ extern const struct column rigid_figure[RIGID_FIGURES];
 
 /* Stores the angular momentum and the kinetic energy of the particles of a RIGID probe at the start. Returns REFUSED
  * if the scene is not plane. */
-status rigid_probe_start(struct probe *q, const struct observed *o);
+status rigid_probe_start(struct probe *q, const struct observed_run *o);
 
 /* Computes the angle of rotation and the largest stresses of a RIGID probe at the present positions, stores them in
  * value[], and updates q->memory.rigid. */
-void rigid_probe_sample(struct probe *q, const struct observed *o, real *value);
+void rigid_probe_sample(struct probe *q, const struct observed_run *o, real *value);
 
 /* Computes the errors of angular momentum and kinetic energy of a RIGID probe and stores them in value[]. Call this
  * function when the velocities at the time of the sample are known. */
@@ -216,34 +216,34 @@ struct bar {
 
 /* Finds the particles, ends, material and load of the bar of an EXACT probe and allocates q->bar. Returns REFUSED if
  * the bar or its loads differ from what the closed-form solution describes. */
-status bar_make(struct probe *q, const struct observed *o);
+status bar_make(struct probe *q, const struct observed_run *o);
 
 /* Frees a bar and its arrays. b may be NULL. */
 void bar_free(struct bar *b);
 
 /* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
  * arrays of *b. */
-void bar_measure_fields(struct bar *b, const struct observed *o);
+void bar_measure_fields(struct bar *b, const struct observed_run *o);
 
 /* Computes the stress by bond flux of each particle, flux[n] by rank from left to right [Pa]: the sum of the forces of
  * all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond counts fully for
  * particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror images of
  * particles are included. Material points have their Cauchy stress instead. */
-void bar_bond_flux(const struct bar *b, const struct observed *o, real *flux);
+void bar_bond_flux(const struct bar *b, const struct observed_run *o, real *flux);
 
 /* Figures of a bar in a fixed order; they are columns of the history, too. */
 enum { BAR_FIGURES_MAX = 16 };
 
 /* Returns the number of quantities that an EXACT probe reports for the closed-form solution `form`. */
-int bar_figures_count(enum exact_form form);
+int bar_result_count(enum exact_form form);
 
 /* Returns the name and unit of reported quantity `number` of the closed-form solution `form`, 0 <= number <
- * bar_figures_count(form). */
-struct column bar_figure(enum exact_form form, int number);
+ * bar_result_count(form). */
+struct column bar_result_column(enum exact_form form, int number);
 
 /* Updates the measured fields of a bar (bar_measure_fields), compares them with the closed-form solution, and stores
- * the reported quantities in value[bar_figures_count], in the order of bar_figure. */
-void bar_figures(struct bar *b, const struct observed *o, real *value);
+ * the reported quantities in value[bar_result_count], in the order of bar_result_column. */
+void bar_compute_results(struct bar *b, const struct observed_run *o, real *value);
 
 /* Columns of a bar's profile. */
 enum { BAR_READINGS = 12 };
@@ -251,6 +251,6 @@ extern const struct column bar_reading[BAR_READINGS];
 
 /* Computes the line of the profile of a bar for one particle and stores it in value[BAR_READINGS], in the order of
  * bar_reading[]. rank: position of the particle in the order from left to right, from 0. */
-void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, real *value);
+void bar_compute_profile_line(const struct bar *b, const struct observed_run *o, int64_t rank, real *value);
 
 #endif

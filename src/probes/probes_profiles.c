@@ -38,7 +38,7 @@ static void profile_rows(FILE *file, const struct probe *q, const struct particl
 
 /* Writes the profile of an EXACT probe as CSV, with a header: computed and exact values of all particles from left to
  * right. */
-static void bar_rows(FILE *file, const struct probe *q, const struct observed *o)
+static void bar_rows(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     real value[BAR_READINGS];
     for (int m = 0; m < BAR_READINGS; m++)
@@ -46,14 +46,14 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed *o
                 m + 1 < BAR_READINGS ? "" : "\n");
     bar_measure_fields(q->bar, o);
     for (int64_t k = 0; k < q->bar->n; k++) {
-        bar_readings(q->bar, o, k, value);
+        bar_compute_profile_line(q->bar, o, k, value);
         for (int m = 0; m < BAR_READINGS; m++)
             fprintf(file, "%s%.9g%s", m > 0 ? "," : "", value[m], m + 1 < BAR_READINGS ? "" : "\n");
     }
 }
 
 /* Writes the profile of a LINE or EXACT probe as CSV, with a header. */
-static void profile_text(FILE *file, const struct probe *q, const struct observed *o)
+static void profile_text(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     if (q->request.kind == PROBE_EXACT) {
         bar_rows(file, q, o);
@@ -90,7 +90,8 @@ bool probes_profile_name(const struct probes *s, int which, int frame, char *nam
 
 /* Composes the profile of a probe at a frame and passes name and text to put(context, ...), which writes them. FAILED
  * if memory is exhausted or put fails. */
-static status profile_put(const struct probe *q, const struct observed *o, probe_file_fn *put, void *context, int frame)
+static status profile_put(const struct probe *q, const struct observed_run *o, probe_file_fn *put, void *context,
+                          int frame)
 {
     char name[PROFILE_NAME], *text = NULL;
     size_t length = 0;
@@ -111,7 +112,7 @@ int64_t probes_count_profiles(const struct probes *s)
     return n;
 }
 
-status probes_write_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context,
+status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *put, void *context,
                              int frame)
 {
     for (int k = 0; k < s->n; k++)

@@ -30,7 +30,7 @@ static real probes_pulse_fastest(const struct probe *q, const struct particles *
     return most;
 }
 
-status pulse_probe_start(struct probe *q, const struct observed *o)
+status pulse_probe_start(struct probe *q, const struct observed_run *o)
 {
     real *direction = q->request.direction, length = sqrt(dot(direction, direction, o->part->dim));
     for (int d = 0; d < DIM_MAX; d++) direction[d] = length > 0 ? direction[d] / length : d == 0;
@@ -40,7 +40,7 @@ status pulse_probe_start(struct probe *q, const struct observed *o)
                       q->request.name);
 }
 
-struct pulse_shares pulse_compute_shares(const struct probe *q, const struct observed *o)
+struct pulse_shares pulse_compute_shares(const struct probe *q, const struct observed_run *o)
 {
     return (struct pulse_shares){
         .reflected = probes_pulse_fastest(q, o->part, o->baseline, -1) / q->memory.incident,

@@ -68,7 +68,7 @@ static real probes_rigid_turn(const struct probe *q, const struct particles *p, 
     return atan2(sum[1], sum[0]);
 }
 
-status rigid_probe_start(struct probe *q, const struct observed *o)
+status rigid_probe_start(struct probe *q, const struct observed_run *o)
 {
     struct rigid_memory *m = &q->memory.rigid;
     if (o->part->dim != 2)
@@ -86,7 +86,7 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
         const int32_t i = q->list[k];
         const real mean = 0.5 * (p->stress[0][i] + p->stress[1][i]);
         const real radius = hypot(0.5 * (p->stress[0][i] - p->stress[1][i]), p->stress[2][i]);
-        *stress = real_max(*stress, real_max(fabs(mean) + radius, fabs(particle_stress_across(p, i))));
+        *stress = real_max(*stress, real_max(fabs(mean) + radius, fabs(particle_plane_strain_stress(p, i))));
         *shear = real_max(*shear, radius);
     }
 }
@@ -102,7 +102,7 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
 
 /* Computes the rotation angle of a RIGID probe's body and its largest stresses. The angle is continued beyond half a
  * turn, provided that the body rotates by less than half a turn between samples. */
-void rigid_probe_sample(struct probe *q, const struct observed *o, real *value)
+void rigid_probe_sample(struct probe *q, const struct observed_run *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;
     real spin, scale, kinetic;

@@ -58,7 +58,7 @@ static void make_contours(struct sif_tracked *w, const struct probe_request *r, 
 
 /* Returns the index of the crack tip that a request refers to: the tip nearest to the position `at`, or the first tip
  * if there is no `at`; -1 if there is none. */
-static int tip_meant(const struct probe_request *r, const struct observed *o)
+static int tip_meant(const struct probe_request *r, const struct observed_run *o)
 {
     int nearest = -1;
     real least = SAME_TIP * o->spacing;
@@ -72,7 +72,7 @@ static int tip_meant(const struct probe_request *r, const struct observed *o)
 }
 
 /* Returns the index of the growing crack that starts at the tip of the probe; -1 if none. */
-static int growth_meant(const struct sif_tracked *w, const struct observed *o)
+static int growth_meant(const struct sif_tracked *w, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
         const real *at = o->growth[k].rule->at;
@@ -83,7 +83,7 @@ static int growth_meant(const struct sif_tracked *w, const struct observed *o)
 
 /* Returns REFUSED if this probe controls the growth of another crack than the one whose tip it measures; the key `at`
  * must then be given. */
-static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
+static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
         const struct growth_rule *g = o->growth[k].rule;
@@ -98,10 +98,10 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
 }
 
 /* Finds position and direction of the tip, and the growth that starts there. */
-static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
+static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     w->follows = tip_meant(r, o);
-    const struct tip *tip = w->follows >= 0 ? &o->tips->tip[w->follows] : NULL;
+    const struct crack_tip *tip = w->follows >= 0 ? &o->tips->tip[w->follows] : NULL;
     if (!tip && !r->has_at)
         return status_set(
             REFUSED,
@@ -121,7 +121,7 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
 
 /* Lists the cracks across which particles do not see each other: the pre-cracks and, unless one of them ends at the
  * tip, a straight crack behind the tip. Sets on which face of the crack particles exactly on it are. */
-static void make_cracks(struct sif_tracked *w, const struct observed *o)
+static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct sif_tip *t = &w->tip;
     bool ends = false;
@@ -147,7 +147,7 @@ static void make_cracks(struct sif_tracked *w, const struct observed *o)
 
 /* Returns true if a circle around the tip is not completely inside the body. position: a point of the circle without
  * a particle nearby. */
-static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed *o, real position[2])
+static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed_run *o, real position[2])
 {
     const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
     for (int k = 0; k <= stations; k++) {
@@ -161,7 +161,7 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
 
 /* Returns REFUSED for a ring that leaves the body at `position`, with an outer radius that fits: the largest number of
  * tenths of the present one. */
-static status refuse_leaving(const struct sif_tracked *w, const char *name, const struct observed *o,
+static status refuse_leaving(const struct sif_tracked *w, const char *name, const struct observed_run *o,
                              const real position[2])
 {
     char fits[80] = "a smaller probes.sif.outer or particles.spacing";
@@ -175,7 +175,7 @@ static status refuse_leaving(const struct sif_tracked *w, const char *name, cons
 }
 
 /* Returns REFUSED for contours that are too narrow, leave the body, or contain another tip. */
-static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
+static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     real position[2], narrowest = INFINITY;
     for (int k = 0; k < w->contours; k++) narrowest = real_min(narrowest, w->contour[k].outer - w->contour[k].inner);
@@ -201,7 +201,7 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
 }
 
 /* Finds the material around the tip. Returns REFUSED if another material or body is within the contours. */
-static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
+static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     const real *e = w->tip.along, *at = w->tip.place;
@@ -223,7 +223,7 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
     return OK;
 }
 
-status sif_probe_start(struct probe *q, const struct observed *o)
+status sif_probe_start(struct probe *q, const struct observed_run *o)
 {
     const struct probe_request *r = &q->request;
     if (o->part->dim != 2) return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", r->name);
@@ -259,21 +259,21 @@ void sif_probe_free(struct sif_tracked *w)
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
 /* Updates position, speed and direction of the tip; returns true if it has moved. */
-static bool probes_sif_follow(struct probe *q, const struct observed *o)
+static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
 {
     struct sif_tracked *w = q->sif;
-    const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
+    const struct crack_tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
     real(*trail)[2] = q->memory.trail;
     w->tip.speed = 0;
     if (w->growth >= 0) { /* the tip of a growth is known exactly */
-        const struct growth *g = &o->growth[w->growth];
+        const struct growing_crack *g = &o->growth[w->growth];
         for (int d = 0; d < 2; d++) w->tip.place[d] = g->place[d], w->tip.along[d] = g->along[d];
         w->tip.speed = real_min(g->speed, FASTEST * w->tip.medium.rayleigh);
         return false;
     }
     if (!tip || !(tip->growth > 0)) return false;
     for (int d = 0; d < 2; d++) w->tip.place[d] = tip->place[d];
-    const real speed = given(q->request.speed) ? q->request.speed : tips_speed(o->tips, w->follows);
+    const real speed = given(q->request.speed) ? q->request.speed : tips_average_speed(o->tips, w->follows);
     w->tip.speed = real_max(0, real_min(speed, FASTEST * w->tip.medium.rayleigh));
     if (hypot(w->tip.place[0] - trail[1][0], w->tip.place[1] - trail[1][1]) >= STEP_BACK * o->spacing)
         for (int d = 0; d < 2; d++) trail[0][d] = trail[1][d], trail[1][d] = w->tip.place[d];
@@ -305,7 +305,7 @@ static void keep_displacement(struct sif_tracked *w, const struct particles *p)
     }
 }
 
-void sif_probe_store_motion(struct probe *q, const struct observed *o)
+void sif_probe_store_motion(struct probe *q, const struct observed_run *o)
 {
     struct sif_tracked *w = q->sif;
     const struct particles *p = o->part;
@@ -331,7 +331,7 @@ static void find_inertia(struct sif_tracked *w, const struct particles *p, real 
 
 /* Computes the forces of loads divided by the masses [m/s^2] into w->body, with the inertia relief of static bodies.
  * Returns true if such forces act within the largest contour. */
-static bool find_body_force(struct sif_tracked *w, const struct observed *o)
+static bool find_body_force(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct particles *p = o->part;
     const struct loads *l = o->loads;
@@ -344,7 +344,7 @@ static bool find_body_force(struct sif_tracked *w, const struct observed *o)
             w->body[d][i] = l->turn * (d == 0 ? p->X[1][i] - l->centre[1] : l->centre[0] - p->X[0][i]);
     }
     for (int b = 0; b < l->n; b++)
-        for (int64_t k = 0; k < l->load[b].n && boundary_is_force(l->load[b].boundary); k++) {
+        for (int64_t k = 0; k < l->load[b].n && boundary_applies_force(l->load[b].boundary); k++) {
             const int32_t i = l->load[b].particle[k];
             real force[DIM_MAX];
             load_force_at(&l->load[b], p, k, t, force);
@@ -357,7 +357,7 @@ static bool find_body_force(struct sif_tracked *w, const struct observed *o)
     return any;
 }
 
-void sif_probe_sample(struct probe *q, const struct observed *o, real t_velocity)
+void sif_probe_sample(struct probe *q, const struct observed_run *o, real t_velocity)
 {
     struct sif_tracked *w = q->sif;
     const struct particles *p = o->part;
@@ -383,26 +383,27 @@ void sif_probe_sample(struct probe *q, const struct observed *o, real t_velocity
     q->memory.time = o->t;
 }
 
-bool probes_sif_contour(const struct probes *s, int k, const struct observed *o, real position[2], real *radius)
+bool probes_sif_contour(const struct probes *s, int k, const struct observed_run *o, real position[2], real *radius)
 {
     const struct sif_tracked *w = s->probe[k].sif;
     if (s->probe[k].request.kind != PROBE_SIF || !w) return false;
-    const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
+    const struct crack_tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
     const real *at = w->growth >= 0 ? o->growth[w->growth].place : tip && tip->growth > 0 ? tip->place : w->tip.place;
     for (int d = 0; d < 2; d++) position[d] = at[d];
     *radius = w->reach;
     return true;
 }
 
-bool probes_sif_values(const struct probes *s, const char *name, struct control *found)
+bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *found)
 {
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];
         if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
-        *found = (struct control){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
-                                  .along = {q->memory.along[0], q->memory.along[1]},
-                                  .time = q->memory.time,
-                                  .medium = q->sif->tip.medium};
+        *found =
+            (struct growth_control){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
+                                    .along = {q->memory.along[0], q->memory.along[1]},
+                                    .time = q->memory.time,
+                                    .medium = q->sif->tip.medium};
         return true;
     }
     return false;

@@ -21,7 +21,7 @@ static int64_t probes_spall_column_of(const struct columns *c, real X)
 }
 
 /* Allocates the columns of a body; returns false if there are fewer than two. */
-static bool probes_spall_columns_make(struct columns *c, const struct observed *o, int body)
+static bool probes_spall_columns_make(struct columns *c, const struct observed_run *o, int body)
 {
     const struct particles *p = o->part;
     real low = INFINITY, high = -INFINITY;
@@ -56,7 +56,7 @@ static void count_across(int32_t *count, int64_t a, int64_t b)
 }
 
 /* Counts the intact and the broken bonds of a body across each plane between columns, in c->intact and c->cut. */
-static void columns_bonds(struct columns *c, const struct observed *o, int body)
+static void columns_bonds(struct columns *c, const struct observed_run *o, int body)
 {
     const struct bonds *b = o->bonds;
     const struct particles *p = o->part;
@@ -64,7 +64,7 @@ static void columns_bonds(struct columns *c, const struct observed *o, int body)
         int32_t i = b->particle[row];
         if (p->body[i] != body) continue;
         const int64_t from = probes_spall_column_of(c, p->X[0][i]);
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             const int64_t to = probes_spall_column_of(c, p->X[0][it.bond.nbr]);
             c->longest = real_max(c->longest, fabs(1 / it.bond.inverse_length));
             if (it.bond.w != 0)
@@ -112,7 +112,7 @@ static bool columns_apart(const struct columns *c, real *position)
     return false;
 }
 
-void spall_probe_sample(struct probe *q, const struct observed *o)
+void spall_probe_sample(struct probe *q, const struct observed_run *o)
 {
     int bodies = 0;
     if (!o->bonds || o->bonds->rows == 0) return;

@@ -17,7 +17,7 @@ static status profiles_put(void *folder, const char *name, const char *text, siz
     return file_write_whole_unsynced(path.text, text, length);
 }
 
-status profiles_write(const struct probes *s, const struct output *out, const struct observed *o)
+status profiles_write(const struct probes *s, const struct output *out, const struct observed_run *o)
 {
     if (probes_count_profiles(s) == 0) return OK;
     TRY(probes_write_profiles(s, o, profiles_put, out->folder, out->series[0].frames - 1));

@@ -23,12 +23,14 @@ static void node_keep(const struct scene *s, const struct grid *g, int64_t I, in
         if (in_patch(s, x)) *most = real_max(*most, fabs(g->force[d][I]));
 }
 
-void residual_store_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh)
+void patch_residual_store_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh)
 {
-    for (int64_t I = 0; I < mesh->grid.n; I++) node_keep(s, &mesh->grid, I, mesh_base(mesh, I), &q->residual_step0);
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        node_keep(s, &mesh->grid, I, mesh_regular_node_of(mesh, I), &q->residual_step0);
 }
 
-void residual_store(struct probing *q, const struct scene *s, const struct particles *p, const struct grid_method *grid)
+void patch_residual_store(struct probing *q, const struct scene *s, const struct particles *p,
+                          const struct grid_method *grid)
 {
     real x[DIM_MAX], *most = &q->residual_step0;
     for (int k = 0; k < grid->fields; k++) {
@@ -37,7 +39,7 @@ void residual_store(struct probing *q, const struct scene *s, const struct parti
     }
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         int32_t i = p->list[KIND_PD][k];
-        if (particle_on_grid(p, i)) continue;
+        if (particle_moves_with_nodes(p, i)) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->X[d][i];
         for (int d = 0; d < p->dim; d++)
             if (in_patch(s, x)) *most = real_max(*most, fabs(p->f[d][i]));

@@ -59,7 +59,7 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < s->balance.n; k++)
             if (!(s->balance.held[k] >> d & 1)) s->increment.of[d][k] = growth * s->balance.u.of[d][k];
-    unconstrained_project(s, &s->increment);
+    remove_free_rigid_motion(s, &s->increment);
 }
 
 /* Returns ten times the norm of the bond forces caused by round-off of the positions [N]. */
@@ -133,7 +133,7 @@ static real account_end(struct account *a, const struct statics *s, const struct
  * difference within this range is moved from the losses to the work of loads. in_contact: contact at the start or the
  * end. Returns true if energy was gained beyond this range in contact: faces have then passed through each other, into
  * a state that the loads cannot have reached. */
-static bool losses_store(struct equilibrium *q, struct loads *loads, real lost, real range, bool in_contact,
+static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, bool in_contact,
                          bool yields)
 {
     real uneven = yields || in_contact ? real_min(q->lost - lost, range) : 0;
@@ -177,12 +177,12 @@ static status solve_at(struct run *e, real t, bool *crossed)
         array_copy(before[d], e->part.x[d], e->part.n, sizeof(real));
     }
     applied_forces_compute(s, &e->part, &e->loads, t);
-    if (s->fragments_stale) unconstrained_find(e);
+    if (s->fragments_stale) unconstrained_fragments_find(e);
     increment_predict(s, &e->part, &e->frame->mesh, &e->loads, t, account.applied);
     s->balance.applied = applied_forces_norm(s, &e->part, e->contact);
     if (!s->precondition) s->balance.noise = round_off_force(&e->bonds, &e->part);
-    const status found = equilibrium_find(&s->balance, &s->increment, t != s->t);
-    plastic_update(e);
+    const status found = newton_solver_find_equilibrium(&s->balance, &s->increment, t != s->t);
+    plastic_state_update(e);
     frame_update_points(e->frame, &e->part, &e->loads);
     loads_update_images(&e->loads, &e->part);
     s->t = t;
@@ -217,7 +217,7 @@ static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;
-    int substeps = statics_substeps(e->scene, e->rigid, t);
+    int substeps = statics_substep_count(e->scene, e->rigid, t);
     bool crossed = false;
     if (!e->statics->has_contact || e->part.plastic_correction[0] || e->bonds.plastic_stretch)
         return solve_substeps(e, t, substeps, &crossed);
@@ -239,7 +239,7 @@ static status solve_whole(struct run *e, real t)
 
 /* Finds the equilibrium at pseudo-time t [s] and stores the largest stretch ratio there. Returns INTERRUPTED, before
  * the solution, if the user has stopped the run, so that the checkpoint of the previous load step stays valid. */
-status equilibrium_at(struct run *e, real t)
+status equilibrium_find_at_time(struct run *e, real t)
 {
     if (e->report->stop && *e->report->stop)
         return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; continue with --resume",
@@ -249,15 +249,15 @@ status equilibrium_at(struct run *e, real t)
     return OK;
 }
 
-status equilibrium_convert(struct run *e, int64_t broken)
+status equilibrium_convert_points(struct run *e, int64_t broken_bonds)
 {
-    while (step_convert(e, broken)) {
-        broken = 0;
+    while (step_convert(e, broken_bonds)) {
+        broken_bonds = 0;
         statics_precondition_free(e->statics);
         statics_unknowns_free(e->statics);
         statics_unknowns_make(e);
         e->statics->next.n = 0;
-        TRY(equilibrium_at(e, e->statics->t));
+        TRY(equilibrium_find_at_time(e, e->statics->t));
     }
     return OK;
 }

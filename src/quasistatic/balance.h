@@ -8,11 +8,11 @@
  * Updates the work of loads, the energy losses, the reactions of supports, and the largest ratio of stretch to
  * critical stretch. Returns FAILED, with the position of the largest residual in the message, if no equilibrium is
  * found; INTERRUPTED if the run is to stop. */
-status equilibrium_at(struct run *e, real t);
+status equilibrium_find_at_time(struct run *e, real t);
 
 /* Converts the material points that broken bonds or high stress require to peridynamic particles and finds the
- * equilibrium again, until no further point must be converted. broken: number of directed bonds that have broken since
- * the last call. Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
-status equilibrium_convert(struct run *e, int64_t broken);
+ * equilibrium again, until no further point must be converted. broken_bonds: number of directed bonds that have broken
+ * since the last call. Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
+status equilibrium_convert_points(struct run *e, int64_t broken_bonds);
 
 #endif

@@ -21,7 +21,7 @@
 #define SUBSTEP_MOST 0.2 /* largest displacement of a rigid body in a substep [spacings] */
 enum { SUBSTEPS_MOST = 10000 };
 
-bool statics_faces_closed(const struct contact *c) { return c->law.between == CONTACT_ALL && c->touching > 0; }
+bool crack_faces_are_in_contact(const struct contact *c) { return c->law.between == CONTACT_ALL && c->touching > 0; }
 
 /* Returns the number of free motions of all unconstrained fragments. */
 static int free_motions(const struct statics *s)
@@ -36,7 +36,7 @@ static int free_motions(const struct statics *s)
 static void unconstrained_update(struct run *e)
 {
     const int before = free_motions(e->statics);
-    unconstrained_find(e);
+    unconstrained_fragments_find(e);
     if (free_motions(e->statics) != before) statics_precondition_free(e->statics);
 }
 
@@ -44,10 +44,10 @@ static void unconstrained_update(struct run *e)
  * of the active set. */
 static int64_t statics_contact_search(struct run *e, real close)
 {
-    return contact_search(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, close);
+    return contact_search_and_select(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, close);
 }
 
-void statics_contact_start(struct run *e)
+void statics_contact_search_first(struct run *e)
 {
     if (!e->statics->has_contact) return;
     e->contact->marked = true;
@@ -55,13 +55,13 @@ void statics_contact_start(struct run *e)
     if (!e->contact->made || !e->contact->touch) statics_contact_search(e, CARRIED);
 }
 
-int statics_substeps(const struct scene *s, const struct rigid_set *rigid, real t)
+int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real t)
 {
     real most = 0;
     for (int k = 0; k < s->rigids; k++) {
         const struct rigid_body *r = &rigid->body[k];
         real shift[DIM_MAX];
-        rigid_displacement(r, t, shift);
+        rigid_driven_displacement(r, t, shift);
         for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(r->centre[d] + shift[d] - r->x[d]));
     }
     return (int)real_min(SUBSTEPS_MOST, real_max(1, ceil(most / (SUBSTEP_MOST * s->spacing))));
@@ -81,11 +81,11 @@ bool statics_in_contact(const struct statics *s, const struct contact *c) { retu
 void statics_contact_begin(struct run *e, real t)
 {
     struct statics *s = e->statics;
-    struct equilibrium *q = &s->balance;
+    struct newton_solver *q = &s->balance;
     const bool touched = s->in_contact;
     s->in_contact = false, q->reach = 0;
     if (!e->statics->has_contact) return;
-    statics_contact_start(e);
+    statics_contact_search_first(e);
     q->force(e, &q->u, &q->f);
     s->energy = energy_present(e) - (touched ? 0 : contact_energy(e->contact, &e->part));
     for (int k = 0; k < e->scene->rigids; k++) rigid_set_position(&e->rigid->body[k], t);
@@ -94,19 +94,19 @@ void statics_contact_begin(struct run *e, real t)
     if (!s->in_contact) return;
     unconstrained_update(e);
     q->force(e, &q->u, &q->f);
-    q->reach = contact_list_reach(e->contact);
+    q->reach = contact_list_safe_distance(e->contact);
 }
 
 /* Updates contact at the end of a solution: searches for pairs if particles have moved far, else marks active contacts
  * by their overlap. Recomputes the norm of the loads from the final contact forces, not from those of intermediate
  * states. Returns true if no contact has changed, so that the equilibrium is valid. engine: the run. */
-bool statics_contact_settle(void *engine)
+bool statics_contact_update_set(void *engine)
 {
     struct run *e = engine;
     struct statics *s = e->statics;
     struct contact *c = e->contact;
     if (!e->statics->has_contact) return true;
-    unknowns_move(s, &e->part, &e->frame->mesh, &s->balance.u);
+    unknowns_apply_displacements(s, &e->part, &e->frame->mesh, &s->balance.u);
     loads_update_images(&e->loads, &e->part);
     const int64_t changed =
         contact_search_needed(c, &e->part) ? 1 + statics_contact_search(e, 0) : contact_select(c, &e->part, 0);
@@ -116,7 +116,7 @@ bool statics_contact_settle(void *engine)
     return changed == 0;
 }
 
-void statics_contact_laws(void *engine, bool settled)
+void statics_contact_choose_laws(void *engine, bool settled)
 {
     struct run *e = engine;
     if (e->statics->has_contact) contact_use_selection(e->contact, settled);
@@ -125,7 +125,7 @@ void statics_contact_laws(void *engine, bool settled)
 real statics_contact_end(struct run *e, real work, real lost)
 {
     struct statics *s = e->statics;
-    struct equilibrium *q = &s->balance;
+    struct newton_solver *q = &s->balance;
     real range = 0;
     if (!e->statics->has_contact) return 0;
     if (s->in_contact || e->contact->touching > 0) q->force(e, &q->u, &q->f);

@@ -10,19 +10,19 @@ struct rigid_set;
 
 /* Returns true if contact acts between all particles, crack faces included, and any particles are in contact at
  * present. */
-bool statics_faces_closed(const struct contact *c);
+bool crack_faces_are_in_contact(const struct contact *c);
 
 /* Returns true if anything was in contact before the present solution or is in contact now. */
 bool statics_in_contact(const struct statics *s, const struct contact *contact);
 
 /* Searches for pairs in contact before the first solution. Does nothing in scenes without contact and rigid bodies, or
  * if the search has been made. */
-void statics_contact_start(struct run *e);
+void statics_contact_search_first(struct run *e);
 
 /* Returns the number of substeps into which the load increment from the present positions of rigid bodies to those at
  * pseudo-time t [s] is divided, so that no rigid body moves by more than 0.2 particle spacings in a substep; at least
  * 1, and limited (SUBSTEPS_MOST). */
-int statics_substeps(const struct scene *s, const struct rigid_set *rigid, real t);
+int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real t);
 
 /* Prepares the solution at pseudo-time t [s]: computes the energy stored before the solution, moves rigid bodies to
  * their positions at t, and searches for contacts there. */
@@ -30,11 +30,11 @@ void statics_contact_begin(struct run *e, real t);
 
 /* Moves particles and nodes to the displacements of the solution and updates the set of active contacts (callback
  * `settle` of solver/equilibrium.h). engine: a struct run. Returns true if the set has not changed. */
-bool statics_contact_settle(void *engine);
+bool statics_contact_update_set(void *engine);
 
 /* Selects the contacts that exert forces (callback `laws` of solver/equilibrium.h): the fixed set of active contacts
  * if `settled` is true, else all pairs that overlap. engine: a struct run. */
-void statics_contact_laws(void *engine, bool settled);
+void statics_contact_choose_laws(void *engine, bool settled);
 
 /* Completes a solution: adds the work done on rigid bodies in this solution to their total work and, if anything is or
  * was in contact, computes the energy that the solution has lost. work: work of loads and supports in this solution

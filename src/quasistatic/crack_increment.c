@@ -38,7 +38,7 @@ enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
 
 /* Returns the share of the crack area that belongs to the body: 1/2 if all cracks lie on planes of symmetry, else 1. d:
  * only planes perpendicular to axis d count (-1: all planes). */
-static real symmetry_share(const struct tips *t, const struct bond_source *source, int d)
+static real symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d)
 {
     bool on = t->n > 0;
     for (int k = 0; k < t->n && on; k++) {
@@ -53,13 +53,13 @@ static real symmetry_share(const struct tips *t, const struct bond_source *sourc
 /* Returns the length of the crack front of a body in space [m]: the sum of the edges of the pre-cracks, at most the
  * shortest side of the body (doubled by a plane of symmetry along the crack), at least one spacing. Returns 1 for a
  * plane body. */
-static real front_length(const struct tips *t, const struct bond_source *source, const struct particles *p)
+static real front_length(const struct crack_tips *t, const struct bond_source *source, const struct particles *p)
 {
     const real h = source->family.spacing;
     real length = INFINITY, edges = 0, low, high;
     if (p->dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
-        particles_extent(p, p->n, d, &low, &high);
+        particles_coordinate_range(p, p->n, d, &low, &high);
         length = real_min(length, (high - low + h) / symmetry_share(t, source, d));
     }
     for (int k = 0; k < t->n; k++)
@@ -68,10 +68,11 @@ static real front_length(const struct tips *t, const struct bond_source *source,
 }
 
 /* Returns the area of a crack increment [m^2]. front: length of the crack front [m]. */
-static real increment_area(const struct scene *s, const struct tips *t, const struct bond_source *source, real front)
+static real increment_area(const struct scene *s, const struct crack_tips *t, const struct bond_source *source,
+                           real front)
 {
     const real ahead = INCREMENT_SPACINGS * (s->dim > 1 ? s->spacing : 1);
-    return symmetry_share(t, source, -1) * ahead * scene_section(s) * front;
+    return symmetry_share(t, source, -1) * ahead * scene_section_factor(s) * front;
 }
 
 /* Returns the number of pairs of bonds that may break between two equilibria: `steps.breaks` for each spacing of a
@@ -91,7 +92,7 @@ static int64_t breaks_most(const struct scene *s, real front)
 static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
-    const struct tips *t = &e->fracture->tips;
+    const struct crack_tips *t = &e->fracture->tips;
     const real before = statics_energy_released(s, &e->bonds), given = e->scene->steps.energy;
     const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, front = front_length(t, &e->source, &e->part);
     const real wide = increment_area(e->scene, t, &e->source, front) * (1 - 1e-3);
@@ -103,18 +104,18 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
     while ((given > 0 ? a->cost < cost : area < wide) && s->stretch_ratio > LEFT) {
         if (bonds_break_overstretched(e, within, most, &a->cost, &area) == 0) break;
         if (e->scene->steps.control == CONTROL_ENERGY) {
-            unconstrained_find(e);
-            s->severs = unconstrained_check(s, &e->part, false, e->clock.step + 1) != OK;
+            unconstrained_fragments_find(e);
+            s->severs = unconstrained_fragments_check(s, &e->part, false, e->clock.step + 1) != OK;
             if (s->severs) break;
         }
-        TRY(equilibrium_at(e, s->t));
+        TRY(equilibrium_find_at_time(e, s->t));
     }
     a->release = (statics_energy_released(s, &e->bonds) - before) / square(statics_load_size(e, s->t));
     return OK;
 }
 
 /* Returns true if the scene has a pre-crack in the body and no crack increment has been made. */
-static bool pre_crack_unbroken(const struct tips *t, const struct statics *statics)
+static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics *statics)
 {
     bool any = false;
     for (int k = 0; k < t->n; k++) any |= t->tip[k].from_crack;
@@ -143,7 +144,7 @@ static status increment_find_now(struct run *e)
     }
     trial_undo(e, &saved, &s->next);
     s->next.n = bonds;
-    s->due = balanced_load(&s->ahead, &s->behind);
+    s->due = increments_balanced_load(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -164,7 +165,7 @@ static status increment_find_at_due(struct run *e)
         const real size = statics_load_size(e, s->t), share = size / s->due;
         if (fabs(share - 1) <= DUE_ERROR || !isfinite(s->due)) break;
         const real secant = size + (1 - share) * (size - previous) / (share - previous_share);
-        found = equilibrium_at(e, statics_time_of_size(e, secant > 0 ? secant : s->due));
+        found = equilibrium_find_at_time(e, statics_time_of_size(e, secant > 0 ? secant : s->due));
         previous = size, previous_share = share;
         s->next.n = 0;
         if (found == OK) found = increment_find_now(e);
@@ -174,7 +175,7 @@ static status increment_find_at_due(struct run *e)
         return found;
     }
     memory_archive_free(&saved); /* converted points cannot be restored */
-    return found == OK ? equilibrium_at(e, from) : found;
+    return found == OK ? equilibrium_find_at_time(e, from) : found;
 }
 
 /* Determines the next crack increment and the load size at which it is due. If anything is in contact, the increment is
@@ -188,8 +189,8 @@ status crack_increment_find(struct run *e)
 
 status crack_increment_apply_balanced(struct run *e)
 {
-    const real size = balanced_load_alone(&e->statics->ahead);
-    if (isfinite(size)) TRY(equilibrium_at(e, statics_time_of_size(e, size)));
+    const real size = increment_balanced_load(&e->statics->ahead);
+    if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_time_of_size(e, size)));
     return crack_increment_apply(e);
 }
 
@@ -204,11 +205,11 @@ int64_t crack_increment_break(struct run *e)
     return broken;
 }
 
-status crack_increment_equilibrate(struct run *e, int64_t broken)
+status crack_increment_equilibrate(struct run *e, int64_t broken_bonds)
 {
-    TRY(equilibrium_at(e, e->statics->t));
+    TRY(equilibrium_find_at_time(e, e->statics->t));
     plastic_state_save(e);
-    return equilibrium_convert(e, broken);
+    return equilibrium_convert_points(e, broken_bonds);
 }
 
 status crack_increment_apply(struct run *e) { return crack_increment_equilibrate(e, crack_increment_break(e)); }

@@ -18,9 +18,9 @@ status crack_increment_apply(struct run *e);
 int64_t crack_increment_break(struct run *e);
 
 /* Finds the equilibrium after crack_increment_break has broken bonds, and converts material points near the crack to
- * peridynamic particles. broken: number of directed bonds that were broken. Returns FAILED if no equilibrium is found,
- * INTERRUPTED if the run is to stop. */
-status crack_increment_equilibrate(struct run *e, int64_t broken);
+ * peridynamic particles. broken_bonds: number of directed bonds that were broken. Returns FAILED if no equilibrium is
+ * found, INTERRUPTED if the run is to stop. */
+status crack_increment_equilibrate(struct run *e, int64_t broken_bonds);
 
 /* Scales the loads to the size at which the next crack increment releases as much energy as it costs, finds the
  * equilibrium there, and makes the increment. Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to

@@ -11,7 +11,7 @@
 static real rigid_displacement2(const struct rigid_set *r, int n, real t)
 {
     real sum = 0, shift[DIM_MAX];
-    for (int k = 0; k < n; k++) sum += square(rigid_displacement(&r->body[k], t, shift));
+    for (int k = 0; k < n; k++) sum += square(rigid_driven_displacement(&r->body[k], t, shift));
     return sum;
 }
 
@@ -25,10 +25,10 @@ real statics_load_size(const struct run *e, real t)
         const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, e->part.dim, t);
         for (int64_t k = 0; k < l->n; k++) {
             real X[DIM_MAX], f[DIM_MAX];
-            particle_place(&e->part, l->particle[k], X);
+            particle_reference_position(&e->part, l->particle[k], X);
             for (int d = 0; d < e->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
                 if (l->boundary->components >> d & 1) sum += square(prescribed_displacement_at(&by, X, d));
-            if (!boundary_is_force(l->boundary)) continue;
+            if (!boundary_applies_force(l->boundary)) continue;
             load_force_at(l, &e->part, k, t, f);
             forces += dot(f, f, e->part.dim);
         }
@@ -61,13 +61,16 @@ real statics_energy_released(const struct statics *s, const struct bonds *b)
     return bonds_fracture_energy(b) + s->balance.lost;
 }
 
-real balanced_load(const struct crack_increment *a, const struct crack_increment *b)
+real increments_balanced_load(const struct crack_increment *a, const struct crack_increment *b)
 {
     const real release = a->release + b->release;
     return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
 }
 
-real balanced_load_alone(const struct crack_increment *a) { return balanced_load(a, &(struct crack_increment){0}); }
+real increment_balanced_load(const struct crack_increment *a)
+{
+    return increments_balanced_load(a, &(struct crack_increment){0});
+}
 
 struct crack_increment increment_extrapolate_previous(const struct crack_increment *first,
                                                       const struct crack_increment *second)

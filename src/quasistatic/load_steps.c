@@ -40,7 +40,7 @@ enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
  * loads oscillate about those of a crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
-    return diagnostics->bonds_broken > 0 ? real_max(s->due, balanced_load_alone(&s->ahead)) : s->due;
+    return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_balanced_load(&s->ahead)) : s->due;
 }
 
 /* Updates the probes and the largest forces of the rigid bodies for the present equilibrium, a state that the loads
@@ -48,13 +48,13 @@ static real increment_load(const struct statics *s, const struct diagnostics *di
 static void state_sample(struct run *e)
 {
     sample_update_probes(e);
-    for (int k = 0; k < e->scene->rigids; k++) rigid_note(&e->rigid->body[k]);
+    for (int k = 0; k < e->scene->rigids; k++) rigid_update_largest_force(&e->rigid->body[k]);
 }
 
 /* Finds the equilibrium at load size `size`, with the pseudo-time limited to least..most [s]. */
 static status go_to_size(struct run *e, real size, real least, real most)
 {
-    return equilibrium_at(e, real_min(real_max(statics_time_of_size(e, size), least), most));
+    return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_size(e, size), least), most));
 }
 
 /* Finds the equilibrium at pseudo-time t [s], or an earlier one at which bonds come near their critical stretch. Far
@@ -68,7 +68,7 @@ static status approach_loads(struct run *e, real t)
     for (int k = 0; k < APPROACHES_MOST && far; k++) {
         struct memory_archive saved;
         trial_begin(e, &saved);
-        const status gone = equilibrium_at(e, t);
+        const status gone = equilibrium_find_at_time(e, t);
         far = gone == OK && s->stretch_ratio > FAR_BEYOND && at_low < NEAR_LEAST;
         if (far) {
             const real share = (NEAR_LIMIT - at_low) / (s->stretch_ratio - at_low);
@@ -78,8 +78,8 @@ static status approach_loads(struct run *e, real t)
             memory_archive_free(&saved);
         TRY(gone);
     }
-    if (far) TRY(equilibrium_at(e, t));
-    TRY(equilibrium_convert(e, 0));
+    if (far) TRY(equilibrium_find_at_time(e, t));
+    TRY(equilibrium_convert_points(e, 0));
     return crack_increment_find(e);
 }
 
@@ -92,17 +92,17 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     const bool follows = increment_load(e->statics, e->diagnostics) <= *size;
     *size = real_max(*size, increment_load(e->statics, e->diagnostics));
     const real loads = statics_load_size(e, t);
-    const bool pays = balanced_load_alone(&s->ahead) <= *size, within = *size < loads;
+    const bool pays = increment_balanced_load(&s->ahead) <= *size, within = *size < loads;
     if (within)
         TRY(go_to_size(e, *size, from, t));
     else if (s->t < t && loads >= *size * (1 - ROUND_OFF))
-        TRY(equilibrium_at(e, t));
+        TRY(equilibrium_find_at_time(e, t));
     state_sample(e);
     if (follows && e->scene->steps.then == THEN_EXPLICIT)
         TRY(crack_increment_apply_dynamic(e));
     else
         TRY(pays ? crack_increment_apply(e) : crack_increment_apply_balanced(e));
-    if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_at(e, t));
+    if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_find_at_time(e, t));
     return crack_increment_find(e);
 }
 
@@ -137,7 +137,7 @@ static status step_by_energy(struct run *e, real most)
     if (s->next.n == 0) TRY(approach_loads(e, t));
     if (s->severs) return OK;
     s->increment_due = s->next.n > 0 && statics_load_size(e, t) >= s->due;
-    if (s->next.n > 0) TRY(equilibrium_at(e, s->increment_due ? statics_time_of_size(e, s->due) : t));
+    if (s->next.n > 0) TRY(equilibrium_find_at_time(e, s->increment_due ? statics_time_of_size(e, s->due) : t));
     s->record.load_most = real_max(s->record.load_most, statics_load_size(e, s->t));
     s->severs = s->increment_due && s->due < THROUGH * s->record.load_most;
     return OK;
@@ -160,7 +160,7 @@ static status go_to_opening(struct run *e, real wanted, real t)
 {
     real from = e->statics->t, at_from = opening_now(&e->part, e->statics);
     for (int k = 0; k < SECANTS_MOST; k++) {
-        TRY(equilibrium_at(e, real_max(t, 0)));
+        TRY(equilibrium_find_at_time(e, real_max(t, 0)));
         const real at = opening_now(&e->part, e->statics), slope = (at - at_from) / (e->statics->t - from);
         if (fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) || e->statics->t == from || !(slope != 0)) return OK;
         from = e->statics->t, at_from = at;
@@ -194,7 +194,7 @@ static status step_by_opening(struct run *e)
                               opening_now(&e->part, e->statics) > 0
                                   ? e->statics->t * wanted / opening_now(&e->part, e->statics)
                                   : first));
-            TRY(equilibrium_convert(e, 0));
+            TRY(equilibrium_convert_points(e, 0));
         } else {
             TRY(go_to_size(e, increment_load(e->statics, e->diagnostics), 0, INFINITY));
             state_sample(e);
@@ -214,7 +214,7 @@ static status step_by_opening(struct run *e)
 static void load_step_begin(struct run *e)
 {
     struct statics *s = e->statics;
-    unconstrained_find(e);
+    unconstrained_fragments_find(e);
     if (s->precondition_stale || s->has_contact)
         statics_precondition_free(s);
     else if (s->kept && !s->precondition)
@@ -248,7 +248,7 @@ static status check_opening(const struct scene *scene, const struct particles *p
     const int64_t nearest[] = {particles_nearest(part, s->from), particles_nearest(part, s->to)};
     for (int k = 0; k < 2; k++) {
         real X[DIM_MAX], away = 0;
-        particle_place(part, nearest[k], X);
+        particle_reference_position(part, nearest[k], X);
         for (int d = 0; d < part->dim; d++) away += square(X[d] - at[k][d]);
         if (sqrt(away) > FAR_OFF * scene->spacing)
             return status_set(REFUSED,
@@ -275,10 +275,10 @@ static status check_loads_grow(const struct run *e)
         whole);
 }
 
-status statics_check(const struct run *e)
+status statics_check_scene(const struct run *e)
 {
     const struct scene *s = e->scene;
-    if (!scene_in_steps(s)) return OK;
+    if (!scene_has_load_steps(s)) return OK;
     if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e->scene, &e->part));
     TRY(check_loads_grow(e));
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
@@ -335,7 +335,7 @@ static void warn_missed_bodies(struct warnings *to, const struct rigid_body *bod
 static void warn_at_end(struct run *e)
 {
     real K[MODES];
-    sif_leading_factors(&e->statics->sif, &e->part, statics_faces_closed(e->contact), K);
+    sif_leading_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
     warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
     warn_large_flow(&e->warnings, &e->part);
     warn_missed_bodies(&e->warnings, e->rigid->body, e->scene->rigids, e->statics->balance.largest);
@@ -347,7 +347,7 @@ static void warn_at_end(struct run *e)
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;
-    const status held = unconstrained_check(e->statics, &e->part, true, e->clock.step + 1);
+    const status held = unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
         warnings_add_and_print(&e->warnings,
@@ -361,11 +361,11 @@ status engine_run_load_steps(struct run *e)
     TRY(report_start(e));
     timers_start(&e->timers);
     if (!e->statics->node) statics_unknowns_make(e); /* a resumed run has them */
-    statics_contact_start(e);
+    statics_contact_search_first(e);
     e->statics->gauge[0] = particles_nearest(&e->part, e->scene->steps.from);
     e->statics->gauge[1] = particles_nearest(&e->part, e->scene->steps.to);
     sif_cracks_start(e); /* for the plane of the tips, which a resumed run lacks */
-    if (e->clock.step == 0) sample_equilibrium(e);
+    if (e->clock.step == 0) sample_take_in_equilibrium(e);
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;
         bool apart;
@@ -378,7 +378,7 @@ status engine_run_load_steps(struct run *e)
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         state_sample(e);
-        sample_equilibrium(e);
+        sample_take_in_equilibrium(e);
         statics_record_reset(e->statics);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         timer_add_elapsed(&e->timers, TIMER_BONDS);

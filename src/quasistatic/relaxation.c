@@ -40,7 +40,7 @@ static void particle_block(const void *context, int64_t first, int64_t end, real
 {
     const struct particles *p = context;
     for (int64_t i = first; i < end; i++)
-        for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) sum[0] += square(p->f[d][i]);
+        for (int d = 0; d < p->dim && !particle_moves_with_nodes(p, i); d++) sum[0] += square(p->f[d][i]);
 }
 
 /* Returns the norm of the reactions, each divided evenly among its particles [N]. */
@@ -60,7 +60,7 @@ static real reactions_norm(const struct loads *loads, int dim)
  * damping is 2 omega. */
 static void estimate(struct run *e, bool *done)
 {
-    struct solver *s = e->solver;
+    struct static_solver *s = e->solver;
     real nodes = 0, particles, motion[2];
     const real strain = e->kernels.bond_energy(&e->bonds, &e->part) +
                         points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
@@ -69,7 +69,7 @@ static void estimate(struct run *e, bool *done)
     if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0)
         reproducible_sums(e->grid->field[0].grid.n, 1, node_block, e->grid, &nodes);
     reproducible_sums(e->part.n, 1, particle_block, &e->part, &particles);
-    solver_set_residual(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
+    static_solver_set_residual(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
     *done = e->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
             0.5 * motion[1] <= MOTION_SMALL * strain;
 }

@@ -35,13 +35,14 @@ static void boundaries_freeze(const struct scene *scene, struct boundary *bounda
         struct boundary *to = &boundary[b];
         real factor = 1;
         *to = *from;
-        if (boundary_is_force(from)) factor = time_function_value(&from->time, t), to->frozen = true, to->frozen_at = t;
+        if (boundary_applies_force(from))
+            factor = time_function_value(&from->time, t), to->frozen = true, to->frozen_at = t;
         if (from->kind == BOUNDARY_VELOCITY) {
             factor = 0;
             memset(to->formula, 0, sizeof to->formula);
             to->rotates = to->displaces = false;
         }
-        if (boundary_is_force(from) || from->kind == BOUNDARY_VELOCITY)
+        if (boundary_applies_force(from) || from->kind == BOUNDARY_VELOCITY)
             to->time = (struct time_function){TIME_CONSTANT};
         for (int d = 0; d < DIM_MAX; d++) to->value[d] = factor * from->value[d];
     }

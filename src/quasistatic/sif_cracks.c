@@ -58,7 +58,7 @@ static struct crack *crack_segments(const struct sif_cracks *l, int *n)
     struct crack *crack = NEW("led.cracks", given + l->segments + 1, struct crack);
     real(*corner)[DIM_MAX] = memory_new("led.corners", 2 * (given + 1), sizeof *corner);
     for (int k = 0; k < given; k++) {
-        sif_plane_segment(&l->plane, &l->source->crack[k], corner + 2 * k);
+        sif_plane_intersect_crack(&l->plane, &l->source->crack[k], corner + 2 * k);
         crack[k] = (struct crack){.n = 2, .corner = corner + 2 * k};
     }
     for (int64_t k = 0; k < l->segments; k++) crack[given + k] = (struct crack){.n = 2, .corner = l->path[k].at};
@@ -102,7 +102,7 @@ bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles 
     view.medium = medium_at(l, p, tip, 0.5 * (view.inner + view.outer));
     struct crack *crack = crack_segments(l, &view.cracks);
     view.crack = crack;
-    const bool seen = tip_fit_factors(&view, p, K);
+    const bool seen = crack_tip_fit_sif(&view, p, K);
     crack_segments_free(crack, view.cracks);
     if (sif_tip_along_mirror(&l->plane, tip)) K[MODE_II] = 0;
     if (closed) K[MODE_I] = real_max(K[MODE_I], 0); /* the fit takes contact forces for stress */

@@ -15,7 +15,7 @@
  * fronts and its planes of symmetry in *plane. The caller has set the members dim, spacing, section, body_mirrors and
  * body_mirror of *plane. t: tips of the pre-cracks; cracks: the pre-cracks. Returns NULL, or the reason why there is
  * no such plane (a static text). */
-const char *sif_plane_find(struct sif_plane *plane, const struct tips *t, const struct crack_list *cracks,
+const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, const struct crack_list *cracks,
                            const struct particles *p);
 
 /* Projects the point X, dim components [m], onto the plane and stores its two coordinates in the plane in to[] [m]. */
@@ -27,7 +27,7 @@ void sif_plane_project_particle(const struct sif_plane *plane, const struct part
 
 /* Computes the straight segment in which the pre-crack c intersects the plane and stores its ends in at[0] and at[1],
  * as coordinates in the plane [m]. Returns false if the pre-crack is not perpendicular to the plane. */
-bool sif_plane_segment(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX]);
+bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX]);
 
 /* Returns the width of the body along the crack front [m], averaged over the segment between the points `from` and
  * `to` of the plane, two coordinates each [m]. For a plane body the width is its thickness. */
@@ -60,8 +60,8 @@ bool sif_tip_along_mirror(const struct sif_plane *plane, const struct sif_crack_
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
  * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
- * tip->along. closed: crack faces are in contact (statics_faces_closed), which makes K_I at least 0. Returns false if
- * too few particles are near the tip. */
+ * tip->along. closed: crack faces are in contact (crack_faces_are_in_contact), which makes K_I at least 0. Returns
+ * false if too few particles are near the tip. */
 bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              bool closed, real K[2]);
 

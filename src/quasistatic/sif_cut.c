@@ -30,7 +30,7 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     sif_plane_project_particle(&l->plane, p, b->particle[r], X);
     for (int w = 0; w < segments->n; w++)
         close |= crack_may_cut_near(&segments->crack[w], X, l->source->family.cutoff, 2);
-    for (struct bond_iterator it = bonds_of_row(b, r); close && bond_next(&it);) {
+    for (struct bond_iterator it = bond_iterator_of_row(b, r); close && bond_next(&it);) {
         bool cut = false;
         if (it.bond.w == 0) continue;
         sif_plane_project_particle(&l->plane, p, it.bond.nbr, Y);
@@ -50,8 +50,8 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
     for (int d = 0; d < 2; d++)
         corner[tip->reversed][d] = from[d], corner[!tip->reversed][d] = to[d] + beyond * tip->heading[d];
     const struct crack path = {.n = 2, .corner = corner};
-    cracks_mirrored(segments, &path, 1, l->plane.mirror, l->plane.mirrors, l->source->family.cutoff,
-                    ON_SURFACE * l->plane.spacing);
+    cracks_make_mirror_images(segments, &path, 1, l->plane.mirror, l->plane.mirrors, l->source->family.cutoff,
+                              ON_SURFACE * l->plane.spacing);
 }
 
 /* Replaces the energy costs of the bonds of the next segment (`held` of each record) such that their sum is crack area
@@ -127,13 +127,13 @@ static status tips_turn_all(struct run *e)
     struct sif_cracks *l = &e->statics->sif;
     int64_t marked = 1;
     for (int round = 0; round < CONVERSIONS_MOST && marked > 0; round++) {
-        const bool closed = statics_faces_closed(e->contact);
+        const bool closed = crack_faces_are_in_contact(e->contact);
         marked = 0;
         for (int k = 0; k < l->n; k++)
             if (!l->tip[k].ended)
                 sif_tip_choose_direction(l, &e->part, closed, &l->tip[k]),
                     marked += segment_convert(l, &e->part, &l->tip[k]);
-        if (marked > 0) TRY(equilibrium_convert(e, 0));
+        if (marked > 0) TRY(equilibrium_convert_points(e, 0));
     }
     return OK;
 }
@@ -143,7 +143,7 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
 {
     const real before = statics_energy_released(e->statics, &e->bonds);
     bonds_break_listed(e, l);
-    const status tried = equilibrium_at(e, e->statics->t);
+    const status tried = equilibrium_find_at_time(e, e->statics->t);
     a->release =
         (statics_energy_released(e->statics, &e->bonds) - before) / square(statics_load_size(e, e->statics->t));
     return tried;
@@ -206,7 +206,7 @@ static void increment_choose(struct statics *s, struct break_list *list)
         s->ahead.cost += tip->ahead.cost, s->ahead.release += tip->ahead.release;
         s->behind.cost += tip->behind.cost, s->behind.release += tip->behind.release;
     }
-    s->due = balanced_load(&s->ahead, &s->behind);
+    s->due = increments_balanced_load(&s->ahead, &s->behind);
 }
 
 /* Recomputes the energy release of the selected tips if there are several, by breaking their bonds together: they
@@ -228,7 +228,7 @@ static status increment_try_together(struct run *e)
     trial_undo(e, &saved, &s->next);
     for (int k = 0; k < s->sif.n && separate > 0; k++)
         if (s->sif.tip[k].selected) s->sif.tip[k].ahead.release *= s->ahead.release / separate;
-    if (grown) s->due = balanced_load(&s->ahead, &s->behind);
+    if (grown) s->due = increments_balanced_load(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -242,7 +242,7 @@ static status tip_try(struct run *e, struct sif_crack_tip *tip, struct break_lis
     tip->ended = list->n == 0;
     if (tip->ended) return OK;
     TRY(segment_try(e, tip, list));
-    tip->due = balanced_load(&tip->ahead, &tip->behind);
+    tip->due = increments_balanced_load(&tip->ahead, &tip->behind);
     return OK;
 }
 

@@ -54,14 +54,14 @@ void sif_plane_project(const struct sif_plane *plane, const real *X, real to[2])
 void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i, real to[2])
 {
     real X[DIM_MAX] = {0};
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     sif_plane_project(plane, X, to);
 }
 
 /* ---- requirements in space --------------------------------------------------------------------------------------- */
 
 /* Stores the direction of the fronts of the pre-cracks. Returns NULL, or why there is no common direction. */
-static const char *front_find(const struct tips *t, struct sif_plane *plane)
+static const char *front_find(const struct crack_tips *t, struct sif_plane *plane)
 {
     bool found = false;
     for (int k = 0; k < t->n; k++) {
@@ -78,7 +78,7 @@ static const char *front_find(const struct tips *t, struct sif_plane *plane)
 }
 
 /* Stores the coordinate, along the direction of the fronts, of the middle of the first front. */
-static void front_middle(const struct tips *t, struct sif_plane *plane)
+static void front_middle(const struct crack_tips *t, struct sif_plane *plane)
 {
     for (int k = t->n - 1; k >= 0; k--)
         if (t->tip[k].from_crack) plane->middle = dot(plane->front, t->tip[k].origin, 3);
@@ -102,7 +102,7 @@ static const char *mirrors_find(struct sif_plane *plane)
 
 /* Computes the segment at[2] in which the plane cuts pre-crack c, oriented such that its normal is on the side of the
  * normal of the polygon. Returns false if the pre-crack is not parallel to the fronts. */
-bool sif_plane_segment(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX])
+bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
     if (plane->dim == 2) return memcpy(at, c->corner, 2 * sizeof *at), true;
@@ -126,7 +126,8 @@ static const char *cracks_check(const struct crack_list *l, const struct sif_pla
 {
     for (int k = 0; k < l->n; k++) {
         real at[2][DIM_MAX] = {{0}};
-        if (!sif_plane_segment(plane, &l->crack[k], at)) return "a pre-crack is not parallel to the crack fronts";
+        if (!sif_plane_intersect_crack(plane, &l->crack[k], at))
+            return "a pre-crack is not parallel to the crack fronts";
         for (int c = 0; c < l->crack[k].n; c++) {
             real P[2];
             sif_plane_project(plane, l->crack[k].corner[c], P);
@@ -139,7 +140,7 @@ static const char *cracks_check(const struct crack_list *l, const struct sif_pla
 }
 
 /* Returns NULL if all fronts run through the whole width of the body, else why they do not. */
-static const char *fronts_check(const struct tips *t, const struct particles *p, const struct sif_plane *plane)
+static const char *fronts_check(const struct crack_tips *t, const struct particles *p, const struct sif_plane *plane)
 {
     const real h = plane->spacing;
     for (int k = 0; k < t->n; k++) {
@@ -154,7 +155,7 @@ static const char *fronts_check(const struct tips *t, const struct particles *p,
     return NULL;
 }
 
-const char *sif_plane_find(struct sif_plane *plane, const struct tips *t, const struct crack_list *cracks,
+const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, const struct crack_list *cracks,
                            const struct particles *p)
 {
     const char *fault = NULL;

@@ -20,7 +20,7 @@ static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *t
     const struct scene *s = l->scene;
     for (int k = 0; k < s->cracks; k++) {
         real at[2][DIM_MAX] = {{0}};
-        sif_plane_segment(&l->plane, &s->crack[k], at);
+        sif_plane_intersect_crack(&l->plane, &s->crack[k], at);
         for (int end = 0; end < 2; end++) {
             if (sif_distance(at[end], tip->position) > HERE * s->spacing) continue;
             tip->length_behind = real_max(tip->length_behind, sif_distance(at[0], at[1]));
@@ -57,10 +57,10 @@ static bool tip_off_row(const struct sif_plane *plane, const struct particles *p
 static void sif_tips_start(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
-    const struct tips *t = &e->fracture->tips;
+    const struct crack_tips *t = &e->fracture->tips;
     l->known = true;
     for (int k = 0; k < t->n; k++) {
-        const struct tip *from = &t->tip[k];
+        const struct crack_tip *from = &t->tip[k];
         real position[2], along[2];
         if (!from->from_crack) continue;
         struct sif_crack_tip *tip = &l->tip[l->n++];
@@ -76,7 +76,7 @@ static void sif_tips_start(struct run *e)
     }
 }
 
-const char *sif_why_not(const struct run *e, struct sif_plane *plane)
+const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *plane)
 {
     const struct scene *s = e->scene;
     struct sif_plane unused;
@@ -86,7 +86,7 @@ const char *sif_why_not(const struct run *e, struct sif_plane *plane)
     *plane = (struct sif_plane){.made = true,
                                 .dim = e->part.dim,
                                 .spacing = s->spacing,
-                                .section = scene_section(s),
+                                .section = scene_section_factor(s),
                                 .body_mirrors = e->source.mirrors,
                                 .body_mirror = e->source.mirror};
     if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
@@ -94,10 +94,10 @@ const char *sif_why_not(const struct run *e, struct sif_plane *plane)
     return sif_plane_find(plane, &e->fracture->tips, &e->tables.cracks, &e->part);
 }
 
-status sif_check(const struct run *e)
+status sif_growth_check(const struct run *e)
 {
-    if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
-    const char *fault = sif_why_not(e, NULL);
+    if (!scene_has_load_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
+    const char *fault = sif_growth_why_impossible(e, NULL);
     return fault ? status_set(REFUSED,
                               "steps.path: hoop (crack growth by the hoop stress) requires straight, parallel crack "
                               "fronts through the whole body, and %s; steps.path: bonds or auto is expected",
@@ -109,7 +109,7 @@ bool sif_cracks_start(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
     l->scene = e->scene, l->source = &e->source;
-    if (!l->plane.made) l->fault = sif_why_not(e, &l->plane);
+    if (!l->plane.made) l->fault = sif_growth_why_impossible(e, &l->plane);
     if (l->fault) return false;
     if (!l->known) sif_tips_start(e);
     for (int k = 0; k < l->n; k++)

@@ -26,7 +26,7 @@ static struct static_body static_body_of(struct run *e)
                                 e->scene->bodies};
 }
 
-status engine_solver_make(struct run *e)
+status engine_static_solver_make(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct static_body body = static_body_of(e);
@@ -34,9 +34,9 @@ status engine_solver_make(struct run *e)
                                                   : grid_relaxation_ramp(particles_longest_edge(&e->part) + s->spacing,
                                                                          e->tables.wave_speed, e->clock.dt);
     loads_make_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
-    TRY(solver_make(e->solver, &body, ramp_time));
+    TRY(static_solver_make(e->solver, &body, ramp_time));
     if (s->method == METHOD_PD)
-        solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
+        static_solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
     else
         for (int b = 0; b < e->loads.n; b++) /* the time steps on the grid add it up */
             memset(e->loads.load[b].displacement, 0, sizeof e->loads.load[b].displacement);
@@ -49,11 +49,11 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
 {
     int64_t past = 0;
     for (int64_t r = 0; r < b->rows; r++)
-        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
             const int32_t i = b->particle[r], j = it.bond.nbr;
-            const real most =
-                limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] * bond_strength(p, i, j);
-            past += it.bond.w != 0 && j > i && bond_elastic_of(b, p, &it.bond, i) > most;
+            const real most = limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] *
+                              bond_strength_factor(p, i, j);
+            past += it.bond.w != 0 && j > i && bond_elastic_stretch_of(b, p, &it.bond, i) > most;
         }
     return past;
 }
@@ -79,7 +79,7 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
     real most = 0;
     char text[200];
     for (int64_t i = 0; i < p->n; i++)
-        for (int k = 0; k < symmetric_count(p->dim); k++)
+        for (int k = 0; k < symmetric_component_count(p->dim); k++)
             most = real_max(most, fabs(p->stress[k][i]) / material[p->material[i]].young);
     snprintf(text, sizeof text,
              "stresses of the solution reach %.2g times Young's modulus, beyond any solid and beyond small strains: "
@@ -113,7 +113,7 @@ static void solver_finish(struct run *e)
 
 /* Returns FAILED with the reason why no equilibrium was found. tolerance: of the residual [1]. step: number of the last
  * iteration. */
-static status not_converged(const struct solver *s, real tolerance, int64_t step)
+static status not_converged(const struct static_solver *s, real tolerance, int64_t step)
 {
     if (!(s->residual < INFINITY))
         return status_set(
@@ -144,7 +144,7 @@ static status solve_step(struct run *e, bool *done)
 }
 
 /* Stores the forces before the first iteration, from which relaxation computes differences. */
-static void solve_start(struct solver *s, const struct particles *p)
+static void solve_start(struct static_solver *s, const struct particles *p)
 {
     for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));
 }
@@ -153,7 +153,7 @@ status engine_solve_static(struct run *e)
 {
     TRY(report_start(e));
     timers_start(&e->timers);
-    if (e->scene->method == METHOD_PD && e->clock.step == 0) sample_equilibrium(e);
+    if (e->scene->method == METHOD_PD && e->clock.step == 0) sample_take_in_equilibrium(e);
     if (e->scene->method == METHOD_PD) solve_start(e->solver, &e->part);
     while (e->clock.step < e->clock.steps) {
         bool done = false;

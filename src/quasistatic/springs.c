@@ -55,8 +55,8 @@ static struct movers movers_list(const struct springs *s, int64_t i)
     if (mesh->points == 0 || mesh->place[i] < 0) return m;
     const int dim = s->a->dim, place = mesh->place[i] & ((1 << dim) - 1);
     for (int c = 0; c < 1 << dim; c++) {
-        const int32_t at = s->node_at[mesh_node(mesh, mesh->place[i] >> dim, c)];
-        if (at >= 0) m.node[m.n] = at, m.share[m.n++] = mesh_weight(dim, c, place);
+        const int32_t at = s->node_at[mesh_cell_corner_node(mesh, mesh->place[i] >> dim, c)];
+        if (at >= 0) m.node[m.n] = at, m.share[m.n++] = mesh_shape_function_value(dim, c, place);
     }
     return m;
 }
@@ -65,8 +65,8 @@ static struct movers movers_list(const struct springs *s, int64_t i)
  * image moves opposite to its source in some of them. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
-    image_signs(&s->e->part, &s->e->loads, i, sign);
-    return movers_list(s, image_root(&s->e->part, s->e->loads.image, i));
+    image_displacement_signs(&s->e->part, &s->e->loads, i, sign);
+    return movers_list(s, image_source_particle(&s->e->part, s->e->loads.image, i));
 }
 
 /* Adds the stiffness of a bond of particle i, as a spring along its reference direction, to the rows of the unknowns
@@ -93,7 +93,7 @@ static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 /* Adds the stiffness of the intact bonds of row r. */
 static void springs_row_add(struct springs *s, int64_t r)
 {
-    for (struct bond_iterator it = bonds_of_row(&s->e->bonds, r); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(&s->e->bonds, r); bond_next(&it);)
         if (it.bond.w != 0) spring_add(s, s->e->bonds.particle[r], &it.bond);
 }
 
@@ -133,7 +133,7 @@ static void cell_add(struct springs *s, int64_t I)
     if (!mesh_cell_stiffness(mesh, s->e->frame->elastic, &s->e->part, I, K)) return;
     for (int c = 0; c < corners; c++)
         for (int b = 0; b < corners; b++) {
-            const int64_t row = mesh_node(mesh, I, c), column = mesh_node(mesh, I, b);
+            const int64_t row = mesh_cell_corner_node(mesh, I, c), column = mesh_cell_corner_node(mesh, I, b);
             real block[DIM_MAX][DIM_MAX];
             if (s->node_at[row] < 0 || s->node_at[column] < 0) continue;
             for (int a = 0; a < dim; a++)
@@ -294,12 +294,12 @@ void statics_precondition_make(struct run *e)
     s->directions = 0, s->precondition_stale = false;
 }
 
-void statics_precondition(void *engine, const struct field *r, struct field *z)
+void statics_precondition_apply(void *engine, const struct field *r, struct field *z)
 {
     struct run *e = engine;
     if (!e->statics->precondition) statics_precondition_make(e);
     multigrid_apply(e->statics->precondition, r->of, z->of);
-    unconstrained_project(e->statics, z);
+    remove_free_rigid_motion(e->statics, z);
 }
 
 /* Frees the preconditioner if the last solution took far more directions (`directions`) than the first one with it.

@@ -8,7 +8,7 @@
 /* Computes z = M^-1 r, M being the preconditioner (callback `precondition` of solver/equilibrium.h), and removes the
  * free rigid motions of unconstrained fragments from z. Makes the preconditioner if there is none. engine: a struct
  * run; r: residual forces [N]; z: result. */
-void statics_precondition(void *engine, const struct field *r, struct field *z);
+void statics_precondition_apply(void *engine, const struct field *r, struct field *z);
 
 /* Makes the multigrid preconditioner from the stiffness of the present bonds, cells and contacts, and stores it in
  * e->statics. */

@@ -12,7 +12,7 @@ static void list_find(const struct bonds *bonds, struct break_list *l)
     for (int64_t k = 0; k < l->n; k++) {
         struct broken_bond *record = &l->bond[k];
         record->row = bonds->row_of[record->i];
-        for (struct bond_iterator it = bonds_of_row(bonds, record->row); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, record->row); bond_next(&it);)
             if (it.bond.nbr == record->j && it.bond.w != 0) record->entry = it.bond.entry, record->w = it.bond.w;
     }
 }
@@ -58,7 +58,7 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
  * the last record of the history. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
-    struct equilibrium *q = &s->balance;
+    struct newton_solver *q = &s->balance;
     ARCHIVE_VALUE(a, "statics/largest", q->largest);
     ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
     ARCHIVE_VALUE(a, "statics/noise", q->noise);
@@ -72,12 +72,12 @@ static status search_archive(struct statics *s, struct run_clock *clock, struct 
     return OK;
 }
 
-status statics_archive(struct run *e, struct archive *a)
+status statics_save_or_load(struct run *e, struct archive *a)
 {
     struct statics *s = e->statics;
-    struct equilibrium *q = &s->balance;
+    struct newton_solver *q = &s->balance;
     const bool whole = a->scope == ARCHIVE_ALL;
-    if (!scene_in_steps(e->scene)) return OK;
+    if (!scene_has_load_steps(e->scene)) return OK;
     if (whole && (!a->saving || !s->node)) statics_unknowns_free(s), statics_unknowns_make(e);
     for (int d = 0; d < e->part.dim; d++) {
         char name[48];

@@ -18,14 +18,14 @@ static void statics_free_all(struct run *e) { statics_free(e->statics), sif_crac
 static void warn_of_solver(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    for (int m = 0; m < s->materials && scene_in_steps(s); m++)
+    for (int m = 0; m < s->materials && scene_has_load_steps(s); m++)
         if (s->model == MODEL_BOND && material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
             warnings_add(to,
                          "bonds of material %s yield before they break, so that a crack dissipates %.3g J/m^2; elastic "
                          "bonds of the same critical stretch would dissipate %.3g J/m^2",
                          s->material[m].name, toughness_of_material(&e->source.family, s->model, &s->material[m]),
                          family_crossing_energy(&e->source.family, &s->material[m]));
-    if (!scene_at_rest(s)) return;
+    if (!scene_is_single_equilibrium(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
             warnings_add(to, "a static equilibrium has no velocities: the velocities of `initial` are ignored");
@@ -36,7 +36,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     if ((s->bodies > 1 || (s->cracks > 0 && s->method != METHOD_MPM)) && !scene_accepts(s, ACCEPT_CONTACT))
         warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
                          "where they close; if they do not close: accept: [contact]");
-    if (e->solver->applied == 0 && solver_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
+    if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
         warnings_add(to,
                      "nothing loads the body at t = %.4g s, the end of the duration, whose loads this solver applies "
                      "(a load with time: {step: ...} that ends earlier is zero then)",
@@ -49,7 +49,7 @@ static void put_load_steps(const struct run *e, struct json *j)
     static const char *const control[] = {
         [CONTROL_LOAD] = "load", [CONTROL_ENERGY] = "energy", [CONTROL_OPENING] = "opening"};
     const struct statics *s = e->statics;
-    if (!scene_in_steps(e->scene)) return;
+    if (!scene_has_load_steps(e->scene)) return;
     json_open(j, "load_steps", '{');
     json_text(j, "control", control[e->scene->steps.control]);
     json_count(j, "steps", e->clock.step);
@@ -64,6 +64,7 @@ static void put_load_steps(const struct run *e, struct json *j)
     json_close(j, '}');
 }
 
-const struct part part_statics = {PART(statics, statics),   .free = statics_free_all,  .columns = statics_columns,
-                                  .record = statics_record, .summary = put_load_steps, .state = statics_archive,
+const struct part part_statics = {PART(statics, statics),          .free = statics_free_all,
+                                  .columns = statics_list_columns, .record = statics_write_record,
+                                  .summary = put_load_steps,       .state = statics_save_or_load,
                                   .warn = warn_of_solver};

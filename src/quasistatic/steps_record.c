@@ -16,7 +16,7 @@
 
 enum { STATICS_COLUMNS = 13 }; /* one less for a plane body */
 
-int statics_columns(const struct run *e, struct column *column)
+int statics_list_columns(const struct run *e, struct column *column)
 {
     static const struct column own[STATICS_COLUMNS] = {{"load_time", "s"},
                                                        {"stretch_ratio", ""},
@@ -31,7 +31,7 @@ int statics_columns(const struct run *e, struct column *column)
                                                        {"path_x", "m"},
                                                        {"path_y", "m"},
                                                        {"path_z", "m"}};
-    if (!scene_in_steps(e->scene)) return 0;
+    if (!scene_has_load_steps(e->scene)) return 0;
     const int n = STATICS_COLUMNS - (e->part.dim < 3);
     if (column) array_copy(column, own, n, sizeof *own);
     return n;
@@ -39,7 +39,7 @@ int statics_columns(const struct run *e, struct column *column)
 
 /* Returns the area by which the cracks grow per spacing [m^2]: spacing times the sum of the fronts of all pre-cracks,
  * or of one spacing without pre-cracks; for a bar its section. section: thickness or section of the body. */
-static real growth_by_spacing(const struct tips *t, real section)
+static real growth_by_spacing(const struct crack_tips *t, real section)
 {
     real wide = 0;
     if (t->dim == 1) return section;
@@ -82,10 +82,10 @@ static void measure(struct run *e)
 {
     const struct statics *s = e->statics;
     struct steps_record *r = &e->statics->record;
-    const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section(e->scene),
+    const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section_factor(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
     const real path = sif_paths_area(&s->sif, &e->part),
-               spacing = growth_by_spacing(&e->fracture->tips, scene_section(e->scene));
+               spacing = growth_by_spacing(&e->fracture->tips, scene_section_factor(e->scene));
     const bool solid = e->part.dim == 3 && path == 0;
     const real damaged = solid ? r->broken : tips_crack_area(&e->fracture->tips, &e->part, &around);
     const bool by_path = path > 0 && damaged <= path + 1.5 * spacing;
@@ -99,11 +99,11 @@ static void measure(struct run *e)
     r->mark[1] = (struct release_mark){area, r->released};
 }
 
-void statics_record(struct run *e, real *record)
+void statics_write_record(struct run *e, real *record)
 {
     const struct statics *s = e->statics;
     real place[DIM_MAX];
-    if (!scene_in_steps(e->scene)) return;
+    if (!scene_has_load_steps(e->scene)) return;
     measure(e);
     const real rate = s->record.area > 0 ? s->record.rate : NAN, bonds = 0.5 * (real)e->diagnostics->bonds_broken;
     const real own[STATICS_COLUMNS - MODES - DIM_MAX] = {s->t,
@@ -115,7 +115,7 @@ void statics_record(struct run *e, real *record)
                                                          (real)(s->balance.directions - s->record.directions),
                                                          (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
-    sif_leading_factors(&s->sif, &e->part, statics_faces_closed(e->contact), record + COUNT_OF(own));
+    sif_leading_factors(&s->sif, &e->part, crack_faces_are_in_contact(e->contact), record + COUNT_OF(own));
     sif_leading_position(&s->sif, place);
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }

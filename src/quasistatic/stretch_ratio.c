@@ -18,7 +18,7 @@ static real stretch_ratio_of(const struct particles *p, const struct bond_limit 
                              int32_t i)
 {
     const real stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
-    return stretch / stretch_limit(p, limit, i, bond->nbr);
+    return stretch / bond_breaking_stretch(p, limit, i, bond->nbr);
 }
 
 /* Returns a lower bound of the critical stretches of all bonds [1]. */
@@ -37,7 +37,7 @@ static real row_block_stretch_ratio(const struct bonds *b, const struct particle
 {
     if (bond_row_block_stretch(b, p, g) <= most * weakest) return most;
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < b->rows; r++)
-        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);)
             if (it.bond.w != 0) most = real_max(most, stretch_ratio_of(p, limit, &it.bond, b->particle[r]));
     return most;
 }
@@ -64,7 +64,7 @@ static int descending(const void *a, const void *b)
 static real half_energy_to_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                  const struct bond *bond, int32_t i)
 {
-    const real most = stretch_limit(p, limit, i, bond->nbr);
+    const real most = bond_breaking_stretch(p, limit, i, bond->nbr);
     real elastic = most, yield = INFINITY, hardening = 0;
     if (b->plastic_stretch) {
         elastic = most - b->plastic_stretch[bond->entry];
@@ -113,7 +113,7 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
                                     const struct bond_limit *limit, int64_t g, real least)
 {
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < b->rows; r++)
-        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
             const real over = it.bond.w == 0 ? 0 : stretch_ratio_of(p, limit, &it.bond, b->particle[r]);
             if (!(over > least)) continue;
             const struct broken_bond record = bond_make_record(b, p, limit, &it.bond, r);
@@ -160,21 +160,21 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Breaks the bonds whose stretch ratio is within `share` of the largest one, at most `most` pairs, and appends them to
- * the list of the next increment. Adds their energy to *cost [J] and their area to *area. Returns the number of
+/* Breaks the bonds whose stretch ratio is within `tolerance` of the largest one, at most `max_pairs` pairs, and appends
+ * them to the list of the next increment. Adds their energy to *cost [J] and their area to *area. Returns the number of
  * directed bonds. The cost of state-based bonds, which have no energy of their own, follows from the energy lost as
  * they break: in a linear body the energy at the critical stretch times the square of the stretch ratio. */
-int64_t bonds_break_overstretched(struct run *e, real share, int64_t most, real *cost, real *area)
+int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area)
 {
     struct break_list *l = &e->statics->next;
-    const real least = e->statics->stretch_ratio * (1 - real_max(share, ALIKE)),
+    const real least = e->statics->stretch_ratio * (1 - real_max(tolerance, ALIKE)),
                before = bonds_fracture_energy(&e->bonds);
     const real weakest = critical_stretch_least(&e->source.limit, &e->part);
     struct overstretched o = {0};
     for (int64_t g = 0; g < e->bonds.row_blocks; g++)
         if (bond_row_block_stretch(&e->bonds, &e->part, g) > least * weakest)
             row_block_overstretched(&o, &e->bonds, &e->part, &e->source.limit, g, least);
-    const real down_to = stretch_ratio_to_break(o.ratio, o.n, least, most);
+    const real down_to = stretch_ratio_to_break(o.ratio, o.n, least, max_pairs);
     const int64_t had = l->n;
     const real square_mean = break_list_add_above(l, o.ratio, o.record, o.n, down_to);
     for (int64_t k = had; k < l->n; k++) bond_record_break(&e->bonds, &e->part, e->source.limit, &l->bond[k]);

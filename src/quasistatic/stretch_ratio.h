@@ -11,11 +11,11 @@
 real largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those whose ratio differs from the
- * largest one by at most the fraction `share` [1], but no more than `most` pairs of particles and the pairs whose
- * ratio equals that of the last pair up to round-off. Appends the bonds to the list of the next crack increment
+ * largest one by at most the fraction `tolerance` [1], but no more than `max_pairs` pairs of particles and the pairs
+ * whose ratio equals that of the last pair up to round-off. Appends the bonds to the list of the next crack increment
  * (statics.next). Adds their energy at the critical stretch to *cost [J] and the crack area that corresponds to it to
  * *area [m^2]. Returns the number of directed bonds broken. */
-int64_t bonds_break_overstretched(struct run *e, real share, int64_t most, real *cost, real *area);
+int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area);
 
 /* Breaks the bonds of the list l. The stored energy of a bond beyond its energy at the critical stretch (member `held`
  * of its record) is added to the losses of the solver and of the run. */

@@ -16,10 +16,10 @@
 /* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
  * optional: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or has
  * another size. */
-status plastic_archive(struct bonds *b, struct particles *p, int optional, struct archive *a)
+status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional, struct archive *a)
 {
-    TRY(bonds_archive(b, p, a));
-    return particles_archive(p, optional, a);
+    TRY(bonds_save_or_load(b, p, a));
+    return particles_save_or_load(p, optional, a);
 }
 
 void plastic_state_save(struct run *e)
@@ -27,7 +27,7 @@ void plastic_state_save(struct run *e)
     struct memory_archive *m = &e->statics->plastic;
     memory_archive_free(m);
     memory_archive_make(m, ARCHIVE_TRIAL);
-    const status kept = plastic_archive(&e->bonds, &e->part, e->optional, &m->archive);
+    const status kept = plastic_state_save_or_load(&e->bonds, &e->part, e->optional, &m->archive);
     INVARIANT(kept == OK);
 }
 
@@ -36,7 +36,7 @@ void plastic_state_restore(struct run *e)
     struct memory_archive *m = &e->statics->plastic;
     if (m->n == 0) return;
     memory_archive_rewind(m);
-    const status restored = plastic_archive(&e->bonds, &e->part, e->optional, &m->archive);
+    const status restored = plastic_state_save_or_load(&e->bonds, &e->part, e->optional, &m->archive);
     INVARIANT(restored == OK);
 }
 
@@ -57,7 +57,7 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
 {
     for (int b = 0; b < loads->n && s->applied[0]; b++) {
         const struct load *l = &loads->load[b];
-        if (!boundary_is_force(l->boundary) || l->leader != b) continue;
+        if (!boundary_applies_force(l->boundary) || l->leader != b) continue;
         for (int d = 0; d < p->dim; d++)
             for (int64_t k = 0; k < l->n; k++) p->f[d][l->particle[k]] += s->applied[d][l->particle[k]];
     }
@@ -83,7 +83,7 @@ static void statics_forces(void *context, const struct field *u, struct field *f
 {
     struct run *e = context;
     const struct statics *s = e->statics;
-    unknowns_move(s, &e->part, &e->frame->mesh, u);
+    unknowns_apply_displacements(s, &e->part, &e->frame->mesh, u);
     forces_present(e);
     for (int d = 0; d < e->part.dim; d++) {
         const real *part = e->part.f[d], *node = e->frame->mesh.grid.force[d];
@@ -91,12 +91,12 @@ static void statics_forces(void *context, const struct field *u, struct field *f
         for (int64_t k = 0; k < s->balance.n; k++)
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
     }
-    unconstrained_project(s, f);
+    remove_free_rigid_motion(s, f);
 }
 
-void plastic_update(struct run *e)
+void plastic_state_update(struct run *e)
 {
-    unknowns_move(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
+    unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     if (e->statics->plastic.n > 0) forces_present(e);
 }
 
@@ -113,30 +113,30 @@ static real energy_at_unit_strain(const struct particles *p, const struct materi
 void statics_unknowns_make(struct run *e)
 {
     struct statics *s = e->statics;
-    const struct equilibrium kept = s->balance; /* its counters and losses are kept */
-    s->balance = (struct equilibrium){.force = statics_forces,
-                                      .precondition = statics_precondition,
-                                      .settle = statics_contact_settle,
-                                      .laws = statics_contact_laws,
-                                      .context = e,
-                                      .tolerance = e->scene->solver_tolerance,
-                                      .length = e->scene->spacing,
-                                      .unit_energy = energy_at_unit_strain(&e->part, e->scene->material),
-                                      .kinked = e->part.plastic_correction[0] != NULL,
-                                      .forces = kept.forces,
-                                      .directions = kept.directions,
-                                      .lost = kept.lost,
-                                      .largest = kept.largest};
+    const struct newton_solver kept = s->balance; /* its counters and losses are kept */
+    s->balance = (struct newton_solver){.force = statics_forces,
+                                        .precondition = statics_precondition_apply,
+                                        .settle = statics_contact_update_set,
+                                        .laws = statics_contact_choose_laws,
+                                        .context = e,
+                                        .tolerance = e->scene->solver_tolerance,
+                                        .length = e->scene->spacing,
+                                        .unit_energy = energy_at_unit_strain(&e->part, e->scene->material),
+                                        .kinked = e->part.plastic_correction[0] != NULL,
+                                        .forces = kept.forces,
+                                        .directions = kept.directions,
+                                        .lost = kept.lost,
+                                        .largest = kept.largest};
     s->has_contact = e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0;
     unknowns_list(s, &e->part, &e->frame->mesh, &e->loads);
-    unconstrained_find(e);
+    unconstrained_fragments_find(e);
     plastic_state_save(e);
 }
 
 void statics_unknowns_free(struct statics *s)
 {
-    const struct equilibrium kept = s->balance;
-    unconstrained_free(s);
+    const struct newton_solver kept = s->balance;
+    unconstrained_fragments_free(s);
     unknowns_free(s);
     s->balance.forces = kept.forces, s->balance.directions = kept.directions, s->balance.lost = kept.lost;
     s->balance.largest = kept.largest;

@@ -14,12 +14,12 @@ void statics_unknowns_free(struct statics *s);
 
 /* Moves particles and nodes to the displacements of the last solution. If the body can yield, also computes the forces
  * there, which updates the plastic state of bonds and points. */
-void plastic_update(struct run *e);
+void plastic_state_update(struct run *e);
 
 /* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
  * optional: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or has
  * another size. */
-status plastic_archive(struct bonds *b, struct particles *p, int optional, struct archive *a);
+status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional, struct archive *a);
 
 /* Copies the plastic state of bonds and points to e->statics, as the state from which the next solutions start. */
 void plastic_state_save(struct run *e);

@@ -43,5 +43,5 @@ static real toughness_of_pair(const struct scene *s, const struct bond_source *s
 real toughness_between(const struct scene *s, const struct bond_source *source, const struct particles *p, int64_t i,
                        int64_t j)
 {
-    return toughness_of_pair(s, source, p->material[i], p->material[j]) * square(bond_strength(p, i, j));
+    return toughness_of_pair(s, source, p->material[i], p->material[j]) * square(bond_strength_factor(p, i, j));
 }

@@ -12,13 +12,13 @@
 /* Saves or restores all data that a trial changes, except the positions of images and mesh points, which follow. */
 static status trial_archive(struct run *e, struct archive *a)
 {
-    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
-    TRY(contact_archive(e->contact, &e->part, a));
-    TRY(loads_archive(&e->loads, a));
+    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_save_or_load(&e->rigid->body[k], k, a));
+    TRY(contact_save_or_load(e->contact, &e->part, a));
+    TRY(loads_save_or_load(&e->loads, a));
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
     ARCHIVE_VALUE(a, "statics/broken", e->statics->record.broken);
-    TRY(plastic_archive(&e->bonds, &e->part, e->optional, a));
-    return statics_archive(e, a);
+    TRY(plastic_state_save_or_load(&e->bonds, &e->part, e->optional, a));
+    return statics_save_or_load(e, a);
 }
 
 void trial_begin(struct run *e, struct memory_archive *m)
@@ -37,7 +37,7 @@ void trial_undo(struct run *e, struct memory_archive *m, const struct break_list
     INVARIANT(restored == OK);
     memory_archive_free(m);
     plastic_state_save(e); /* a nested trial may have saved a different one */
-    unknowns_move(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
+    unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     frame_update_points(e->frame, &e->part, &e->loads);
     loads_update_images(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
     reactions_store(e->statics, &e->part, &e->loads);

@@ -60,7 +60,7 @@ static void cells_join(const struct search *s)
         int32_t first = -1;
         if (!mesh_cell_has_body(mesh, I)) continue;
         for (int c = 0; c < 1 << s->part->dim; c++) {
-            const int32_t k = s->node[mesh_node(mesh, I, c)];
+            const int32_t k = s->node[mesh_cell_corner_node(mesh, I, c)];
             if (k < 0) continue;
             if (first < 0) first = k;
             nodes_join(s->parent, first, k);
@@ -76,7 +76,7 @@ static int32_t unknown_of(const struct search *s, int64_t i)
     const int dim = s->part->dim;
     if (s->particle[i] >= 0 || mesh->points == 0 || mesh->place[i] < 0) return s->particle[i];
     for (int c = 0; c < 1 << dim; c++) {
-        const int32_t k = s->node[mesh_node(mesh, mesh->place[i] >> dim, c)];
+        const int32_t k = s->node[mesh_cell_corner_node(mesh, mesh->place[i] >> dim, c)];
         if (k >= 0) return k;
     }
     return -1;
@@ -87,7 +87,7 @@ static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
         const int32_t a = unknown_of(s, bonds->particle[r]);
-        for (struct bond_iterator it = bonds_of_row(bonds, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, r); bond_next(&it);) {
             if (it.bond.w == 0 || it.bond.nbr >= s->part->n || it.bond.nbr < bonds->particle[r]) continue;
             const int32_t b = unknown_of(s, it.bond.nbr);
             if (a >= 0 && b >= 0) nodes_join(s->parent, a, b);
@@ -178,7 +178,7 @@ static void resist(struct candidate *c, int m, const real *along)
 /* Adds the constraints of supports and planes of symmetry on components of nodes. */
 static void supports_resist(const struct search *s)
 {
-    const struct equilibrium *q = &s->statics->balance;
+    const struct newton_solver *q = &s->statics->balance;
     const int dim = s->part->dim, m = motions(dim);
     for (int64_t k = 0; k < q->n; k++) {
         real x[DIM_MAX], u[MODES_MOST][DIM_MAX], along[MODES_MOST];
@@ -199,10 +199,10 @@ static void image_resists(const struct search *s, struct candidate *c, int64_t i
 {
     const struct particles *p = s->part;
     const int dim = p->dim, m = motions(dim);
-    const int64_t j = image_root(p, s->loads->image, image);
+    const int64_t j = image_source_particle(p, s->loads->image, image);
     real sign[DIM_MAX], x[DIM_MAX], y[DIM_MAX], u[DIM_MAX], v[DIM_MAX], along[MODES_MOST] = {0}, length2 = 0;
     for (int d = 0; d < dim; d++) x[d] = p->x[d][i], y[d] = p->x[d][j], length2 += square(p->x[d][image] - p->x[d][i]);
-    image_signs(p, s->loads, image, sign);
+    image_displacement_signs(p, s->loads, image, sign);
     for (int a = 0; a < m; a++) {
         motion_at(c, dim, a, x, u);
         motion_at(c, dim, a, y, v);
@@ -217,7 +217,7 @@ static void images_resist(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows && s->loads->images > 0; r++) {
         const int32_t i = bonds->particle[r], k = unknown_of(s, i);
-        for (struct bond_iterator it = bonds_of_row(bonds, r); bond_next(&it) && k >= 0;)
+        for (struct bond_iterator it = bond_iterator_of_row(bonds, r); bond_next(&it) && k >= 0;)
             if (it.bond.w != 0 && it.bond.nbr >= s->part->n)
                 image_resists(s, &s->candidate[s->fragment[k]], i, it.bond.nbr);
     }
@@ -251,7 +251,7 @@ static void mirror_nodes_resist(const struct search *s)
 /* Returns the fragment of a particle or an image, -1: none. */
 static int32_t fragment_of(const struct search *s, int32_t particle)
 {
-    const int32_t k = unknown_of(s, image_root(s->part, s->loads->image, particle));
+    const int32_t k = unknown_of(s, image_source_particle(s->part, s->loads->image, particle));
     return k < 0 ? -1 : s->fragment[k];
 }
 
@@ -261,11 +261,11 @@ static real gap_rate(const struct search *s, const struct contact_term *t, int32
     const struct particles *p = s->part;
     real rate = 0;
     for (int q = 0; q < t->n; q++) {
-        const int64_t i = image_root(p, s->loads->image, t->particle[q]);
+        const int64_t i = image_source_particle(p, s->loads->image, t->particle[q]);
         real sign[DIM_MAX], x[DIM_MAX], u[DIM_MAX];
         if (fragment_of(s, t->particle[q]) != which) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-        image_signs(p, s->loads, t->particle[q], sign);
+        image_displacement_signs(p, s->loads, t->particle[q], sign);
         motion_at(&s->candidate[which], p->dim, a, x, u);
         for (int d = 0; d < p->dim; d++) rate += sign[d] * t->along[q][d] * u[d];
     }
@@ -401,13 +401,13 @@ static void fragment_candidates_find(struct search *s)
     for (int64_t q = 0; q < s->n; q++) s->candidate[q].radius = sqrt(s->candidate[q].radius / (real)s->candidate[q].n);
 }
 
-void unconstrained_find(struct run *e)
+void unconstrained_fragments_find(struct run *e)
 {
     struct statics *s = e->statics;
     const int m = motions(e->part.dim);
     struct search search = {.statics = s, .part = &e->part, .mesh = &e->frame->mesh, .loads = &e->loads};
     real free[MODES_MOST][MODES_MOST];
-    unconstrained_free(s);
+    unconstrained_fragments_free(s);
     s->fragments_stale = false, s->mesh = search.mesh;
     unconstrained_search_begin(&search);
     cells_join(&search);
@@ -427,14 +427,14 @@ void unconstrained_find(struct run *e)
     unconstrained_search_end(&search);
 }
 
-void unconstrained_free(struct statics *s)
+void unconstrained_fragments_free(struct statics *s)
 {
     for (int64_t q = 0; q < s->fragments; q++) memory_free(s->fragment[q].node), memory_free(s->fragment[q].motion);
     memory_free(s->fragment);
     s->fragment = NULL, s->fragments = 0;
 }
 
-void unconstrained_project(const struct statics *s, struct field *v)
+void remove_free_rigid_motion(const struct statics *s, struct field *v)
 {
     const int dim = s->balance.dim;
 #pragma omp parallel for schedule(dynamic)
@@ -504,7 +504,7 @@ static real unbalanced_share_of_nodes(const struct statics *s, const struct part
     return nodes > 0 && most > 0 ? most / applied_sum(p, s, f->n) : 0;
 }
 
-status unconstrained_check(const struct statics *s, const struct particles *p, bool solved, int64_t step)
+status unconstrained_fragments_check(const struct statics *s, const struct particles *p, bool solved, int64_t step)
 {
     for (int64_t q = 0; q < s->fragments && s->applied[0]; q++) {
         const struct unconstrained_fragment *f = &s->fragment[q];

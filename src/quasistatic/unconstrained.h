@@ -7,18 +7,18 @@
 
 /* Finds the unconstrained fragments for the present bonds, supports and contacts, with their free rigid motions, and
  * stores them in e->statics. An earlier list is freed. */
-void unconstrained_find(struct run *e);
+void unconstrained_fragments_find(struct run *e);
 
 /* Frees the list of unconstrained fragments in *s. */
-void unconstrained_free(struct statics *s);
+void unconstrained_fragments_free(struct statics *s);
 
 /* Checks that the applied forces on each unconstrained fragment are balanced along its free rigid motions. solved: the
  * nodal forces are those of an equilibrium; if false, only loads on peridynamic particles are checked. step: number of
  * the load step, for the message. Returns FAILED, with position and size of the fragment, if they are not. */
-status unconstrained_check(const struct statics *s, const struct particles *p, bool solved, int64_t step);
+status unconstrained_fragments_check(const struct statics *s, const struct particles *p, bool solved, int64_t step);
 
 /* Removes from the field v (nodal forces or displacements) its components along the free rigid motions of the
  * unconstrained fragments, by orthogonal projection. */
-void unconstrained_project(const struct statics *s, struct field *v);
+void remove_free_rigid_motion(const struct statics *s, struct field *v);
 
 #endif

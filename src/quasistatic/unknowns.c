@@ -101,7 +101,7 @@ void unknowns_list(struct statics *s, const struct particles *p, const struct me
     s->weight = NEW("statics.weight", n, real);
     s->load = NEW("statics.load", n * DIM_MAX, int16_t);
     nodes_list(p, mesh, s->node, &s->particles);
-    equilibrium_make(&s->balance, p->dim, n);
+    newton_solver_make(&s->balance, p->dim, n);
     for (int d = 0; d < p->dim; d++) s->increment.of[d] = NEW("statics.increment", n, real);
     array_fill_bytes(particle_at, -1, p->n, sizeof *particle_at);
     array_fill_bytes(node_at, -1, places, sizeof *node_at);
@@ -119,7 +119,7 @@ void unknowns_list(struct statics *s, const struct particles *p, const struct me
 
 void unknowns_free(struct statics *s)
 {
-    equilibrium_free(&s->balance);
+    newton_solver_free(&s->balance);
     memory_free(s->node);
     memory_free(s->weight);
     memory_free(s->load);
@@ -135,15 +135,16 @@ void unknown_position(const struct statics *s, const struct particles *p, const 
 {
     const int32_t i = s->node[k];
     if (k < s->particles) {
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         return;
     }
-    const int64_t at = mesh_base(mesh, i);
+    const int64_t at = mesh_regular_node_of(mesh, i);
     for (int d = 0; d < p->dim; d++)
         X[d] = grid_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
-void unknowns_move(const struct statics *s, struct particles *p, struct mesh *mesh, const struct field *u)
+void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
+                                  const struct field *u)
 {
     for (int d = 0; d < p->dim; d++) {
 #pragma omp parallel for schedule(static)
@@ -159,7 +160,7 @@ void unknowns_move(const struct statics *s, struct particles *p, struct mesh *me
     }
 }
 
-void image_signs(const struct particles *p, const struct loads *loads, int64_t i, real sign[DIM_MAX])
+void image_displacement_signs(const struct particles *p, const struct loads *loads, int64_t i, real sign[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
     for (; i >= p->n; i = loads->image[i - p->n].source) {
@@ -181,7 +182,7 @@ void applied_forces_compute(struct statics *s, const struct particles *p, const 
     }
     for (int b = 0; b < loads->n; b++) {
         const struct load *l = &loads->load[b];
-        for (int64_t k = 0; boundary_is_force(l->boundary) && k < l->n; k++) {
+        for (int64_t k = 0; boundary_applies_force(l->boundary) && k < l->n; k++) {
             real force[DIM_MAX];
             load_force_at(l, p, k, t, force);
             for (int d = 0; d < p->dim; d++) s->applied[d][l->particle[k]] += force[d];
@@ -205,7 +206,7 @@ void reactions_store(const struct statics *s, const struct particles *p, struct 
 {
     for (int b = 0; b < loads->n; b++) {
         struct load *l = &loads->load[b];
-        if (boundary_is_force(l->boundary)) load_sum_applied(l, p, s->t);
+        if (boundary_applies_force(l->boundary)) load_sum_force_and_motion(l, p, s->t);
         if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
         const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, s->t);
         memset(l->reaction, 0, sizeof l->reaction);
@@ -213,7 +214,7 @@ void reactions_store(const struct statics *s, const struct particles *p, struct 
             real sum = 0, X[DIM_MAX] = {0};
             if (!(l->boundary->components >> d & 1)) continue;
             for (int64_t q = 0; q < l->n; q++)
-                particle_place(p, l->particle[q], X), sum += prescribed_displacement_at(&by, X, d);
+                particle_reference_position(p, l->particle[q], X), sum += prescribed_displacement_at(&by, X, d);
             l->displacement[d] = l->n > 0 ? sum / (real)l->n : 0;
         }
     }

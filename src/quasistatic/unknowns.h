@@ -23,11 +23,12 @@ void unknown_position(const struct statics *s, const struct particles *p, const 
 
 /* Sets the positions of particles, mesh nodes and the mirror images of nodes to their reference positions plus the
  * displacements u [m]. */
-void unknowns_move(const struct statics *s, struct particles *p, struct mesh *mesh, const struct field *u);
+void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
+                                  const struct field *u);
 
 /* Stores in sign[] the factors +1 or -1 by which displacement components of the mirror image i equal those of the
  * particle that it mirrors. All factors are +1 if i is a particle of the body. */
-void image_signs(const struct particles *p, const struct loads *loads, int64_t i, real sign[DIM_MAX]);
+void image_displacement_signs(const struct particles *p, const struct loads *loads, int64_t i, real sign[DIM_MAX]);
 
 /* Computes the applied forces at pseudo-time t [s] and stores them in s->applied, dim components for each particle of
  * the body [N]. Allocates these arrays on the first call. */

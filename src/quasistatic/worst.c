@@ -32,7 +32,7 @@ static void products(const struct run *e, real t, real u, real *product)
             load_displacement_at(l, &e->part, k, u, y);
             product[DISPLACEMENTS] += (real)stride * dot(x, y, dim);
         }
-        for (int64_t k = 0; k < l->n && boundary_is_force(l->boundary); k += stride) {
+        for (int64_t k = 0; k < l->n && boundary_applies_force(l->boundary); k += stride) {
             real f[DIM_MAX], g[DIM_MAX];
             load_force_at(l, &e->part, k, t, f);
             load_force_at(l, &e->part, k, u, g);
@@ -41,8 +41,8 @@ static void products(const struct run *e, real t, real u, real *product)
     }
     for (int k = 0; k < e->scene->rigids; k++) {
         real x[DIM_MAX], y[DIM_MAX];
-        rigid_displacement(&e->rigid->body[k], t, x);
-        rigid_displacement(&e->rigid->body[k], u, y);
+        rigid_driven_displacement(&e->rigid->body[k], t, x);
+        rigid_driven_displacement(&e->rigid->body[k], u, y);
         product[DISPLACEMENTS] += dot(x, y, dim);
     }
 }
@@ -113,11 +113,11 @@ static void worst_times_find(const struct run *e, struct worst *worst, struct fo
     memory_free(t);
 }
 
-status engine_equilibrium_try(struct run *e, real t)
+status engine_find_trial_equilibrium(struct run *e, real t)
 {
     statics_unknowns_make(e);
-    TRY(equilibrium_at(e, t));
-    return unconstrained_check(e->statics, &e->part, true, e->clock.step + 1);
+    TRY(equilibrium_find_at_time(e, t));
+    return unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
 }
 
 /* Finds the equilibrium at load time t [s] (NAN: does nothing), and stores t and the largest stretch ratio if it
@@ -125,30 +125,30 @@ status engine_equilibrium_try(struct run *e, real t)
 static status worst_try(struct run *e, real t, real *at, real *ratio)
 {
     if (isnan(t)) return OK;
-    TRY(equilibrium_at(e, t));
+    TRY(equilibrium_find_at_time(e, t));
     if (e->statics->stretch_ratio > *ratio) *ratio = e->statics->stretch_ratio, *at = t;
     return OK;
 }
 
-status engine_stretch_ratio_worst(struct run *e, real first, real *at, real *ratio)
+status engine_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio)
 {
     struct worst worst[SORTS] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
     struct found found[SORTS] = {{0}};
     real before[SORTS];
     worst_times_find(e, worst, found);
-    products(e, first, first, before);
-    *ratio = 0, *at = e->scene->duration;
+    products(e, first_load_time, first_load_time, before);
+    *ratio = 0, *load_time = e->scene->duration;
     const int sort = found[DISPLACEMENTS].largest > 0 ? DISPLACEMENTS : FORCES;
     const bool alone = !(found[DISPLACEMENTS].largest > 0 && found[FORCES].largest > 0);
     if (alone && isnan(worst[sort].back) && isnan(worst[sort].beside) &&
         before[sort] > 0) { /* loads only grow in proportion */
-        *ratio = e->statics->stretch_ratio * sqrt(found[sort].largest / before[sort]), *at = worst[sort].largest;
+        *ratio = e->statics->stretch_ratio * sqrt(found[sort].largest / before[sort]), *load_time = worst[sort].largest;
         return OK;
     }
     for (int c = 0; c < SORTS; c++) {
-        TRY(worst_try(e, worst[c].largest, at, ratio));
-        TRY(worst_try(e, worst[c].back, at, ratio));
-        TRY(worst_try(e, worst[c].beside, at, ratio));
+        TRY(worst_try(e, worst[c].largest, load_time, ratio));
+        TRY(worst_try(e, worst[c].back, load_time, ratio));
+        TRY(worst_try(e, worst[c].beside, load_time, ratio));
     }
     return OK;
 }

@@ -197,10 +197,10 @@ void rigid_driven_velocity(const struct rigid_body *r, real t, real *v)
     for (int d = 0; d < r->dim; d++) v[d] = r->speed[d] * share;
 }
 
-void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
+void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity)
 {
     real kinetic = 0, driven[DIM_MAX] = {0};
-    rigid_driven_velocity(r, middle, driven);
+    rigid_driven_velocity(r, t_middle, driven);
     for (int d = 0; d < r->dim; d++) {
         const real before = r->v[d];
         if (r->motion == RIGID_DRIVEN) r->v[d] = driven[d];
@@ -218,7 +218,7 @@ void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
     r->kinetic = kinetic;
 }
 
-real rigid_displacement(const struct rigid_body *r, real t, real *u)
+real rigid_driven_displacement(const struct rigid_body *r, real t, real *u)
 {
     const real full = t < r->ramp ? 0.5 * square(t) / r->ramp : t - 0.5 * real_max(0, r->ramp);
     for (int d = 0; d < DIM_MAX; d++) u[d] = r->motion == RIGID_DRIVEN ? r->speed[d] * full : 0;
@@ -228,7 +228,7 @@ real rigid_displacement(const struct rigid_body *r, real t, real *u)
 void rigid_set_position(struct rigid_body *r, real t)
 {
     real u[DIM_MAX];
-    rigid_displacement(r, t, u);
+    rigid_driven_displacement(r, t, u);
     for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++) {
         const real x = r->centre[d] + u[d];
         r->increment[d] += x - r->x[d];
@@ -255,7 +255,7 @@ real rigid_work(const struct rigid_body *r)
     return r->work + work_of_step(r) + fallen;
 }
 
-void rigid_note(struct rigid_body *r)
+void rigid_update_largest_force(struct rigid_body *r)
 {
     r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
 }
@@ -272,7 +272,7 @@ real rigid_kinetic_energy(const struct rigid_body *r)
     return 0.5 * r->mass * dot(r->v, r->v, r->dim) + 0.5 * dot(r->angular, r->spin, DIM_MAX);
 }
 
-real rigid_kick_energy(const struct rigid_body *r, real dt)
+real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt)
 {
     if (r->motion != RIGID_FREE) return 0;
     const real turning = r->turns ? dot(r->moment, r->spin, DIM_MAX) : 0;
@@ -283,7 +283,7 @@ real rigid_kick_energy(const struct rigid_body *r, real dt)
 
 /* Saves or restores the state of rigid body `number`: the members of the struct from `x` on, which change from step to
  * step. */
-status rigid_archive(struct rigid_body *r, int number, struct archive *a)
+status rigid_save_or_load(struct rigid_body *r, int number, struct archive *a)
 {
     char name[64];
     snprintf(name, sizeof name, "rigid/%d", number);

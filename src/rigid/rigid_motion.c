@@ -8,7 +8,7 @@
 
 status rigids_make(struct rigid_set *rigid, const struct scene *s)
 {
-    rigid->n = s->rigids, rigid->dim = s->dim, rigid->moves = scene_moves(s);
+    rigid->n = s->rigids, rigid->dim = s->dim, rigid->moves = scene_is_dynamic(s);
     rigid->shape = NEW("engine.shape", s->bodies, const struct region *);
     for (int b = 0; b < s->bodies; b++) rigid->shape[b] = s->body[b].file ? NULL : &s->body[b].shape;
     for (int b = 0; b < s->bodies; b++) /* the common surface of several joined solids is not known */
@@ -29,14 +29,14 @@ void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[
 {
     for (int k = 0; k < rigid->n; k++) {
         rigid_add_work(&rigid->body[k]);
-        rigid_note(&rigid->body[k]);
+        rigid_update_largest_force(&rigid->body[k]);
         for (int d = 0; d < rigid->dim; d++) impulse[d] -= rigid->body[k].force[d] * dt_velocity;
     }
 }
 
-void rigids_move(struct rigid_set *rigid, real middle, real dt, real dt_velocity)
+void rigids_move(struct rigid_set *rigid, real t_middle, real dt, real dt_velocity)
 {
-    for (int k = 0; k < rigid->n; k++) rigid_move(&rigid->body[k], middle, dt, dt_velocity);
+    for (int k = 0; k < rigid->n; k++) rigid_move(&rigid->body[k], t_middle, dt, dt_velocity);
 }
 
 struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt)
@@ -46,7 +46,7 @@ struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt)
         const struct rigid_body *r = &rigid->body[k];
         sum.before += rigid_kinetic_energy(r);
         sum.step += r->kinetic;
-        sum.last += rigid_kinetic_energy(r) + rigid_kick_energy(r, dt);
+        sum.last += rigid_kinetic_energy(r) + rigid_leapfrog_energy_gap(r, dt);
         sum.work += rigid_work(r);
     }
     return sum;

@@ -10,7 +10,7 @@ static void rigid_free_all(struct run *e)
 
 static status rigid_state(struct run *e, struct archive *a)
 {
-    for (int k = 0; k < e->rigid->n; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
+    for (int k = 0; k < e->rigid->n; k++) TRY(rigid_save_or_load(&e->rigid->body[k], k, a));
     return OK;
 }
 

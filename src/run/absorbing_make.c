@@ -25,7 +25,7 @@ struct impedance *absorbing_impedances(const struct scene *s, const struct bond_
 {
     bool any = false;
     for (int b = 0; b < s->boundaries; b++) any = any || s->boundary[b].kind == BOUNDARY_ABSORBING;
-    if (!any || scene_at_rest(s)) return NULL;
+    if (!any || scene_is_single_equilibrium(s)) return NULL;
     struct impedance *z = NEW("engine.impedance", (int64_t)MOVERS * s->materials, struct impedance);
     for (int by = 0; by < MOVERS; by++)
         for (int k = 0; k < s->materials; k++) {

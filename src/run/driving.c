@@ -6,8 +6,8 @@
 /* Returns REFUSED if boundary b depends on reference positions and drives points on the grid of the current frame. */
 static status position_dependent_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
 {
-    for (int64_t k = 0; k < l->n && !b->rotates && drives_by_place(b); k++)
-        if (particle_on_grid(p, l->particle[k]) && !(p->flag[l->particle[k]] & FLAG_MESHED))
+    for (int64_t k = 0; k < l->n && !b->rotates && boundary_motion_varies_in_space(b); k++)
+        if (particle_moves_with_nodes(p, l->particle[k]) && !(p->flag[l->particle[k]] & FLAG_MESHED))
             return status_set(REFUSED,
                               "boundary %s: a %s by x, y, z depends on reference positions, which the grid of "
                               "mpm.frame: current does not have; mpm.frame: reference, or method: pd, is expected",

@@ -127,7 +127,8 @@ static real kick_piece(const struct kick *k, int64_t first, int64_t end, real su
 {
     const struct particles *p = k->p;
     for (int64_t i = first; i < end; i++) {
-        if (p->flag[i] & FLAG_DRIVEN || (k->before ? p->flag[i] & FLAG_MESHED : particle_on_grid(p, i))) continue;
+        if (p->flag[i] & FLAG_DRIVEN || (k->before ? p->flag[i] & FLAG_MESHED : particle_moves_with_nodes(p, i)))
+            continue;
         real change2 = 0;
         for (int d = 0; d < p->dim; d++)
             change2 += square(k->before ? p->v[d][i] - k->before[d][i] : k->dt * p->f[d][i] / p->mass[i]);
@@ -148,10 +149,10 @@ static void kick_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-real particles_kick_energy(const struct particles *p, real *const *before, real dt)
+real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt)
 {
     real sum;
-    reproducible_sums(p->n, 1, kick_block, &(struct kick){p, before, dt}, &sum);
+    reproducible_sums(p->n, 1, kick_block, &(struct kick){p, old_velocity, dt}, &sum);
     return sum;
 }
 
@@ -175,10 +176,10 @@ struct strain_sum {
     real (*compliance)[SYM_MAX * SYM_MAX]; /* [materials] C^-1 in symmetric components */
 };
 
-real point_mpm_share(const struct partial_stress *partial, int dim, int64_t i)
+real point_mpm_fraction(const struct partial_stress *partial, int dim, int64_t i)
 {
     if (!partial || !partial->index || partial->index[i] < 0) return 1;
-    const int n = symmetric_count(dim);
+    const int n = symmetric_component_count(dim);
     const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
     real trace = 0;
     for (int a = 0; a < n; a++) trace += M[a * n + a];
@@ -190,7 +191,7 @@ real point_mpm_share(const struct partial_stress *partial, int dim, int64_t i)
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
-    return point_mpm_share(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
+    return point_mpm_fraction(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
@@ -202,7 +203,7 @@ static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, 
     const real *compliance = s->compliance[s->p->material[i]];
     real stress[SYM_MAX], given[SYM_MAX], sum = 0;
     for (int a = 0; a < n; a++) stress[a] = s->p->stress[a][i];
-    stress_given(s->p, s->partial, i, given, dim);
+    point_stress_on_grid(s->p, s->partial, i, given, dim);
     for (int a = 0; a < dim; a++) {
         real strain = 0;
         for (int b = 0; b < dim; b++) strain += compliance[a * n + b] * stress[b];
@@ -254,9 +255,9 @@ static real plastic_term(const void *context, int64_t k)
     const struct material *m = &s->m[p->material[i]];
     const real a = p->plastic_strain[i];
     if (a == 0) return 0;
-    if (m->law.given) return point_mpm_share(s->partial, s->p->dim, i) * p->plastic_work[i] * p->volume0[i];
+    if (m->law.given) return point_mpm_fraction(s->partial, s->p->dim, i) * p->plastic_work[i] * p->volume0[i];
     const real volume = p->flag[i] & FLAG_MESHED ? p->volume0[i] : p->volume[i];
-    return point_mpm_share(s->partial, s->p->dim, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+    return point_mpm_fraction(s->partial, s->p->dim, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
 }
 
 real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial)
@@ -286,6 +287,6 @@ real particles_linear_momentum(const struct particles *p, const struct grid *con
 void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
                          const struct kernels *kernels)
 {
-    states_precompute(b, p, s);
+    family_states_precompute(b, p, s);
     kernels->bond_stress(b, p);
 }

@@ -6,7 +6,7 @@
 static bool are_near(const struct particles *p, const struct cells *cells, real cutoff, const struct region *one,
                      const struct region *other, real tolerance)
 {
-    struct near near = {0};
+    struct neighbour_list near = {0};
     bool found = false;
     for (int64_t i = 0; i < p->n && !found; i++) {
         const real X[DIM_MAX] = {p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0};
@@ -22,7 +22,7 @@ static bool are_near(const struct particles *p, const struct cells *cells, real 
     return found;
 }
 
-status joined_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff)
+status joined_bodies_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff)
 {
     const real tolerance = ON_SURFACE * s->spacing;
     for (int k = 0; k < s->interfaces; k++) {

@@ -1,11 +1,11 @@
 /* Scattered strength: bounds of stresses are compared with the trigger of the weakest point of a material, the points
- * themselves with their own trigger (point_trigger). */
+ * themselves with their own trigger (point_conversion_stress). */
 #include "run/make.h"
 
-void conversion_stress_lower(struct elastic *elastic, const struct particles *p)
+void lower_conversion_stress(struct elastic *elastic, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n && p->strength; i++) {
         struct elastic *m = &elastic[p->material[i]];
-        m->trigger = real_min(m->trigger, point_trigger(m, p, i));
+        m->trigger = real_min(m->trigger, point_conversion_stress(m, p, i));
     }
 }

@@ -41,7 +41,7 @@ static int body_made_for(const struct scene *s, const real *X, int body)
 static status refuse_rows(const struct scene *s, const struct particles *p, int64_t i, const struct boundary *m)
 {
     real X[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     const real rows = fabs(X[m->axis] - m->at) / s->spacing, beside = rows - floor(rows);
     return status_set(REFUSED,
                       "body %s: the mirror of boundary %s at %c = %.6g m does not continue its lattice, as its first "
@@ -59,7 +59,7 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
     real X[DIM_MAX], Y[DIM_MAX], steps[DIM_MAX] = {0}, worst = 0;
     char here[TEXT_LONGEST], there[TEXT_LONGEST], apart[TEXT_LONGEST];
     int axis = 0;
-    particle_place(p, i, X), particle_place(p, j, Y);
+    particle_reference_position(p, i, X), particle_reference_position(p, j, Y);
     for (int d = 0; d < p->dim; d++) {
         steps[d] = (Y[d] - X[d]) / s->spacing;
         const real off = fabs(steps[d] - nearbyint(steps[d]));
@@ -82,8 +82,8 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
                       own, here, there, apart);
 }
 
-status run_surface_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
-                        const struct loads *loads, const struct scene *s)
+status run_surface_weights_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
+                                const struct loads *loads, const struct scene *s)
 {
     const status made = surface_weights_make(w, p, source, source->rotates);
     if (made == OK) source->surface = w;

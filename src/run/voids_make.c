@@ -8,7 +8,7 @@
 /* Largest distance along an axis of points in the cells of the mesh around one node, plus a margin [cells]. */
 #define CELLS_REACH 1.515
 
-real voids_reach(const struct scene *s, real cutoff)
+real voids_interaction_distance(const struct scene *s, real cutoff)
 {
     const real cells = s->method == METHOD_PD ? 0 : CELLS_REACH * s->cell * s->spacing;
     return real_max(s->method == METHOD_MPM ? 0 : cutoff, cells);
@@ -22,7 +22,7 @@ static bool may_have_voids(const struct scene *s)
     return any;
 }
 
-bool surface_is_exact(const struct scene *s, int body)
+bool body_surface_is_exact(const struct scene *s, int body)
 {
     bool known = true;
     for (int b = 0; b < s->bodies; b++)
@@ -37,7 +37,7 @@ static void list_shapes(const struct scene *s, struct voids *v)
     uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined != b || region_has_voids(&s->body[b].shape))
-            wanted[s->body[b].joined] = surface_is_exact(s, s->body[b].joined);
+            wanted[s->body[b].joined] = body_surface_is_exact(s, s->body[b].joined);
     v->shape = NEW("voids.shape", s->bodies, const struct region *);
     v->body = NEW("voids.body", s->bodies, int);
     for (int b = 0; b < s->bodies; b++)

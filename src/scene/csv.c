@@ -6,9 +6,9 @@
 
 #include "base/input.h"
 
-status csv_open(struct csv_file *c, const char *path, const char *holds)
+status csv_open(struct csv_file *c, const char *path, const char *contents)
 {
-    *c = (struct csv_file){.path = path, .holds = holds, .separator = ','};
+    *c = (struct csv_file){.path = path, .holds = contents, .separator = ','};
     return input_open(&c->file, path, NULL);
 }
 

@@ -18,7 +18,7 @@ struct csv_file {
 };
 
 /* Opens a CSV file; csv_close closes it. REFUSED if it cannot be read. */
-status csv_open(struct csv_file *c, const char *path, const char *holds);
+status csv_open(struct csv_file *c, const char *path, const char *contents);
 
 /* Closes the file. */
 void csv_close(struct csv_file *c);

@@ -22,7 +22,7 @@ static const real too_close = 1e-3;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 };
 
-static void draft_free(struct draft *d)
+static void draft_free(struct particle_draft *d)
 {
     for (int a = 0; a < DIM_MAX; a++) memory_free(d->X[a]);
     for (int a = 0; a < DIM_MAX; a++) memory_free(d->v[a]);
@@ -33,13 +33,13 @@ static void draft_free(struct draft *d)
     memory_free(d->id);
 }
 
-status draft_refuse(const struct draft *d, int body, const char *why)
+status particle_draft_refuse_body(const struct particle_draft *d, int body, const char *why)
 {
     const struct scene_body *b = &d->scene->body[body];
     return status_prepend_location(b->place, status_set(REFUSED, "body %s: %s", b->name, why));
 }
 
-static void draft_grow(struct draft *d)
+static void draft_grow(struct particle_draft *d)
 {
     d->room = d->room > 0 ? 2 * d->room : 4096;
     for (int a = 0; a < d->scene->dim; a++) GROW("fill.X", d->X[a], d->room);
@@ -51,10 +51,10 @@ static void draft_grow(struct draft *d)
     GROW("fill.id", d->id, d->room);
 }
 
-status draft_add(struct draft *d, const real *X, real volume, int material, int body)
+status particle_draft_add(struct particle_draft *d, const real *X, real volume, int material, int body)
 {
     if (d->n + d->skipped >= PARTICLES_MAX)
-        return draft_refuse(d, body, "more than 2147483583 particles; use a larger spacing");
+        return particle_draft_refuse_body(d, body, "more than 2147483583 particles; use a larger spacing");
     if (d->n == d->room) draft_grow(d);
     for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = X[a];
     for (int a = 0; a < d->scene->dim; a++) d->v[a][d->n] = NAN;
@@ -105,25 +105,26 @@ static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MA
 }
 
 /* Returns a uniform random number in [-1/2, 1/2) that depends on seed, particle and component alone, by
- * splitmix of a counter. */
+ * hash_add_word of a counter. */
 static real scatter(uint64_t seed, int64_t id, int component)
 {
-    return (real)(splitmix(seed, (uint64_t)id * DIM_MAX + (uint64_t)component) >> 11) * 0x1p-53 - 0.5;
+    return (real)(hash_add_word(seed, (uint64_t)id * DIM_MAX + (uint64_t)component) >> 11) * 0x1p-53 - 0.5;
 }
 
-static real cell_volume(const struct scene *s) { return lattice_volume(scene_section(s), s->spacing, s->dim); }
+static real cell_volume(const struct scene *s) { return lattice_volume(scene_section_factor(s), s->spacing, s->dim); }
 
 /* Sets the axes of the lattice that covers the whole shape of a body. REFUSED if the shape is unbounded or too large
  * for the spacing. */
-static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM_MAX])
+static status lattice_axes(const struct particle_draft *d, int body, struct axis axis[DIM_MAX])
 {
     const struct scene *s = d->scene;
     real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
     if (!region_bounds(&s->body[body].shape, s->dim, from, to))
-        return draft_refuse(d, body, "its shape is infinite; add boxes, balls or cylinders of finite size");
+        return particle_draft_refuse_body(d, body,
+                                          "its shape is infinite; add boxes, balls or cylinders of finite size");
     if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
         !first_solid_box(&s->body[0].shape, s->dim, low, high))
-        return draft_refuse(d, body, "its first solid is infinite; begin with one of finite size");
+        return particle_draft_refuse_body(d, body, "its first solid is infinite; begin with one of finite size");
     for (int a = 0; a < s->dim; a++) {
         struct axis *x = &axis[a];
         x->centre = 0.5 * (low[a] + high[a]);
@@ -133,7 +134,7 @@ static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM
         real last = ceil((to[a] - x->centre) / s->spacing + x->half_count - 0.5);
         places *= real_max(0, last - first + 1);
         if (!(places < 64.0 * PARTICLES_MAX && -first < FILL_FARTHEST && last < FILL_FARTHEST))
-            return draft_refuse(d, body, "too large for the spacing");
+            return particle_draft_refuse_body(d, body, "too large for the spacing");
         x->first = (int64_t)first, x->last = (int64_t)last;
         axis_round(x);
     }
@@ -141,7 +142,7 @@ static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM
 }
 
 /* Counts a particle at X = place [m] that is not created, and extends the bounding box of these particles. */
-static status place_skip(struct draft *d, const real *place)
+static status place_skip(struct particle_draft *d, const real *place)
 {
     for (int a = 0; a < d->scene->dim; a++) {
         d->low[a] = d->skipped > 0 ? real_min(d->low[a], place[a]) : place[a];
@@ -152,23 +153,24 @@ static status place_skip(struct draft *d, const real *place)
 }
 
 /* Adds a particle at a lattice position [m], shifted at random by the irregularity, if the position is in the body. */
-static status lattice_point(struct draft *d, int body, const real *place, real volume)
+static status lattice_point(struct particle_draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
     real X[DIM_MAX] = {0};
-    if (hollow_absent(d->hollow, place)) return place_skip(d, place);
+    if (particle_is_left_out(d->hollow, place)) return place_skip(d, place);
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a); /* Imachi et al. 2019, eq. 49 */
-    return draft_add(d, X, volume, scene_material_at(s, &s->body[body], place, s->body[body].material), body);
+    return particle_draft_add(d, X, volume, scene_material_at(s, &s->body[body], place, s->body[body].material), body);
 }
 
 /* Fills the shape of a body with the particles of its lattice, x fastest. */
-static status fill_lattice(struct draft *d, int body)
+static status fill_lattice(struct particle_draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
     struct axis axis[DIM_MAX] = {{0}}; /* unused directions have the one position 0 */
-    if (!(spacing > 0)) return draft_refuse(d, body, "a shape is filled with particles.spacing, which is not given");
+    if (!(spacing > 0))
+        return particle_draft_refuse_body(d, body, "a shape is filled with particles.spacing, which is not given");
     TRY(lattice_axes(d, body, axis));
     for (int64_t k = axis[2].first; k <= axis[2].last; k++)
         for (int64_t j = axis[1].first; j <= axis[1].last; j++)
@@ -182,10 +184,10 @@ static status fill_lattice(struct draft *d, int body)
 
 status fill_lattice_site(const struct scene *s, int body, real *X)
 {
-    const struct draft d = {.scene = s};
+    const struct particle_draft d = {.scene = s};
     struct axis axis[DIM_MAX] = {{0}};
     if (!(s->spacing > 0))
-        return draft_refuse(&d, body, "a shape is filled with particles.spacing, which is not given");
+        return particle_draft_refuse_body(&d, body, "a shape is filled with particles.spacing, which is not given");
     TRY(lattice_axes(&d, body, axis));
     for (int a = 0; a < s->dim; a++) X[a] = axis_place(&axis[a], axis[a].first);
     return OK;
@@ -195,28 +197,28 @@ status fill_lattice_site(const struct scene *s, int body, real *X)
 
 /* Returns REFUSED with the message that a body has no particles. listed: they would come from a list; otherwise the
  * message gives the size of the body's shape. */
-static status draft_empty(const struct draft *d, int body, bool listed)
+static status draft_empty(const struct particle_draft *d, int body, bool listed)
 {
     real from[DIM_MAX], to[DIM_MAX];
     char why[200] = "holds no particle: its shape is at most ";
     size_t used = strlen(why);
-    if (listed) return draft_refuse(d, body, "its list holds no particle of it");
+    if (listed) return particle_draft_refuse_body(d, body, "its list holds no particle of it");
     region_bounds(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
     snprintf(why + used, sizeof why - used,
              " m, the spacing %.4g m: use a spacing below its thickness, or check the units of both (mm?)",
              d->scene->spacing);
-    return draft_refuse(d, body, why);
+    return particle_draft_refuse_body(d, body, why);
 }
 
 /* Collects the particles of all bodies. REFUSED for a body without particles. */
-static status draft_make(struct draft *d)
+static status draft_make(struct particle_draft *d)
 {
     for (int body = 0; body < d->scene->bodies; body++) {
         const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
-        TRY(listed ? draft_add_list(d, body) : fill_lattice(d, body));
+        TRY(listed ? particle_draft_add_list(d, body) : fill_lattice(d, body));
         if (d->n == before && d->skipped == 0) return draft_empty(d, body, listed);
     }
     return OK;
@@ -229,16 +231,16 @@ static real volume_term(const void *volume, int64_t i) { return ((const real *)v
 
 /* Returns the spacing of the scene [m], or the edge of a particle of mean volume if the scene has none because all
  * particles come from lists. */
-static real spacing_of(const struct draft *d)
+static real spacing_of(const struct particle_draft *d)
 {
     const struct scene *s = d->scene;
     if (s->spacing > 0) return s->spacing;
-    return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section(s)), 1.0 / s->dim);
+    return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section_factor(s)), 1.0 / s->dim);
 }
 
 /* Creates the particles from the draft, with velocity, mass and method from their bodies where the draft has none.
  * optional: arrays to be created (WITH_*). */
-static void take_draft(struct particles *p, const struct draft *d, int optional)
+static void take_draft(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;
     particles_make(p, s->dim, d->n, optional);
@@ -261,10 +263,10 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
 }
 
 /* Adds the number and the bounding box of the particles that are not created to p. */
-static void take_skipped(struct particles *p, const struct draft *d)
+static void take_skipped(struct particles *p, const struct particle_draft *d)
 {
     for (int a = 0; a < p->dim && d->skipped > 0; a++) {
-        particles_extent(p, p->n, a, &p->low[a], &p->high[a]);
+        particles_coordinate_range(p, p->n, a, &p->low[a], &p->high[a]);
         p->low[a] = real_min(p->low[a], d->low[a]), p->high[a] = real_max(p->high[a], d->high[a]);
     }
     p->n_body = p->n + d->skipped;
@@ -272,13 +274,13 @@ static void take_skipped(struct particles *p, const struct draft *d)
 
 /* Returns REFUSED if a particle is farther than FILL_FARTHEST from the origin or its mass is not a positive finite
  * number. */
-static status check_values(const struct particles *p, const struct draft *d, real spacing)
+static status check_values(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         bool good = isfinite(p->mass[i]) && p->mass[i] > 0 && isfinite(spacing);
         for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= FILL_FARTHEST * spacing;
         if (!good)
-            return draft_refuse(
+            return particle_draft_refuse_body(
                 d, p->body[i],
                 "a particle is beyond 1e7 spacings from the origin, where doubles no longer resolve strains, or has no "
                 "finite mass: check that positions and spacing have the same unit, and move the body to the origin");
@@ -288,16 +290,16 @@ static status check_values(const struct particles *p, const struct draft *d, rea
 
 /* Returns REFUSED if the initial state moves a particle farther than FILL_FARTHEST, makes its volume negative or 0,
  * or makes a velocity or stress that is not finite. */
-static status check_start(const struct particles *p, const struct draft *d, real spacing)
+static status check_start(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         real sum = p->volume[i];
         bool good = p->volume[i] > 0;
         for (int a = 0; a < p->dim; a++) good = good && fabs(p->x[a][i]) <= FILL_FARTHEST * spacing;
         for (int a = 0; a < p->dim; a++) sum += p->v[a][i];
-        for (int k = 0; k < symmetric_count(p->dim); k++) sum += p->stress[k][i];
+        for (int k = 0; k < symmetric_component_count(p->dim); k++) sum += p->stress[k][i];
         if (!good || !isfinite(sum))
-            return draft_refuse(
+            return particle_draft_refuse_body(
                 d, p->body[i],
                 "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or "
                 "gives it a speed or stress that is no number; strains near 1e-3 are usual");
@@ -307,7 +309,7 @@ static status check_start(const struct particles *p, const struct draft *d, real
 
 /* Returns REFUSED if two particles are closer than too_close. The message names the first pair in the sorted order,
  * which does not depend on the number of threads. */
-static status check_distances(const struct particles *p, const struct draft *d, real spacing)
+static status check_distances(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     struct cells cells;
     int64_t first = p->n;
@@ -318,11 +320,11 @@ static status check_distances(const struct particles *p, const struct draft *d, 
     for (int64_t i = 0; i < p->n; i++) {
         real here[DIM_MAX];
         int32_t found;
-        particle_place(p, i, here);
+        particle_reference_position(p, i, here);
         if (cells_find_near(&cells, p, here, too_close * spacing, (int32_t)i, &found, 1) > 0 && i < first) first = i;
     }
     if (first < p->n) {
-        particle_place(p, first, X);
+        particle_reference_position(p, first, X);
         cells_find_near(&cells, p, X, too_close * spacing, (int32_t)first, &other, 1);
     }
     cells_free(&cells);
@@ -377,11 +379,11 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
                               const real *arm)
 {
     const real *H = s->displacement_gradient;
-    int dim = p->dim, count = symmetric_count(dim);
+    int dim = p->dim, count = symmetric_component_count(dim);
     real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX], growth = 1;
     for (int k = 0; k < count; k++) {
         int a, b;
-        symmetric_axes(dim, k, &a, &b);
+        symmetric_component_axes(dim, k, &a, &b);
         strain[k] = 0.5 * (H[a * dim + b] + H[b * dim + a]);
     }
     material_stiffness(m, dim, stiffness);
@@ -400,11 +402,11 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
 {
     const struct wave_state wave = wave_pulse_at(w, X, w->transverse ? m->shear_speed : m->wave_speed, p->dim);
     const real *along = w->direction, *moved = w->polarisation;
-    const int dim = p->dim, count = symmetric_count(dim);
+    const int dim = p->dim, count = symmetric_component_count(dim);
     real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX];
     for (int k = 0; k < count; k++) {
         int a, b;
-        symmetric_axes(dim, k, &a, &b);
+        symmetric_component_axes(dim, k, &a, &b);
         strain[k] = 0.5 * wave.strain * (along[a] * moved[b] + along[b] * moved[a]);
     }
     material_stiffness(m, dim, stiffness);
@@ -438,7 +440,7 @@ static void start_particle(struct particles *p, int64_t i, const struct scene *s
 {
     const real tolerance = ON_SURFACE * spacing;
     real X[DIM_MAX], arm[DIM_MAX];
-    particle_place(p, i, X);
+    particle_reference_position(p, i, X);
     for (const struct scene_initial *k = s->initial; k < s->initial + s->initials; k++) {
         if ((k->body >= 0 && k->body != p->body[i]) || !region_contains(&k->region, X, p->dim, tolerance)) continue;
         for (int a = 0; a < p->dim; a++) arm[a] = X[a] - k->centre[a];
@@ -457,7 +459,7 @@ static void start_at_rest(struct particles *p, int64_t i)
 
 /* Creates the particles of a draft, checks them, applies the initial states and sorts them. optional: arrays to be
  * created (WITH_*). REFUSED for invalid values, lists or positions. */
-static status fill_made(struct particles *p, const struct draft *d, int optional)
+static status fill_made(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;
     real spacing = spacing_of(d);
@@ -467,11 +469,11 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     fill_temperature(p, s);
     take_skipped(p, d);
     TRY(check_values(p, d, spacing));
-    TRY(fill_check_lists(p, s));
+    TRY(fill_check_particle_lists(p, s));
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         start_particle(p, i, s, spacing);
-        if (!scene_moves(s)) start_at_rest(p, i);
+        if (!scene_is_dynamic(s)) start_at_rest(p, i);
     }
     TRY(check_start(p, d, spacing));
     particles_sort(p, spacing, optional);
@@ -480,9 +482,10 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     return OK;
 }
 
-status fill_particles(struct particles *p, const struct scene *s, const struct hollow *hollow, int optional)
+status fill_particles(struct particles *p, const struct scene *s, const struct cells_without_particles *hollow,
+                      int optional)
 {
-    struct draft draft = {.scene = s, .hollow = hollow};
+    struct particle_draft draft = {.scene = s, .hollow = hollow};
     *p = (struct particles){0};
     status result = s->bodies > 0 ? draft_make(&draft) : status_set(REFUSED, "%s: no bodies", s->name);
     if (result == OK) result = fill_made(p, &draft, optional);

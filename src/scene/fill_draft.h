@@ -6,25 +6,25 @@
 #include "scene/scene.h"
 
 /* Particles in the order of the bodies of the scene, collected before their number is known. Arrays have n entries. */
-struct draft {
+struct particle_draft {
     const struct scene *scene;
-    const struct hollow *hollow;      /* cells whose particles are not created; NULL: none */
-    int64_t n, room;                  /* number of particles, and for how many the arrays have memory */
-    int64_t skipped;                  /* number of particles that are not created */
-    real low[DIM_MAX], high[DIM_MAX]; /* bounding box of the skipped particles [m] */
-    real *X[DIM_MAX], *volume;        /* [m], [m^3] */
-    real *v[DIM_MAX], *mass;          /* from a list [m/s], [kg]; NAN: from the body and its material */
+    const struct cells_without_particles *hollow; /* cells whose particles are not created; NULL: none */
+    int64_t n, room;                              /* number of particles, and for how many the arrays have memory */
+    int64_t skipped;                              /* number of particles that are not created */
+    real low[DIM_MAX], high[DIM_MAX];             /* bounding box of the skipped particles [m] */
+    real *X[DIM_MAX], *volume;                    /* [m], [m^3] */
+    real *v[DIM_MAX], *mass;                      /* from a list [m/s], [kg]; NAN: from the body and its material */
     uint8_t *material, *body;
     int32_t *id;
 };
 
 /* Appends a particle at X [dim, m] with a volume [m^3]. REFUSED beyond PARTICLES_MAX particles. */
-status draft_add(struct draft *d, const real *X, real volume, int material, int body);
+status particle_draft_add(struct particle_draft *d, const real *X, real volume, int material, int body);
 
 /* Returns REFUSED with a message that names the body and ends with `why`. */
-status draft_refuse(const struct draft *d, int body, const char *why);
+status particle_draft_refuse_body(const struct particle_draft *d, int body, const char *why);
 
 /* Appends the particles of a body from its list. REFUSED if the list cannot be read or is invalid. */
-status draft_add_list(struct draft *d, int body);
+status particle_draft_add_list(struct particle_draft *d, int body);
 
 #endif

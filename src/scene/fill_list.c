@@ -18,17 +18,17 @@ static const char *entry_place(char *text, const struct particle_list *l, const 
 }
 
 /* Writes the names of the materials of a scene and returns text; only the first names if there are many. */
-static const char *materials_in_words(char *text, size_t room, const struct scene *s)
+static const char *materials_in_words(char *text, size_t capacity, const struct scene *s)
 {
     enum { NAMED = 4 };
     size_t used = 0;
     for (int m = 0; m < s->materials && m < NAMED; m++)
-        used += (size_t)snprintf(text + used, room - used, "%s%.40s",
+        used += (size_t)snprintf(text + used, capacity - used, "%s%.40s",
                                  m == 0                  ? ""
                                  : m + 1 == s->materials ? " and "
                                                          : ", ",
                                  s->material[m].name);
-    if (s->materials > NAMED) snprintf(text + used, room - used, " and %d more", s->materials - NAMED);
+    if (s->materials > NAMED) snprintf(text + used, capacity - used, " and %d more", s->materials - NAMED);
     return text;
 }
 
@@ -65,7 +65,7 @@ static status entry_material(const struct scene *s, const struct particle_list *
 }
 
 /* Adds entry i to a body. volume: default if the list has no volumes [m^3]. */
-static status take_entry(struct draft *d, int body, const struct particle_list *l, int64_t i, real volume)
+static status take_entry(struct particle_draft *d, int body, const struct particle_list *l, int64_t i, real volume)
 {
     const struct scene *s = d->scene;
     const struct scene_body *b = &s->body[body];
@@ -73,7 +73,7 @@ static status take_entry(struct draft *d, int body, const struct particle_list *
     real X[DIM_MAX];
     TRY(entry_material(s, l, b, i, &material));
     for (int a = 0; a < s->dim; a++) X[a] = l->X[a][i];
-    TRY(draft_add(d, X, l->volume ? l->volume[i] : volume, scene_material_at(s, b, X, material), body));
+    TRY(particle_draft_add(d, X, l->volume ? l->volume[i] : volume, scene_material_at(s, b, X, material), body));
     const int64_t last = d->n - 1;
     for (int a = 0; a < s->dim; a++)
         if (l->v[a]) d->v[a][last] = l->v[a][i];
@@ -85,14 +85,15 @@ static status take_entry(struct draft *d, int body, const struct particle_list *
 /* Adds the entries of a body to the draft: entries with the index of the body, or all entries of a list without a
  * body column. REFUSED for entries of a body with another file, and if neither the list gives volumes nor the scene
  * a spacing. */
-static status take_list(struct draft *d, int body, const struct particle_list *l)
+static status take_list(struct particle_draft *d, int body, const struct particle_list *l)
 {
     const struct scene *s = d->scene;
     const char *path = s->body[body].file;
     char place[PLACE_LENGTH];
-    const real volume = lattice_volume(scene_section(s), s->spacing, s->dim);
+    const real volume = lattice_volume(scene_section_factor(s), s->spacing, s->dim);
     if (!l->volume && !(volume > 0))
-        return draft_refuse(d, body, "its list has no column volume, and there is no particles.spacing that says it");
+        return particle_draft_refuse_body(
+            d, body, "its list has no column volume, and there is no particles.spacing that says it");
     for (int64_t i = 0; i < l->n; i++) {
         const int owner = l->body != NULL ? (int)l->body[i] : body;
         if (!shares_file(s, owner, path))
@@ -107,18 +108,18 @@ static status take_list(struct draft *d, int body, const struct particle_list *l
 
 /* Rounds the positions of the particles from `first` on to lattice sites, if their list is a lattice to the
  * precision of its decimals. Planes of symmetry are on sites or midway between two. */
-static void take_lattice(struct draft *d, int64_t first)
+static void take_lattice(struct particle_draft *d, int64_t first)
 {
     const struct scene *s = d->scene;
     for (int a = 0; a < s->dim; a++) {
         real anchor = 0;
         for (int b = 0; b < s->boundaries; b++)
             if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == a) anchor = s->boundary[b].at;
-        list_to_lattice(d->X[a] + first, d->n - first, s->spacing, anchor);
+        list_round_to_lattice(d->X[a] + first, d->n - first, s->spacing, anchor);
     }
 }
 
-status draft_add_list(struct draft *d, int body)
+status particle_draft_add_list(struct particle_draft *d, int body)
 {
     const int64_t first = d->n;
     struct particle_list list;

@@ -108,7 +108,7 @@ static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
     const int64_t looked = c->n < LOOKED_AT ? c->n : LOOKED_AT;
-    const real section = scene_section(c->s);
+    const real section = scene_section_factor(c->s);
     real apart[LOOKED_AT], filled[LOOKED_AT], family = 0;
     int64_t lone = 0, within[LOOKED_AT];
 #pragma omp parallel for schedule(static)
@@ -218,7 +218,7 @@ static real fill_lists_reach_of(const struct scene *s)
     return real_max(REACH_LEAST, real_max(bonds, grid));
 }
 
-status fill_check_lists(const struct particles *p, const struct scene *s)
+status fill_check_particle_lists(const struct particles *p, const struct scene *s)
 {
     status result = OK;
     for (int b = 0; b < s->bodies && result == OK; b++) {

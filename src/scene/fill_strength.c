@@ -7,7 +7,7 @@ void fill_strength(struct particles *p, const struct scene *s)
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         p->strength[i] = scatter_factor(&s->material[p->material[i]].scatter, X, p->dim, p->id[i]);
     }
 }

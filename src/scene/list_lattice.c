@@ -68,7 +68,7 @@ bool list_is_lattice(const struct particle_list *l, real spacing, real volume)
 /* Returns the largest power of two of which all coordinates up to `most` are multiples in double precision. */
 static real lattice_unit(real most) { return exp2(ceil(log2(most)) - 53); }
 
-void list_to_lattice(real *X, int64_t n, real spacing, real anchor)
+void list_round_to_lattice(real *X, int64_t n, real spacing, real anchor)
 {
     if (n == 0) return;
     real off = 0, low = X[0], high = X[0], least = 0, most = 0;

@@ -11,6 +11,6 @@ bool list_is_lattice(const struct particle_list *l, real spacing, real volume);
 /* Rounds the n coordinates X of a body along one axis to exact multiples of the spacing. The coordinates must be whole
  * spacings apart up to a thousandth of a spacing; they are unchanged if they are exact already. anchor [m]: if the
  * coordinates are nearly whole or half spacings away from it, they are rounded to exactly such positions. */
-void list_to_lattice(real *X, int64_t n, real spacing, real anchor);
+void list_round_to_lattice(real *X, int64_t n, real spacing, real anchor);
 
 #endif

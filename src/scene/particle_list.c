@@ -83,13 +83,13 @@ const char *column_value_fault(int column, real value)
     return NULL;
 }
 
-bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_t room)
+bool unit_factor(real *factor, const char *unit, enum unit of, char *message, size_t capacity)
 {
     char number[UNIT_TEXT + 2];
     *factor = 1;
     if (*unit == '\0') return true;
     snprintf(number, sizeof number, "1 %.*s", UNIT_TEXT - 1, unit);
-    return number_read(factor, number, of, false, what, room);
+    return number_read(factor, number, of, false, message, capacity);
 }
 
 enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without bonds [numbers] */

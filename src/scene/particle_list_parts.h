@@ -40,8 +40,8 @@ bool column_is_unused(int column, int dim);
 const char *column_value_fault(int column, real value);
 
 /* Computes the factor that converts a number in `unit` to SI units; 1 if `unit` is empty. of: expected kind of unit. If
- * `unit` is not of this kind, returns false and writes the fault to what[room], as the rest of a sentence. */
-bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_t room);
+ * `unit` is not of this kind, returns false and writes the fault to message[capacity], as the rest of a sentence. */
+bool unit_factor(real *factor, const char *unit, enum unit of, char *message, size_t capacity);
 
 /* Appends `what` to the note on a list, preceded by `between` if the note is not empty. */
 void list_note_append(struct particle_list_head *head, const char *between, const char *what);

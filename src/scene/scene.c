@@ -9,17 +9,17 @@
 #include "base/memory.h"
 
 /* Reads the space first: the meaning of all other keys depends on the number of dimensions. */
-static status read_space(struct reader *r, const struct node *root)
+static status read_space(struct reader *r, const struct yaml_node *root)
 {
     const struct key *k = key_find("", "space");
-    const struct node *space = node_find(root, "space");
-    if (!space) return fault_missing(r, root, k);
+    const struct yaml_node *space = yaml_node_find(root, "space");
+    if (!space) return fault_key_missing(r, root, k);
     TRY(read_key(r, k, space, r->scene));
     r->dim = r->scene->dim = space_dim(r->scene->space);
     return OK;
 }
 
-status scene_from_tree(struct reader *r, const struct node *root)
+status scene_from_tree(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     TRY(expect_kind(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
@@ -50,14 +50,14 @@ status scene_from_tree(struct reader *r, const struct node *root)
     return check_solver(r, root);
 }
 
-status scene_tree(struct reader *r, const char *text, size_t length, struct node **root)
+status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root)
 {
     TRY(tree_read(r, text, length, -1, root));
-    if (!*root) return fault_mark(r, -1, 1, 1, "empty; a scene begins with keys such as space and duration");
-    TRY(tree_rename(r, *root));
+    if (!*root) return fault_at_location(r, -1, 1, 1, "empty; a scene begins with keys such as space and duration");
+    TRY(tree_rename_old_keys(r, *root));
     TRY(tree_include(r, *root));
     TRY(tree_override(r, *root));
-    TRY(tree_rename(r, *root)); /* values of overrides may be mappings */
+    TRY(tree_rename_old_keys(r, *root)); /* values of overrides may be mappings */
     return read_variables(r, *root);
 }
 

@@ -3,14 +3,14 @@
 #include "base/memory.h"
 #include "scene_internal.h"
 
-status read_body_parts(struct reader *r, const struct node *list, const struct key *k, struct scene_body *b)
+status read_body_parts(struct reader *r, const struct yaml_node *list, const struct key *k, struct scene_body *b)
 {
     if (!list) return OK;
     TRY(expect_list(r, k, list));
     int part = b->parts; /* index after the parts from images */
     GROW("parts", b->part, b->parts + list->n);
     b->parts += list->n;
-    for (const struct node *n = list->first; n; part++, n = n->next)
+    for (const struct yaml_node *n = list->first; n; part++, n = n->next)
         TRY(read_group(r, n, n, "bodies.parts", &b->part[part]));
     return OK;
 }

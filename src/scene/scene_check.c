@@ -10,19 +10,19 @@
 
 #define PRESSURE_SHAKEN 0.7 /* irregularity above which gaps and faces cannot be told apart (loads_columns.c) */
 
-static const struct node *scene_check_below(const struct node *root, const char *group, const char *leaf)
+static const struct yaml_node *scene_check_below(const struct yaml_node *root, const char *group, const char *leaf)
 {
-    return node_find(node_find(root, group), leaf);
+    return yaml_node_find(yaml_node_find(root, group), leaf);
 }
 
 /* Returns REFUSED if thickness is missing in a plane space or given elsewhere, or section is given outside space
  * line. A thickness without meaning is 1. */
-static status check_measure(struct reader *r, const struct node *root)
+static status check_measure(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *thickness = node_find(root, "thickness"), *section = node_find(root, "section");
+    const struct yaml_node *thickness = yaml_node_find(root, "thickness"), *section = yaml_node_find(root, "section");
     const char *space = space_names[s->space];
-    if (s->dim == 2 && !thickness) return fault_missing(r, root, key_find("", "thickness"));
+    if (s->dim == 2 && !thickness) return fault_key_missing(r, root, key_find("", "thickness"));
     if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; leave it out", space);
     if (s->dim != 1 && section) return fault(r, section, "space %s has no section; leave it out", space);
     if (s->dim != 2) s->thickness = 1;
@@ -41,7 +41,7 @@ static real longest_side(const real *from, const real *to, int dim)
 
 /* Estimates the number of particles from the bounding boxes of the bodies. REFUSED for more than 2e9, the limit of
  * 32-bit indices and of memory. */
-status check_particle_count(struct reader *r, const struct node *root)
+status check_particle_count(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     real total = 0, longest = 0, from[DIM_MAX], to[DIM_MAX];
@@ -59,17 +59,17 @@ status check_particle_count(struct reader *r, const struct node *root)
         total += count, longest = real_max(longest, longest_side(from, to, s->dim));
     }
     if (total <= 2e9) return OK;
-    const struct node *spacing = scene_check_below(root, "particles", "spacing");
+    const struct yaml_node *spacing = scene_check_below(root, "particles", "spacing");
     return fault(r, spacing, "%s would make about %.1e particles; 2e9 is the most (a body is %.4g m long)",
-                 node_shown(r, spacing), total, longest);
+                 node_text(r, spacing), total, longest);
 }
 
 /* Returns REFUSED if the scene has friction where it is not supported: with the contact law between pairs of
  * particles, or together with planes of symmetry. */
-status check_friction(struct reader *r, const struct node *root)
+status check_friction(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *friction = scene_check_below(root, "contact", "friction");
+    const struct yaml_node *friction = scene_check_below(root, "contact", "friction");
     if (!(s->contact_friction > 0)) return OK;
     if (s->contact_form == CONTACT_PAIR)
         return fault(r, friction,
@@ -82,60 +82,61 @@ status check_friction(struct reader *r, const struct node *root)
 }
 
 /* Returns REFUSED for absorbing faces of a static problem. */
-status check_absorbing(struct reader *r, const struct node *root)
+status check_absorbing(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
+    const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
     for (int b = 0; b < s->boundaries && n; b++, n = n->next)
-        if (s->boundary[b].kind == BOUNDARY_ABSORBING && !scene_moves(s))
+        if (s->boundary[b].kind == BOUNDARY_ABSORBING && !scene_is_dynamic(s))
             return fault(
-                r, node_find(n, "absorbing"),
+                r, yaml_node_find(n, "absorbing"),
                 "a static equilibrium has no waves, and nothing holds the body there; solver: explicit is expected");
     return OK;
 }
 
 /* Returns REFUSED for damping in a static problem, or with local time steps of cells. */
-static status check_damping(struct reader *r, const struct node *root)
+static status check_damping(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *damping = node_find(root, "damping"), *levels = scene_check_below(root, "mpm", "levels");
+    const struct yaml_node *damping = yaml_node_find(root, "damping"),
+                           *levels = scene_check_below(root, "mpm", "levels");
     if (!(s->damping > 0)) return OK;
-    if (!scene_moves(s))
+    if (!scene_is_dynamic(s))
         return fault(r, damping, "a static equilibrium has no velocities; solver: explicit is expected");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
         return fault(r, levels,
                      "%s levels of coarse cells have different time steps, and damping requires one time step for the "
                      "whole body; mpm.levels: 0 is expected",
-                     node_shown(r, levels));
+                     node_text(r, levels));
     return OK;
 }
 
 /* Returns REFUSED for loads that the rest of the scene does not support: pressures on very irregular particles, and
  * following loads, rotations and unknown displacements with static solvers. */
-status check_supported_loads(struct reader *r, const struct node *root)
+status check_supported_loads(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
+    const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
     for (int b = 0; b < s->boundaries && n; b++, n = n->next) {
         const struct boundary *load = &s->boundary[b];
         const bool formula = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0;
         if (load->kind == BOUNDARY_PRESSURE && s->irregularity > PRESSURE_SHAKEN)
             return fault(
-                r, node_find(n, "pressure"),
+                r, yaml_node_find(n, "pressure"),
                 "a pressure requires the positions of faces, which are not defined if particles.irregularity exceeds "
                 "%g spacings; a traction in its place, or a smaller particles.irregularity, is expected",
                 PRESSURE_SHAKEN);
-        if (!scene_at_rest(s)) continue;
+        if (!scene_is_single_equilibrium(s)) continue;
         if (load->follow)
-            return fault(r, node_find(n, "follow"),
+            return fault(r, yaml_node_find(n, "follow"),
                          "a static equilibrium is found under loads on the reference state; "
                          "solver: explicit with damping is expected");
         if (load->rotates)
-            return fault(r, node_find(n, "rotation"),
+            return fault(r, yaml_node_find(n, "rotation"),
                          "static solvers drive along straight lines; solver: explicit is "
                          "expected");
         if (formula && load_check_displacement_known(load) != OK)
-            return fault(r, node_find(n, "velocity"),
+            return fault(r, yaml_node_find(n, "velocity"),
                          "static solvers need the displacement, which does not follow from a velocity that is a "
                          "formula of t; displacement is expected in its place");
     }
@@ -143,17 +144,17 @@ status check_supported_loads(struct reader *r, const struct node *root)
 }
 
 /* Returns REFUSED for more than 1e12 time steps. */
-static status check_steps(struct reader *r, const struct node *root)
+static status check_steps(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *step = scene_check_below(root, "time", "step");
+    const struct yaml_node *step = scene_check_below(root, "time", "step");
     if (!step || s->time_step == 0 || s->duration / s->time_step <= 1e12) return OK;
-    return fault(r, step, "%s would take %.1e time steps; 1e12 is the largest number", node_shown(r, step),
+    return fault(r, step, "%s would take %.1e time steps; 1e12 is the largest number", node_text(r, step),
                  s->duration / s->time_step);
 }
 
 /* Returns REFUSED if mpm.origin is farther from 0 than particles may be. */
-static status check_origin(struct reader *r, const struct node *root)
+static status check_origin(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     for (int a = 0; a < s->dim && s->has_grid_origin && s->spacing > 0; a++)
@@ -166,9 +167,9 @@ static status check_origin(struct reader *r, const struct node *root)
 }
 
 /* Returns REFUSED for APIC with linear shape functions. */
-static status check_transfer(struct reader *r, const struct node *root)
+static status check_transfer(struct reader *r, const struct yaml_node *root)
 {
-    const struct node *transfer = scene_check_below(root, "mpm", "transfer");
+    const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
     if (!transfer || r->scene->shape != SHAPE_LINEAR || r->scene->transfer != TRANSFER_APIC) return OK;
     return fault(r, transfer,
                  "apic with shape linear was measured unstable (strains from velocities that are not "
@@ -177,7 +178,7 @@ static status check_transfer(struct reader *r, const struct node *root)
 
 /* Sets the default of time.safety, the time step over the critical one: 0.5 if bonds can break, else 0.8. Crack
  * lengths and most angles are equal at both; a scene between two crack paths can change its path above 0.3 to 0.5. */
-void resolve_safety(struct reader *r, const struct node *root)
+void resolve_safety(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     if (!scene_check_below(root, "time", "safety"))
@@ -186,18 +187,18 @@ void resolve_safety(struct reader *r, const struct node *root)
 
 /* Sets the default of contact.between: contact is needed if there are several bodies, rigid bodies or cracks, except
  * with static solvers. REFUSED for contact settings that contradict the solver or the model. */
-status resolve_contact(struct reader *r, const struct node *root)
+status resolve_contact(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *between = scene_check_below(root, "contact", "between");
-    const struct node *friction = scene_check_below(root, "contact", "friction");
-    const bool faces = s->bodies + s->rigids > 1 || (scene_cracks(s) && s->method != METHOD_MPM);
-    const bool meet = !scene_at_rest(s) && faces;
+    const struct yaml_node *between = scene_check_below(root, "contact", "between");
+    const struct yaml_node *friction = scene_check_below(root, "contact", "friction");
+    const bool faces = s->bodies + s->rigids > 1 || (scene_can_crack(s) && s->method != METHOD_MPM);
+    const bool meet = !scene_is_single_equilibrium(s) && faces;
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
                      "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");
-    if (s->contact_between != CONTACT_NONE && scene_at_rest(s))
+    if (s->contact_between != CONTACT_NONE && scene_is_single_equilibrium(s))
         return fault(r, between, "a static equilibrium has no contact; solver: explicit is expected");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
         return fault(r, friction, "there is no contact (contact.between: none), so there is no friction");
@@ -208,19 +209,19 @@ status resolve_contact(struct reader *r, const struct node *root)
  * correction; families with a given normalisation are corrected already. Surfaces of growing cracks get no weights:
  * load steps compare loads of pre-crack and grown crack, so that their bonds use the rule that ignores pre-cracks,
  * too (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5 %). */
-static enum surface_rule surface_by_default(const struct scene *s, const struct node *root)
+static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
     for (int b = 0; b < s->bodies; b++) /* set by resolve_lists */
         lattice = lattice && (!s->body[b].file || s->body[b].list.lattice);
     if (s->method != METHOD_PD) return SURFACE_NONE;
-    if (scene_in_steps(s) && scene_bonds_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
+    if (scene_has_load_steps(s) && scene_bonds_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
     if (lattice) return SURFACE_MOMENTS;
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
 }
 
 /* Sets the defaults of the surface correction and of the normalisation of families. */
-static void resolve_surface(struct scene *s, const struct node *root)
+static void resolve_surface(struct scene *s, const struct yaml_node *root)
 {
     if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
     if (!scene_check_below(root, "pd", "normalisation")) /* an irregular lattice has no full families */
@@ -235,12 +236,13 @@ static bool list_lattice(const struct scene *s, int body)
     for (int b = 0; b < body; b++)
         if (s->body[b].file && strcmp(s->body[b].file, s->body[body].file) == 0) return s->body[b].list.lattice;
     if (particle_list_read(&list, s->body[body].file, s->dim) != OK) return false;
-    const bool lattice = list_is_lattice(&list, s->spacing, lattice_volume(scene_section(s), s->spacing, s->dim));
+    const bool lattice =
+        list_is_lattice(&list, s->spacing, lattice_volume(scene_section_factor(s), s->spacing, s->dim));
     particle_list_free(&list);
     return lattice;
 }
 
-void resolve_lists(struct reader *r, const struct node *root)
+void resolve_lists(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     for (int b = 0; b < s->bodies; b++)
@@ -250,7 +252,7 @@ void resolve_lists(struct reader *r, const struct node *root)
 }
 
 /* Sets defaults that depend on method, model, coupling and solver. */
-static void resolve_defaults(struct reader *r, const struct node *root)
+static void resolve_defaults(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     resolve_surface(s, root);
@@ -260,7 +262,7 @@ static void resolve_defaults(struct reader *r, const struct node *root)
         s->influence = s->model == MODEL_BOND ? INFLUENCE_ONE : INFLUENCE_INVERSE;
     if (!scene_check_below(root, "mpm", "shape"))
         s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
-    if (!scene_check_below(root, "mpm", "transfer") && scene_at_rest(s) && s->shape != SHAPE_LINEAR)
+    if (!scene_check_below(root, "mpm", "transfer") && scene_is_single_equilibrium(s) && s->shape != SHAPE_LINEAR)
         s->transfer = TRANSFER_APIC;
     if (!scene_check_below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
 }
@@ -276,10 +278,10 @@ static bool body_yields(const struct scene *s, int body)
 }
 
 /* Returns the reason why a body cannot be in the reference frame; NULL if it can. */
-const char *scene_frame_unsupported(const struct scene *s, int body)
+const char *scene_why_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
-    if (scene_at_rest(s)) return "static solvers need the current frame";
+    if (scene_is_single_equilibrium(s)) return "static solvers need the current frame";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
         return "couplings pm to pgg need the grid of the current frame";
     if (s->cell != 2) return "the reference frame needs mpm.cell: 2";
@@ -287,28 +289,29 @@ const char *scene_frame_unsupported(const struct scene *s, int body)
     if (s->body[body].list.mass) return "particles with masses of their own need the current frame";
     if (!body_yields(s, body)) return NULL;
     if (s->method != METHOD_MPM)
-        return scene_in_steps(s) ? "its material yields, which load steps do with method: mpm or pd"
-                                 : "materials that yield need method: mpm there";
+        return scene_has_load_steps(s) ? "its material yields, which load steps do with method: mpm or pd"
+                                       : "materials that yield need method: mpm there";
     if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic there";
-    if (scene_moves(s) && s->levels != LEVELS_AUTO && s->levels > 0)
+    if (scene_is_dynamic(s) && s->levels != LEVELS_AUTO && s->levels > 0)
         return "materials that yield need mpm.levels: 0 there, as they have one time step";
     return NULL;
 }
 
-const char *scene_frame_not_default(const struct scene *s, int body)
+const char *scene_why_frame_not_default(const struct scene *s, int body)
 {
-    const char *why = scene_frame_unsupported(s, body);
+    const char *why = scene_why_frame_unsupported(s, body);
     if (why) return why;
     if (s->bodies > 1) return "bodies meet on the grid of the current frame only";
     if (s->body[body].file) return "particles from a list need not be a lattice";
-    if (!scene_in_steps(s) && body_yields(s, body)) return "materials that yield may strain beyond the reference frame";
+    if (!scene_has_load_steps(s) && body_yields(s, body))
+        return "materials that yield may strain beyond the reference frame";
     return NULL;
 }
 
 const char *scene_frame_obstacle(const struct scene *s)
 {
     const char *why = NULL;
-    for (int b = 0; b < s->bodies && !why; b++) why = scene_frame_not_default(s, b);
+    for (int b = 0; b < s->bodies && !why; b++) why = scene_why_frame_not_default(s, b);
     return why;
 }
 
@@ -325,7 +328,7 @@ bool scene_yields_on_mesh(const struct scene *s)
 {
     bool any = false;
     for (int b = 0; b < s->bodies; b++) any |= s->body[b].frame == FRAME_REFERENCE && body_yields(s, b);
-    return any && scene_moves(s) && s->method == METHOD_MPM;
+    return any && scene_is_dynamic(s) && s->method == METHOD_MPM;
 }
 
 /* Completes a scene whose bodies yield in the reference frame in explicit steps: cells have one time step, and linear
@@ -353,7 +356,7 @@ void resolve_frames(struct scene *s)
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
         if (body->frame == FRAME_AUTO && s->method != METHOD_PD) {
-            body->frame_reason = scene_frame_not_default(s, b);
+            body->frame_reason = scene_why_frame_not_default(s, b);
             if (!body->frame_reason) body->frame_reason = s->current_frame_key;
             if (body->frame_reason) body->frame = FRAME_CURRENT;
         }
@@ -367,37 +370,37 @@ void resolve_frames(struct scene *s)
 
 /* Sets the number of frames from output.every or output.times; times beyond the duration are omitted. REFUSED if two
  * of output.every, output.times and output.frames are given. */
-static status check_times(struct reader *r, const struct node *root)
+static status check_times(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *frames = scene_check_below(root, "output", "frames"),
-                      *every = s->every > 0 ? scene_check_below(root, "output", "every") : NULL,
-                      *times = scene_check_below(root, "output", "times");
-    if (every && (frames || times)) return fault_both(r, frames ? frames : times, every);
+    const struct yaml_node *frames = scene_check_below(root, "output", "frames"),
+                           *every = s->every > 0 ? scene_check_below(root, "output", "every") : NULL,
+                           *times = scene_check_below(root, "output", "times");
+    if (every && (frames || times)) return fault_keys_exclude(r, frames ? frames : times, every);
     if (every && s->duration / s->every > FRAMES_MOST)
         return fault(r, every, "an interval of %s makes more than %d frames; at least %.3g s is expected",
-                     node_shown(r, every), FRAMES_MOST, s->duration / FRAMES_MOST);
+                     node_text(r, every), FRAMES_MOST, s->duration / FRAMES_MOST);
     if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
-    if (frames) return fault_both(r, frames, times);
+    if (frames) return fault_keys_exclude(r, frames, times);
     for (s->frames = 0; s->frames < s->times.n && s->times.value[s->frames] <= s->duration * (1 + 1e-12);) s->frames++;
     return OK;
 }
 
 /* Returns REFUSED for the key accuracy, which only `method: auto` uses (scene_wish.c). */
-static status check_accuracy(struct reader *r, const struct node *root)
+static status check_accuracy(struct reader *r, const struct yaml_node *root)
 {
-    const struct node *n = node_find(root, "accuracy");
+    const struct yaml_node *n = yaml_node_find(root, "accuracy");
     return n ? fault(r, n, "has no meaning without method: auto") : OK;
 }
 
 /* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models
  * in space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in space line, or
  * with state-based models that normalise each family. */
-static status check_model(struct reader *r, const struct node *root)
+static status check_model(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *model = node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
+    const struct yaml_node *model = yaml_node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     const bool moments = surface && s->surface == SURFACE_MOMENTS;
     if (moments && (s->dim == 1 || s->irregularity > 0))
         return fault(r, surface, "moments needs a regular lattice in 2D or 3D; volume or none is expected");
@@ -405,26 +408,26 @@ static status check_model(struct reader *r, const struct node *root)
         return fault(r, surface,
                      "with model %s the surface correction moments is possible only with method: pd and "
                      "pd.normalisation: bulk; pd.surface: none is expected",
-                     node_shown(r, model));
+                     node_text(r, model));
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1)
         return fault(r, model, "model %s is not defined in one dimension (space: line); model: bond is expected",
-                     node_shown(r, model));
+                     node_text(r, model));
     if (surface && s->surface == SURFACE_VOLUME)
         return fault(r, surface,
                      "%s is for model bond; with model %s the key pd.normalisation corrects bonds near surfaces",
-                     node_shown(r, surface), node_shown(r, model));
+                     node_text(r, surface), node_text(r, model));
     return OK;
 }
 
 /* Returns REFUSED for keys that the static solvers do not support. Called after materials and probes are read. */
-status check_solver(struct reader *r, const struct node *root)
+status check_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *solver = node_find(root, "solver");
+    const struct yaml_node *solver = yaml_node_find(root, "solver");
     TRY(check_steps_given(r, root));
-    if (!solver || scene_moves(s)) return OK;
-    if (scene_in_steps(s)) return check_load_steps(r, root);
+    if (!solver || scene_is_dynamic(s)) return OK;
+    if (scene_has_load_steps(s)) return check_load_steps(r, root);
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
         return fault(r, solver, "cg is for method pd; relaxation is expected with material points");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
@@ -433,18 +436,17 @@ status check_solver(struct reader *r, const struct node *root)
                      "come to rest); mpm.transfer apic, with a shape that is not linear, is expected");
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            return fault(r, solver,
-                         "%s is for elastic materials, and material %s yields; solver: explicit is expected",
-                         node_shown(r, solver), s->material[m].name);
+            return fault(r, solver, "%s is for elastic materials, and material %s yields; solver: explicit is expected",
+                         node_text(r, solver), s->material[m].name);
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
             return fault(r, solver,
                          "solver: %s computes no time steps, in which probe %s measures; explicit is expected",
-                         node_shown(r, solver), s->probe[k].name);
+                         node_text(r, solver), s->probe[k].name);
     return OK;
 }
 
-status check_scene(struct reader *r, const struct node *root)
+status check_scene(struct reader *r, const struct yaml_node *root)
 {
     resolve_defaults(r, root);
     TRY(check_measure(r, root));

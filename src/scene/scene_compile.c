@@ -30,7 +30,7 @@ bool compile_fail(struct compile *c, const char *format, ...)
 struct named quantity_unit_name(const struct quantity *q)
 {
     struct named n;
-    unit_name_text(q->twice, n.text, sizeof n.text);
+    unit_describe(q->twice, n.text, sizeof n.text);
     return n;
 }
 

@@ -19,7 +19,7 @@ void write_key(struct writer *w, const char *key)
 void write_real(struct writer *w, real value)
 {
     char text[32];
-    fputs(number_text(text, value), w->out);
+    fputs(number_write_shortest(text, value), w->out);
 }
 
 void write_list(struct writer *w, const real *value, int n)
@@ -409,7 +409,7 @@ static void write_probes(struct writer *w)
     }
 }
 
-char *scene_echo(const struct scene *s)
+char *scene_to_yaml(const struct scene *s)
 {
     char *text = NULL, *kept;
     size_t length = 0;

@@ -74,8 +74,8 @@ static bool keep_to(struct compile *c, const char *here)
 static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
 {
     char number[32], unit[200], text[240];
-    unit_text(q->twice, unit, sizeof unit);
-    snprintf(text, sizeof text, "(%s%s)", number_text(number, q->value), unit);
+    unit_write_text(q->twice, unit, sizeof unit);
+    snprintf(text, sizeof text, "(%s%s)", number_write_shortest(number, q->value), unit);
     if (!keep_to(c, word)) return false;
     c->copied = c->at;
     return keep(c, text, strlen(text));
@@ -295,11 +295,11 @@ static bool compile_text(struct compile *c)
 
 /* ---- for the reader ---------------------------------------------------------------------------------------------- */
 
-/* Evaluates an expression without x, y, z and t, with its unit. Returns false with a message in what[room] if it is
- * invalid. */
-bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, char *what, size_t room)
+/* Evaluates an expression without x, y, z and t, with its unit. Returns false with a message in message[capacity] if it
+ * is invalid. */
+bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity *q, char *message, size_t capacity)
 {
-    struct compile c = {.r = r, .text = text, .what = what, .room = room};
+    struct compile c = {.r = r, .text = text, .what = message, .room = capacity};
     if (!compile_text(&c)) return false;
     *q = c.operand[0].q;
     return true;
@@ -307,7 +307,7 @@ bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, ch
 
 /* Reads a text of the form `1/3 mm` as a constant, as keys without formulas do; as a formula it would mean 1/(3 mm).
  * Returns false if the text is not such a number. */
-static bool number_constant(const struct node *n, const struct key *k, struct expression *e)
+static bool number_constant(const struct yaml_node *n, const struct key *k, struct expression *e)
 {
     char what[256];
     real value;
@@ -316,19 +316,20 @@ static bool number_constant(const struct node *n, const struct key *k, struct ex
     return true;
 }
 
-status read_expression(struct reader *r, const struct key *k, const struct node *n, unsigned of, struct expression *e)
+status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of,
+                       struct expression *e)
 {
     char what[256];
     struct compile c = {.r = r, .of = of, .text = n->text, .what = what, .room = sizeof what};
     const struct unit_row *unit = &unit_rows[k->unit];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is no expression; %s is expected, as %s", node_shown(r, n), unit->name, unit->example);
+        return fault(r, n, "%s is no expression; %s is expected, as %s", node_text(r, n), unit->name, unit->example);
     if (number_constant(n, k, e)) return OK;
-    if (!compile_text(&c)) return fault(r, n, "%s %s", node_shown(r, n), what);
+    if (!compile_text(&c)) return fault(r, n, "%s %s", node_text(r, n), what);
     const struct operand *result = &c.operand[0];
-    if (!quantity_fits(&result->q, k->unit, what, sizeof what) ||
-        (result->constant && !quantity_bounded(result->q.value, k->unit, what, sizeof what)))
-        return fault(r, n, "%s %s", node_shown(r, n), what);
+    if (!quantity_has_unit(&result->q, k->unit, what, sizeof what) ||
+        (result->constant && !value_is_in_unit_bounds(result->q.value, k->unit, what, sizeof what)))
+        return fault(r, n, "%s %s", node_text(r, n), what);
     expression_make(e, c.step, c.steps, c.kept);
     return OK;
 }
@@ -340,7 +341,7 @@ bool looks_like_expression(const struct reader *r, const char *text)
     return name_length(c) > 0 && (r->variables > 0 || strpbrk(c, "/^-"));
 }
 
-const char *reserved_word(const char *name)
+const char *reserved_word_meaning(const char *name)
 {
     struct quantity q;
     if (function_named(name)) return "the name of a function";

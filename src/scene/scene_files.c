@@ -45,12 +45,12 @@ int folder_length(const char *path)
     return slash ? (int)(slash - path) + 1 : 0;
 }
 
-status read_path(struct reader *r, const struct node *n, const char *what, char **path, uint64_t *contents)
+status read_path(struct reader *r, const struct yaml_node *n, const char *what, char **path, uint64_t *contents)
 {
     const char *from = origin_file_name(r, n->origin);
     const size_t folder = (size_t)folder_length(from), length = strlen(n->text);
     if (n->kind != NODE_SCALAR || length == 0)
-        return fault(r, n, "%s is no file name; %s is expected", node_shown(r, n), what);
+        return fault(r, n, "%s is no file name; %s is expected", node_text(r, n), what);
     *path = NEW("file name", folder + length + 1, char);
     if (r->files && folder > 0 && n->text[0] != '/') {
         memcpy(*path, from, folder);
@@ -60,5 +60,5 @@ status read_path(struct reader *r, const struct node *n, const char *what, char 
     memcpy(*path, n->text, length + 1);
     if (!r->files) return OK;
     if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents);
-    return fault(r, n, "%s cannot be read; %s is expected in the folder of the scene", node_shown(r, n), what);
+    return fault(r, n, "%s cannot be read; %s is expected in the folder of the scene", node_text(r, n), what);
 }

@@ -295,22 +295,22 @@ static const struct foreign *foreign_row(const char *word)
     return NULL;
 }
 
-bool foreign_word_advice(const char *word, const char *group, char *text, size_t room)
+bool foreign_word_advice(const char *word, const char *group, char *text, size_t capacity)
 {
     if (isdigit((unsigned char)*word))
-        return snprintf(text, room, "a comma separates keys here; the decimal sign is a point, as in 1.5 mm"), true;
+        return snprintf(text, capacity, "a comma separates keys here; the decimal sign is a point, as in 1.5 mm"), true;
     for (size_t k = 0; k < COUNT_OF(foreign_within) && *group; k++)
         if (strcmp(foreign_within[k].group, group) == 0 && words_have(foreign_within[k].words, word))
-            return snprintf(text, room, "%s", foreign_within[k].text), true;
+            return snprintf(text, capacity, "%s", foreign_within[k].text), true;
     const struct foreign *row = foreign_row(word);
     if (!row) return false;
-    if (row->text && *row->text == '=') return snprintf(text, room, "%s", row->text + 1), true;
+    if (row->text && *row->text == '=') return snprintf(text, capacity, "%s", row->text + 1), true;
     const size_t length = strcspn(row->paths, " "), within = strlen(group);
     const bool here = within > 0 && !strncmp(row->paths, group, within) && row->paths[within] == '.' &&
                       !memchr(row->paths + within + 1, '.', length - within - 1);
     const char *name = here ? row->paths + within + 1 : row->paths;
     if (!strncmp(name, "solid.", 6)) name += 6;
-    snprintf(text, room, "here it is `%.*s`%s%s", (int)strcspn(name, " "), name, row->text ? ", " : "",
+    snprintf(text, capacity, "here it is `%.*s`%s%s", (int)strcspn(name, " "), name, row->text ? ", " : "",
              row->text ? row->text : "");
     return true;
 }

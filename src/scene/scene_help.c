@@ -49,13 +49,13 @@ static const char *type_text(const struct key *k)
 }
 
 /* Writes the range or the words of a key; "" if it has none. */
-static void range_text(const struct key *k, char *text, size_t room)
+static void range_text(const struct key *k, char *text, size_t capacity)
 {
     char least[32], most[32];
     *text = '\0';
     if ((k->type == KEY_CHOICE || k->type == KEY_SET) && k->words) {
         size_t used = 0;
-        for (const char *c = k->words; *c && used + 3 < room; c++) {
+        for (const char *c = k->words; *c && used + 3 < capacity; c++) {
             text[used++] = *c == '|' ? ',' : *c;
             if (*c == '|') text[used++] = ' ';
         }
@@ -63,59 +63,59 @@ static void range_text(const struct key *k, char *text, size_t room)
         return;
     }
     if (!k->range.given) return;
-    number_text(least, k->range.least);
-    number_text(most, k->range.most);
+    number_write_shortest(least, k->range.least);
+    number_write_shortest(most, k->range.most);
     if (isinf(k->range.most))
-        snprintf(text, room, "%s %s", k->range.open ? ">" : ">=", least);
+        snprintf(text, capacity, "%s %s", k->range.open ? ">" : ">=", least);
     else if (k->range.open)
-        snprintf(text, room, "> %s, <= %s", least, most);
+        snprintf(text, capacity, "> %s, <= %s", least, most);
     else
-        snprintf(text, room, "%s .. %s", least, most);
+        snprintf(text, capacity, "%s .. %s", least, most);
     if (k->type == KEY_LIST || k->type == KEY_HAND) {
         size_t used = strlen(text);
-        if (k->type == KEY_LIST || k->range.least > 1) snprintf(text + used, room - used, " items");
+        if (k->type == KEY_LIST || k->range.least > 1) snprintf(text + used, capacity - used, " items");
     }
 }
 
 /* Writes the default of a key, without the brackets that mark a default set by code. */
-static void default_text(const struct key *k, char *text, size_t room)
+static void default_text(const struct key *k, char *text, size_t capacity)
 {
     bool explained = *k->fallback == '(';
     size_t length = strlen(k->fallback) - (explained ? 2 : 0);
-    snprintf(text, room, "%.*s", (int)length, k->fallback + explained);
+    snprintf(text, capacity, "%.*s", (int)length, k->fallback + explained);
     if (strcmp(text, "-") == 0) *text = '\0';
 }
 
-void key_facts(const struct key *k, char *text, size_t room)
+void key_describe_type(const struct key *k, char *text, size_t capacity)
 {
     char range[400], fallback[96]; /* the names of all fields of frames have 270 characters */
     range_text(k, range, sizeof range);
     default_text(k, fallback, sizeof fallback);
     const char *symbol = unit_rows[k->unit].symbol;
     bool required = strncmp(fallback, "required", 8) == 0;
-    snprintf(text, room, "%s%s%s%s%s%s%s%s%s", type_text(k), *symbol ? " [" : "", symbol, *symbol ? "]" : "",
+    snprintf(text, capacity, "%s%s%s%s%s%s%s%s%s", type_text(k), *symbol ? " [" : "", symbol, *symbol ? "]" : "",
              *range ? "; " : "", range, *fallback ? "; " : "", *fallback && !required ? "default " : "", fallback);
 }
 
-void key_description(const struct key *k, char *text, size_t room)
+void key_description(const struct key *k, char *text, size_t capacity)
 {
     char facts[640];
-    key_facts(k, facts, sizeof facts);
-    snprintf(text, room, "%s (%s)", k->help, facts);
+    key_describe_type(k, facts, sizeof facts);
+    snprintf(text, capacity, "%s (%s)", k->help, facts);
 }
 
 /* ---- cleave help ------------------------------------------------------------------------------------------------- */
 
 /* Converts a path typed by a user to the path in the table of keys: indices are dropped, `materials` becomes
  * `material`. */
-static void path_of_table(const char *key, char *path, size_t room)
+static void path_of_table(const char *key, char *path, size_t capacity)
 {
     size_t used = 0, skip = 0;
     if (strncmp(key, "materials.", 10) == 0 || strncmp(key, "materials[", 10) == 0) {
-        used = (size_t)snprintf(path, room, "material");
+        used = (size_t)snprintf(path, capacity, "material");
         skip = 9;
     }
-    for (const char *c = key + skip; *c && used + 1 < room; c++) {
+    for (const char *c = key + skip; *c && used + 1 < capacity; c++) {
         if (*c == '[')
             c += strcspn(c, "]");
         else
@@ -190,7 +190,7 @@ bool scene_has_key(const char *key)
 static void print_key(FILE *out, const struct key *k)
 {
     char facts[640];
-    key_facts(k, facts, sizeof facts);
+    key_describe_type(k, facts, sizeof facts);
     fprintf(out, "%-30s %s\n%-30s   %s\n", k->path, facts, "", k->help);
 }
 
@@ -270,7 +270,7 @@ void scene_print_manual_keys(FILE *out)
 {
     char facts[640];
     for (int k = 0; k < keys_count; k++) {
-        key_facts(&keys[k], facts, sizeof facts);
+        key_describe_type(&keys[k], facts, sizeof facts);
         fputs(".TP\n.B ", out);
         troff(out, keys[k].path);
         fputs("\n", out);

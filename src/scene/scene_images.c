@@ -12,7 +12,7 @@ int path_order(const void *a, const void *b) { return strverscmp(*(char *const *
 /* ---- grey values ------------------------------------------------------------------------------------------------- */
 
 /* Reads one grey value or a range, such as 255 or 100-255. */
-static status grey_range_read(struct reader *r, const struct node *n, const char *text, struct voxel_part *p)
+static status grey_range_read(struct reader *r, const struct yaml_node *n, const char *text, struct voxel_part *p)
 {
     int low = -1, high = -1, end = 0;
     if (sscanf(text, "%d%n", &low, &end) == 1 && text[end] == '\0')
@@ -20,19 +20,20 @@ static status grey_range_read(struct reader *r, const struct node *n, const char
     else if (sscanf(text, "%d - %d%n", &low, &high, &end) != 2 || text[end] != '\0')
         low = -1;
     if (low < 0 || high < low || high > GREY_MAX)
-        return fault(r, n, "%s is no grey value; 255 or 100-255, up to %d, is expected", shown_text(r, text), GREY_MAX);
+        return fault(r, n, "%s is no grey value; 255 or 100-255, up to %d, is expected", text_for_message(r, text),
+                     GREY_MAX);
     if (p->ranges == GREY_RANGES_MAX) return fault(r, n, "more than %d ranges of grey values", GREY_RANGES_MAX);
     p->range[p->ranges++] = (struct grey_range){low, high};
     return OK;
 }
 
-status read_grey_values(struct reader *r, const struct node *n, struct voxel_part *p)
+status read_grey_values(struct reader *r, const struct yaml_node *n, struct voxel_part *p)
 {
     p->ranges = 0;
     if (n->kind == NODE_SCALAR) return grey_range_read(r, n, n->text, p);
     if (n->kind != NODE_LIST || n->n == 0)
         return fault(r, n, "is no grey value; 255, 100-255 or a list of these is expected");
-    for (const struct node *item = n->first; item; item = item->next) {
+    for (const struct yaml_node *item = n->first; item; item = item->next) {
         if (item->kind != NODE_SCALAR) return fault(r, item, "is no grey value; 255 or 100-255 is expected");
         TRY(grey_range_read(r, item, item->text, p));
     }
@@ -42,10 +43,10 @@ status read_grey_values(struct reader *r, const struct node *n, struct voxel_par
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
 /* Returns true if a node is the word `void`, for grey values without material. */
-static bool is_void(const struct node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
+static bool is_void(const struct yaml_node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
 
 /* Returns REFUSED if a voxel has a grey value that is in no range of `in`. */
-static status check_covered(struct reader *r, const struct node *n, const struct voxels *v, const bool *in)
+static status check_covered(struct reader *r, const struct yaml_node *n, const struct voxels *v, const bool *in)
 {
     const int64_t all = v->n[0] * v->n[1] * v->n[2];
     int64_t missing = 0;
@@ -59,7 +60,7 @@ static status check_covered(struct reader *r, const struct node *n, const struct
                  100 * (real)missing / (real)all, value);
 }
 
-status read_grey_materials(struct reader *r, const struct node *n, const struct voxels *v, struct voxel_part *p)
+status read_grey_materials(struct reader *r, const struct yaml_node *n, const struct voxels *v, struct voxel_part *p)
 {
     if (!r->bounded || r->cutting)
         return fault(r, n,
@@ -68,7 +69,7 @@ status read_grey_materials(struct reader *r, const struct node *n, const struct 
     bool *in = NEW("grey values", GREY_MAX + 1, bool);
     status s = OK;
     p->ranges = 0;
-    for (const struct node *c = n->first; c && s == OK; c = c->next) {
+    for (const struct yaml_node *c = n->first; c && s == OK; c = c->next) {
         const int before = p->ranges;
         s = grey_range_read(r, c, c->key, p);
         if (s != OK) break;
@@ -90,13 +91,14 @@ status read_grey_materials(struct reader *r, const struct node *n, const struct 
 
 /* Returns a copy of a node and its descendants in the arena, without entries with the key `without`. parent: parent
  * of the copy. */
-static struct node *node_copy(struct reader *r, const struct node *n, struct node *parent, const char *without)
+static struct yaml_node *node_copy(struct reader *r, const struct yaml_node *n, struct yaml_node *parent,
+                                   const char *without)
 {
-    struct node *copy = arena_new(r, sizeof *copy);
+    struct yaml_node *copy = arena_new(r, sizeof *copy);
     *copy = *n;
     copy->parent = parent, copy->first = copy->last = copy->next = NULL, copy->n = 0;
-    for (const struct node *c = n->first; c; c = c->next)
-        if (!c->key || strcmp(c->key, without) != 0) node_append(copy, node_copy(r, c, copy, without));
+    for (const struct yaml_node *c = n->first; c; c = c->next)
+        if (!c->key || strcmp(c->key, without) != 0) yaml_node_append(copy, node_copy(r, c, copy, without));
     return copy;
 }
 
@@ -109,38 +111,39 @@ static int material_called(const struct scene *s, const char *name)
 
 /* Reads one entry of `materials` as a part of a body: the image restricted to the grey values of the entry, with the
  * motions of the solid. */
-static status read_grey_part(struct reader *r, const struct node *solid, const struct node *entry, struct scene_body *b)
+static status read_grey_part(struct reader *r, const struct yaml_node *solid, const struct yaml_node *entry,
+                             struct scene_body *b)
 {
     const int material = entry->kind == NODE_SCALAR ? material_called(r->scene, entry->text) : -1;
     if (material < 0)
         return fault(r, entry, "the scene has no material %s; to leave out the pixels of this grey value, write void",
-                     node_shown(r, entry));
-    struct node *copy = node_copy(r, solid, solid->parent, "materials"), *image = node_find(copy, "image");
-    struct node *values = arena_new(r, sizeof *values);
-    *values = (struct node){.kind = NODE_SCALAR,
-                            .line = entry->line,
-                            .column = entry->column,
-                            .origin = entry->origin,
-                            .key = arena_text(r, "values", 6),
-                            .text = entry->key};
-    node_append(image, values);
+                     node_text(r, entry));
+    struct yaml_node *copy = node_copy(r, solid, solid->parent, "materials"), *image = yaml_node_find(copy, "image");
+    struct yaml_node *values = arena_new(r, sizeof *values);
+    *values = (struct yaml_node){.kind = NODE_SCALAR,
+                                 .line = entry->line,
+                                 .column = entry->column,
+                                 .origin = entry->origin,
+                                 .key = arena_text(r, "values", 6),
+                                 .text = entry->key};
+    yaml_node_append(image, values);
     GROW("parts", b->part, b->parts + 1);
     struct scene_part *part = &b->part[b->parts++];
     part->material = material;
     return read_region(r, copy, &part->region);
 }
 
-status read_grey_parts(struct reader *r, const struct node *shape, struct scene_body *b)
+status read_grey_parts(struct reader *r, const struct yaml_node *shape, struct scene_body *b)
 {
-    const struct node *solid = shape && shape->kind == NODE_LIST ? shape->first : shape;
+    const struct yaml_node *solid = shape && shape->kind == NODE_LIST ? shape->first : shape;
     const int wanted = r->grey_materials;
     int found = 0;
     r->grey_materials = 0;
     for (; solid; solid = shape->kind == NODE_LIST ? solid->next : NULL) {
-        const struct node *image = solid->kind == NODE_MAP ? node_find(solid, "image") : NULL;
-        const struct node *materials = image ? node_find(image, "materials") : NULL;
+        const struct yaml_node *image = solid->kind == NODE_MAP ? yaml_node_find(solid, "image") : NULL;
+        const struct yaml_node *materials = image ? yaml_node_find(image, "materials") : NULL;
         found += materials != NULL;
-        for (const struct node *c = materials ? materials->first : NULL; c; c = c->next) {
+        for (const struct yaml_node *c = materials ? materials->first : NULL; c; c = c->next) {
             if (is_void(c)) continue;
             if (b->parts == 0) b->material = material_called(r->scene, c->text);
             const bool bounded = r->bounded;

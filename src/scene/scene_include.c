@@ -32,14 +32,14 @@ bool group_is_merged(const char *path)
     return false;
 }
 
-static bool is_empty(const struct node *n) { return n->kind == NODE_SCALAR && *n->text == '\0'; }
+static bool is_empty(const struct yaml_node *n) { return n->kind == NODE_SCALAR && *n->text == '\0'; }
 
 /* Returns REFUSED for a mapping with two equal keys, one of which would be lost. */
-static status check_twins(const struct reader *r, const struct node *map)
+static status check_twins(const struct reader *r, const struct yaml_node *map)
 {
     if (map->n > KEYS_MOST) return fault(r, map, "has %d keys, more than any mapping of a scene can have", map->n);
-    for (const struct node *n = map->first; n; n = n->next)
-        for (const struct node *twin = map->first; twin != n; twin = twin->next)
+    for (const struct yaml_node *n = map->first; n; n = n->next)
+        for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", twin->line);
     return OK;
@@ -47,22 +47,22 @@ static status check_twins(const struct reader *r, const struct node *map)
 
 /* Merges the mapping `over` into `under`: values of `over` take precedence, mappings that may be merged are merged
  * entry by entry, and an empty value removes the entry. group: path of both mappings in the scene. */
-static status merge(struct reader *r, struct node *under, struct node *over, const char *group)
+static status merge(struct reader *r, struct yaml_node *under, struct yaml_node *over, const char *group)
 {
     char path[64];
     TRY(check_twins(r, over));
     TRY(check_twins(r, under));
     under->line = over->line, under->column = over->column, under->origin = over->origin;
-    for (struct node *n = over->first, *next; n; n = next) {
-        struct node *old = node_find(under, n->key);
+    for (struct yaml_node *n = over->first, *next; n; n = next) {
+        struct yaml_node *old = yaml_node_find(under, n->key);
         next = n->next;
         snprintf(path, sizeof path, "%.30s%s%.30s", group, *group ? "." : "", n->key);
         if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && group_is_merged(path)) {
             TRY(merge(r, old, n, path));
             continue;
         }
-        if (old) node_remove(under, old);
-        if (!old || !is_empty(n)) node_append(under, n);
+        if (old) yaml_node_remove(under, old);
+        if (!old || !is_empty(n)) yaml_node_append(under, n);
     }
     return OK;
 }
@@ -85,7 +85,7 @@ static int length_of(const struct chain *chain)
 }
 
 /* Returns the path of an included file, relative to the folder of the including file. */
-static char *path_from(struct reader *r, const struct node *n)
+static char *path_from(struct reader *r, const struct yaml_node *n)
 {
     const char *from = origin_file_name(r, n->origin);
     const size_t folder = *n->text == '/' ? 0 : (size_t)folder_length(from), length = strlen(n->text);
@@ -95,23 +95,24 @@ static char *path_from(struct reader *r, const struct node *n)
     return path;
 }
 
-static status include_all(struct reader *r, struct node *root, const struct chain *chain);
+static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain);
 
 /* Reads the file that n names, and the files that it includes. */
-static status include_file(struct reader *r, const struct node *n, const struct chain *chain, struct node **root)
+static status include_file(struct reader *r, const struct yaml_node *n, const struct chain *chain,
+                           struct yaml_node **root)
 {
     struct stat file;
     char *text, *path;
     size_t length;
     if (n->kind != NODE_SCALAR || is_empty(n))
-        return fault(r, n, "%s is no file name; a scene is expected", node_shown(r, n));
-    if (!r->files) return fault(r, n, "%s is not read here; a scene without includes is expected", node_shown(r, n));
+        return fault(r, n, "%s is no file name; a scene is expected", node_text(r, n));
+    if (!r->files) return fault(r, n, "%s is not read here; a scene without includes is expected", node_text(r, n));
     path = path_from(r, n);
     if (stat(path, &file) != 0 || !S_ISREG(file.st_mode))
-        return fault(r, n, "%s cannot be read; a scene in the folder of this one is expected", node_shown(r, n));
-    if (is_open(chain, &file)) return fault(r, n, "%s includes itself, or this scene it", node_shown(r, n));
+        return fault(r, n, "%s cannot be read; a scene in the folder of this one is expected", node_text(r, n));
+    if (is_open(chain, &file)) return fault(r, n, "%s includes itself, or this scene it", node_text(r, n));
     if (length_of(chain) == CHAIN_MOST)
-        return fault(r, n, "%s is the last of more than %d scenes that include each other", node_shown(r, n),
+        return fault(r, n, "%s is the last of more than %d scenes that include each other", node_text(r, n),
                      CHAIN_MOST);
     if (r->includes == INCLUDED_MOST) return fault(r, n, "more than %d scenes are included", INCLUDED_MOST);
     const int origin = ORIGIN_INCLUDED - r->includes;
@@ -120,38 +121,38 @@ static status include_file(struct reader *r, const struct node *n, const struct 
     const status read = tree_read(r, text, length, origin, root);
     memory_free(text);
     TRY(read);
-    if (!*root) return fault_mark(r, origin, 1, 1, "empty; a scene begins with keys such as space and duration");
+    if (!*root) return fault_at_location(r, origin, 1, 1, "empty; a scene begins with keys such as space and duration");
     TRY(expect_kind(r, *root, NODE_MAP, "a mapping of keys to values, as a scene is"));
-    TRY(tree_rename(r, *root));
-    struct node *name = node_find(*root, "name");
-    if (name) node_remove(*root, name);
+    TRY(tree_rename_old_keys(r, *root));
+    struct yaml_node *name = yaml_node_find(*root, "name");
+    if (name) yaml_node_remove(*root, name);
     return include_all(r, *root, &(struct chain){chain, file.st_dev, file.st_ino});
 }
 
 /* Reads the files in the list `include` of a scene in order, merges each over the previous ones, and the scene over
  * all of them. chain: the files that are being read. */
-static status include_all(struct reader *r, struct node *root, const struct chain *chain)
+static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain)
 {
-    struct node *list = node_find(root, "include"), *file;
+    struct yaml_node *list = yaml_node_find(root, "include"), *file;
     if (!list) return OK;
-    struct node base = {.kind = NODE_MAP, .text = ""};
-    const struct node *n = list->kind == NODE_LIST ? list->first : list;
+    struct yaml_node base = {.kind = NODE_MAP, .text = ""};
+    const struct yaml_node *n = list->kind == NODE_LIST ? list->first : list;
     TRY(check_twins(r, root));
     if (!n || list->n > INCLUDED_MOST)
         return fault(r, list, "has %d items; 1 to %d are expected", list->n, INCLUDED_MOST);
-    node_remove(root, list);
-    for (const struct node *next; n; n = next) {
+    yaml_node_remove(root, list);
+    for (const struct yaml_node *next; n; n = next) {
         next = list->kind == NODE_LIST ? n->next : NULL;
         TRY(include_file(r, n, chain, &file));
         TRY(merge(r, &base, file, ""));
     }
     TRY(merge(r, &base, root, ""));
     root->first = base.first, root->last = base.last, root->n = base.n;
-    for (struct node *c = root->first; c; c = c->next) c->parent = root;
+    for (struct yaml_node *c = root->first; c; c = c->next) c->parent = root;
     return OK;
 }
 
-status tree_include(struct reader *r, struct node *root)
+status tree_include(struct reader *r, struct yaml_node *root)
 {
     struct stat file = {0};
     r->includes = 0;
@@ -160,6 +161,7 @@ status tree_include(struct reader *r, struct node *root)
     TRY(include_all(r, root, known ? &(struct chain){NULL, file.st_dev, file.st_ino} : NULL));
     for (int k = 0; k < r->overrides; k++)
         if (strcmp(r->override[k].key, "include") == 0)
-            return fault_mark(r, k, 0, 0, "include: stands in a file; a scene that includes this one can change it");
+            return fault_at_location(r, k, 0, 0,
+                                     "include: stands in a file; a scene that includes this one can change it");
     return OK;
 }

@@ -7,14 +7,14 @@
 #include "scene_internal.h"
 
 /* Finds the two bodies of an interface by their names. */
-static status interface_bodies(struct reader *r, const struct node *n, struct scene_interface *face)
+static status interface_bodies(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
     const struct scene *s = r->scene;
-    const struct node *names = node_find(n, "bodies");
-    if (!names) return fault_missing(r, n, key_find("interfaces", "bodies"));
+    const struct yaml_node *names = yaml_node_find(n, "bodies");
+    if (!names) return fault_key_missing(r, n, key_find("interfaces", "bodies"));
     if (names->kind != NODE_LIST || names->n != 2)
         return fault(r, names, "names of two bodies are expected, as [plate, layer]");
-    const struct node *name = names->first;
+    const struct yaml_node *name = names->first;
     for (int k = 0; k < 2; k++, name = name->next) {
         face->body[k] = -1;
         for (int b = 0; b < s->bodies; b++)
@@ -34,7 +34,7 @@ static status interface_bodies(struct reader *r, const struct node *n, struct sc
 
 /* Gives a body its own copy of its material, named material_body, because bonds between joined bodies are
  * distinguished by material. REFUSED if there are 255 materials already. */
-static status material_apart(struct reader *r, const struct node *n, struct scene_body *b)
+static status material_apart(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     struct scene *s = r->scene;
     if (s->materials >= 255) return fault(r, n, "bodies of one material get one each, and 255 are the most");
@@ -50,13 +50,13 @@ static status material_apart(struct reader *r, const struct node *n, struct scen
 
 /* Computes the critical stretch of bonds across an interface from its energy release rate, for a material with the
  * harmonic mean of the Young's moduli of both bodies, and otherwise with the properties of the softer one. */
-static status interface_strength(struct reader *r, const struct node *n, struct scene_interface *face)
+static status interface_strength(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
     struct scene *s = r->scene;
     if (!(face->energy_release_rate > 0)) return OK;
     struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
     if (one->parts > 0 || other->parts > 0)
-        return fault(r, node_find(n, "energy_release_rate"),
+        return fault(r, yaml_node_find(n, "energy_release_rate"),
                      "body %s has parts of different materials; an interface joins bodies of one material each",
                      one->parts > 0 ? one->name : other->name);
     if (one->material == other->material) TRY(material_apart(r, n, other));
@@ -76,10 +76,10 @@ static void join_bodies(struct scene *s, int one, int other)
         if (s->body[b].joined == (from > to ? from : to)) s->body[b].joined = from > to ? to : from;
 }
 
-status read_interfaces(struct reader *r, const struct node *root)
+status read_interfaces(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *list = node_find(root, "interfaces");
+    const struct yaml_node *list = yaml_node_find(root, "interfaces");
     for (int b = 0; b < s->bodies; b++) s->body[b].joined = b;
     if (!list) return OK;
     TRY(expect_list(r, key_find("", "interfaces"), list));
@@ -87,15 +87,16 @@ status read_interfaces(struct reader *r, const struct node *root)
         return fault(r, list, "bodies are joined by bonds, or by their grid; method: pd or mpm is expected");
     s->interface = NEW("interfaces", list->n, struct scene_interface);
     s->interfaces = list->n;
-    const struct node *n = list->first;
+    const struct yaml_node *n = list->first;
     for (int k = 0; k < s->interfaces; k++, n = n->next) {
         struct scene_interface *face = &s->interface[k];
         TRY(read_group(r, n, n, "interfaces", face));
         TRY(interface_bodies(r, n, face));
-        if (!face->joined && node_find(n, "energy_release_rate"))
-            return fault(r, node_find(n, "energy_release_rate"), "only of bodies that are joined");
-        if (s->method == METHOD_MPM && node_find(n, "energy_release_rate"))
-            return fault(r, node_find(n, "energy_release_rate"), "the grid does not break; method: pd is expected");
+        if (!face->joined && yaml_node_find(n, "energy_release_rate"))
+            return fault(r, yaml_node_find(n, "energy_release_rate"), "only of bodies that are joined");
+        if (s->method == METHOD_MPM && yaml_node_find(n, "energy_release_rate"))
+            return fault(r, yaml_node_find(n, "energy_release_rate"),
+                         "the grid does not break; method: pd is expected");
         if (!face->joined) continue;
         TRY(interface_strength(r, n, face));
         join_bodies(s, face->body[0], face->body[1]);
@@ -103,16 +104,16 @@ status read_interfaces(struct reader *r, const struct node *root)
     return OK;
 }
 
-status check_joined(struct reader *r, const struct node *root)
+status check_joined(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *n = node_find(root, "boundary");
+    const struct yaml_node *n = yaml_node_find(root, "boundary");
     n = n ? n->first : NULL;
     for (int k = 0; k < s->boundaries && n; k++, n = n->next) {
         const int body = s->boundary[k].body;
         for (int b = 0; b < s->bodies && body >= 0; b++)
             if (b != body && s->body[b].joined == s->body[body].joined)
-                return fault(r, node_find(n, "body"),
+                return fault(r, yaml_node_find(n, "body"),
                              "is joined to body %s by an interface, so that both are one body here; a region in place "
                              "of this key is expected",
                              s->body[b].name);

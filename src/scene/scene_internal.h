@@ -14,7 +14,7 @@
 /* A named region that is being read, and the region that refers to it. Following `outer` shows whether a region
  * contains itself. */
 struct naming {
-    const struct node *region;
+    const struct yaml_node *region;
     const struct naming *outer;
 };
 
@@ -22,7 +22,7 @@ struct naming {
 
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
-struct node {
+struct yaml_node {
     enum node_kind kind;
     int line, column; /* of the key, or of an item without a key; from 1 */
     int origin;       /* source: index of an override; -1: the scene file; -2, -3, ..: an included
@@ -30,7 +30,7 @@ struct node {
     int n;            /* entries of a list or map */
     char *key;        /* key of the node; NULL for the root and for items of a list */
     char *text;       /* text of a scalar, without quotes; else "" */
-    struct node *parent, *first, *last, *next;
+    struct yaml_node *parent, *first, *last, *next;
 };
 
 struct arena_block;
@@ -53,12 +53,12 @@ struct reader {
     bool files;                          /* check that particle lists exist */
     const char *included[INCLUDED_MOST]; /* [includes] names of the included files */
     int includes;
-    struct variable *variable;     /* [variables] variables of the scene, in the arena */
-    int variables, variables_open; /* number of variables; number of those being evaluated */
-    struct arena_block *arena;     /* memory of the nodes and texts of this reading */
-    const struct node *regions;    /* mapping of the named regions; NULL: none */
-    const struct node *sections;   /* mapping of the named plane sections of extrusions; NULL: none */
-    const struct naming *naming;   /* innermost named region that is being read; NULL: none */
+    struct variable *variable;        /* [variables] variables of the scene, in the arena */
+    int variables, variables_open;    /* number of variables; number of those being evaluated */
+    struct arena_block *arena;        /* memory of the nodes and texts of this reading */
+    const struct yaml_node *regions;  /* mapping of the named regions; NULL: none */
+    const struct yaml_node *sections; /* mapping of the named plane sections of extrusions; NULL: none */
+    const struct naming *naming;      /* innermost named region that is being read; NULL: none */
 };
 
 /* Returns zeroed memory that arena_free releases. */
@@ -70,32 +70,32 @@ char *arena_text(struct reader *r, const char *text, size_t length);
 /* Releases all memory of the arena. */
 void arena_free(struct reader *r);
 
-/* Parses a YAML text to a tree of nodes in the arena. origin: as in struct node. Sets *root to NULL if the text
+/* Parses a YAML text to a tree of nodes in the arena. origin: as in struct yaml_node. Sets *root to NULL if the text
  * contains no value. REFUSED for invalid YAML. */
-status tree_read(struct reader *r, const char *text, size_t length, int origin, struct node **root);
+status tree_read(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root);
 
 /* Appends a node to the entries of a list or map. */
-void node_append(struct node *parent, struct node *child);
+void yaml_node_append(struct yaml_node *parent, struct yaml_node *child);
 
 /* Returns the entry of a map with this key, or NULL. */
-struct node *node_find(const struct node *map, const char *key);
+struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 
 /* Removes a node from the entries of its parent. */
-void node_remove(struct node *parent, struct node *child);
+void yaml_node_remove(struct yaml_node *parent, struct yaml_node *child);
 
 /* Reads the files that the tree includes, and merges the tree over theirs (scene_include.c). */
-status tree_include(struct reader *r, struct node *root);
+status tree_include(struct reader *r, struct yaml_node *root);
 
 /* Returns true if the value of the key at `path` ("": the whole scene) is a mapping that is merged key by key. Other
  * values, such as solids, are replaced as a whole. */
 bool group_is_merged(const char *path);
 
 /* Applies the overrides of the reader to the tree (scene_override.c). */
-status tree_override(struct reader *r, struct node *root);
+status tree_override(struct reader *r, struct yaml_node *root);
 
 /* Replaces keys of earlier versions in the tree by their present names, and notes them in the scene (scene_renamed.c).
  * REFUSED if both names are given, and for keys that no longer exist. */
-status tree_rename(struct reader *r, struct node *root);
+status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
 /* Returns the present name of the key at `path`, as an override gives it: `path` itself if it is current. Replacing a
  * name of an earlier version is noted in the scene. */
@@ -114,27 +114,27 @@ int folder_length(const char *path);
 status file_bytes(const char *path, char **bytes, size_t *length);
 
 /* Applies one more override, as from the command line. An empty value removes the key; REFUSED if it is not there. */
-status tree_set(struct reader *r, struct node *root, const char *key, const char *value);
+status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value);
 
 /* Returns the node at a path of keys without lists; NULL if the scene does not give it. */
-const struct node *tree_find(const struct node *root, const char *path);
+const struct yaml_node *tree_find(const struct yaml_node *root, const char *path);
 
 /* Parses the text of a scene and applies includes and overrides (scene.c). */
-status scene_tree(struct reader *r, const char *text, size_t length, struct node **root);
+status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root);
 
 /* Fills r->scene from the tree, and checks it (scene.c). */
-status scene_from_tree(struct reader *r, const struct node *root);
+status scene_from_tree(struct reader *r, const struct yaml_node *root);
 
 struct pilot_wish;
 /* Reads the requirements of a scene with `method: auto` on pilot runs, from its tree and its text (scene_wish.c). The
  * caller zeroes w. */
-status pilot_wish_read(struct reader *r, const struct node *root, const char *text, size_t length,
+status pilot_wish_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                        struct pilot_wish *w);
 
 /* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 
 /* Writes the shortest text that reads back to identical bits, and returns it. */
-const char *number_text(char text[32], real value);
+const char *number_write_shortest(char text[32], real value);
 
 /* A number with its unit. */
 struct quantity {
@@ -144,7 +144,7 @@ struct quantity {
 };
 
 /* Reads `number [/ number] [unit]` with any unit. Returns false if the text has another form. */
-bool number_quantity(struct quantity *q, const char *text);
+bool quantity_parse(struct quantity *q, const char *text);
 
 /* Reads the number at the beginning of a text, and with with_unit the unit that follows. Returns the length of both;
  * 0 on failure, with the fault in *wrong. */
@@ -162,19 +162,19 @@ static inline bool is_kelvin(const char *text, enum unit unit)
     return unit == UNIT_SPECIFIC_HEAT && (strcmp(text, "J/(kg K)") == 0 || strcmp(text, "J/kg/K") == 0);
 }
 
-/* Returns true if q has the unit `unit` or no unit. Otherwise returns false and writes the fault to what[room], as the
- * rest of a sentence that begins with the text of the value. */
-bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t room);
+/* Returns true if q has the unit `unit` or no unit. Otherwise returns false and writes the fault to message[capacity],
+ * as the rest of a sentence that begins with the text of the value. */
+bool quantity_has_unit(const struct quantity *q, enum unit unit, char *message, size_t capacity);
 
 /* Returns true if the value is finite and inside the bounds of its unit. Otherwise returns false and writes the fault
- * to what[room], as the rest of a sentence that begins with the text of the value. */
-bool quantity_bounded(real value, enum unit unit, char *what, size_t room);
+ * to message[capacity], as the rest of a sentence that begins with the text of the value. */
+bool value_is_in_unit_bounds(real value, enum unit unit, char *message, size_t capacity);
 
 /* Writes a unit for messages: `a length`, or `in m^2 s^-1` if it has no name. */
-void unit_name_text(const int twice[3], char *text, size_t room);
+void unit_describe(const int twice[3], char *text, size_t capacity);
 
 /* Writes a unit in the form in which scenes give it, such as ` m^2 s^-1`. */
-void unit_text(const int twice[3], char *text, size_t room);
+void unit_write_text(const int twice[3], char *text, size_t capacity);
 
 /* ---- expressions (scene_expression.c) ---------------------------------------------------------------------------- */
 
@@ -183,11 +183,13 @@ enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
 
 /* Reads an expression with the unit of key k, such as `12 MPa*exp(-(t/3us)^2)`; a number is one, too. of: sum of
  * EXPRESS_*. Release e with expression_free. REFUSED in one line with the position of the fault in the text. */
-status read_expression(struct reader *r, const struct key *k, const struct node *n, unsigned of, struct expression *e);
+status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of,
+                       struct expression *e);
 
 /* Evaluates an expression without x, y, z and t and stores its value and unit in *quantity. On failure returns false
- * and writes the fault to what[room], as the rest of a sentence that begins with `text`. */
-bool quantity_of_text(struct reader *r, const char *text, struct quantity *quantity, char *what, size_t room);
+ * and writes the fault to message[capacity], as the rest of a sentence that begins with `text`. */
+bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity *quantity, char *message,
+                            size_t capacity);
 
 /* Returns true if messages about this text should treat it as an expression, not as a number. */
 bool looks_like_expression(const struct reader *r, const char *text);
@@ -196,29 +198,29 @@ bool looks_like_expression(const struct reader *r, const char *text);
 
 /* Evaluates the variables of a scene. REFUSED for an invalid variable, and for one that an override sets but nothing
  * uses. */
-status read_variables(struct reader *r, const struct node *root);
+status read_variables(struct reader *r, const struct yaml_node *root);
 
-/* Returns the value of the variable `name`. Returns NULL, and writes the fault to what[room], if there is none of this
- * name or it cannot be evaluated. */
-const struct quantity *variable_value(struct reader *r, const char *name, char *what, size_t room);
+/* Returns the value of the variable `name`. Returns NULL, and writes the fault to message[capacity], if there is none
+ * of this name or it cannot be evaluated. */
+const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity);
 
 /* Reads a number of a scene into *value [SI]: a number with unit as number_read, or an expression of variables. unit:
- * expected unit; infinite: true if inf is allowed. On failure returns false and writes the fault to what[room], as the
- * rest of a sentence that begins with `text`. */
-bool number_of_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *what,
-                    size_t room);
+ * expected unit; infinite: true if inf is allowed. On failure returns false and writes the fault to message[capacity],
+ * as the rest of a sentence that begins with `text`. */
+bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *message,
+                          size_t capacity);
 
-/* Replaces the message what[room] about a number of the key k if `text` is a length and the key counts spacings: by one
- * that contains the length in spacings. The spacing of the scene must have been read. */
-void length_in_spacings_advise(struct reader *r, const struct key *k, const char *text, char *what, size_t room);
+/* Replaces the message message[capacity] about a number of the key k if `text` is a length and the key counts spacings:
+ * by one that contains the length in spacings. The spacing of the scene must have been read. */
+void advise_length_in_spacings(struct reader *r, const struct key *k, const char *text, char *message, size_t capacity);
 
 /* Returns the unit that the name of an unknown unit means, as text for a message: `us?` for usec; NULL for other names
  * (scene_unit_words.c). */
-const char *unit_word_meant(const char *text);
+const char *unit_meant_by_word(const char *text);
 
 /* Returns the meaning of a word that is reserved in expressions and cannot name a variable, such as "a unit", for
  * messages; NULL for other words. */
-const char *reserved_word(const char *name);
+const char *reserved_word_meaning(const char *name);
 
 /* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
 
@@ -272,14 +274,14 @@ extern const int keys_count;
 /* Returns the last part of the path of a key. */
 const char *key_leaf(const struct key *k);
 
-/* Writes the meaning, type, range and default of a key to text[room] (scene_help.c). */
-void key_description(const struct key *k, char *text, size_t room);
+/* Writes the meaning, type, range and default of a key to text[capacity] (scene_help.c). */
+void key_description(const struct key *k, char *text, size_t capacity);
 
 /* Returns true if k is the key `path` or below it; every key is below "". */
 bool key_is_below(const struct key *k, const char *path);
 
-/* Writes type, SI unit, range or words, and default of k to text[room], in one line. */
-void key_facts(const struct key *k, char *text, size_t room);
+/* Writes type, SI unit, range or words, and default of k to text[capacity], in one line. */
+void key_describe_type(const struct key *k, char *text, size_t capacity);
 
 /* Returns true if k is directly below `group` ("" for the top). */
 bool key_is_directly_below(const struct key *k, const char *group);
@@ -292,13 +294,13 @@ const struct key *key_nearest(const char *group, const char *leaf);
 
 /* Returns a key whose last part is `leaf`, in any group, one at the left margin if there is one; NULL if there is none.
  * keys_of_name: receives the number of keys with this last part. */
-const struct key *key_elsewhere(const char *leaf, int *keys_of_name);
+const struct key *key_find_in_any_group(const char *leaf, int *keys_of_name);
 
 /* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
 
 /* Writes advice for a word of another program that is no key of `group` ("" for the top): the equivalent key, or a note
  * that Cleave has none. Returns false, and writes nothing, for unknown words. */
-bool foreign_word_advice(const char *word, const char *group, char *text, size_t room);
+bool foreign_word_advice(const char *word, const char *group, char *text, size_t capacity);
 
 /* Returns advice about a wrong value of the key at `path`, or NULL. */
 const char *foreign_value_advice(const char *path, const char *value);
@@ -310,96 +312,99 @@ const char *foreign_word_keys(const char *word);
 /* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
 
 /* Returns REFUSED with a message that begins with `file:line:column: key: ` or `-s key=value: key: ` of a node. */
-status fault(const struct reader *r, const struct node *at, const char *format, ...)
+status fault(const struct reader *r, const struct yaml_node *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Returns REFUSED with a message that begins with `file:line:column: `, or with the text of the override. origin: file
- * or override as in struct node; line, column: location in the file. */
-status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
+ * or override as in struct yaml_node; line, column: location in the file. */
+status fault_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* Writes a place to text[room]: file, line and column, or the override that gives it. origin: as in struct node. */
-void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room);
+/* Writes a place to text[capacity]: file, line and column, or the override that gives it. origin: as in struct
+ * yaml_node.
+ */
+void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity);
 
 /* Stores the places of the keys of a scene, r->scene, in two levels below `root`; scene_locate reads them. */
-void scene_places_make(const struct reader *r, const struct node *root);
+void scene_places_make(const struct reader *r, const struct yaml_node *root);
 
-/* Writes the beginning of a message of fault to text[room], for messages that follow after the reading. */
-void fault_place(const struct reader *r, const struct node *at, char *text, size_t room);
+/* Writes the beginning of a message of fault to text[capacity], for messages that follow after the reading. */
+void fault_write_location(const struct reader *r, const struct yaml_node *at, char *text, size_t capacity);
 
 /* Returns REFUSED with the message that the required key k is missing in `map`. */
-status fault_missing(struct reader *r, const struct node *map, const struct key *k);
+status fault_key_missing(struct reader *r, const struct yaml_node *map, const struct key *k);
 
 /* Returns REFUSED with the message that the keys a and b exclude each other. The message gives the location of the key
  * that was set last: by an override, else in the scene file. */
-status fault_both(const struct reader *r, const struct node *a, const struct node *b);
+status fault_keys_exclude(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b);
 
 /* Returns the value of a node as one short, printable line for messages, in the arena or static. */
-const char *node_shown(struct reader *r, const struct node *n);
+const char *node_text(struct reader *r, const struct yaml_node *n);
 
 /* Returns a text as one short, printable line for messages, in the arena. */
-const char *shown_text(struct reader *r, const char *text);
+const char *text_for_message(struct reader *r, const char *text);
 
 /* Returns the words a|b|c of a choice as `a, b or c`, in the arena. */
-const char *word_list(struct reader *r, const char *words);
+const char *words_for_message(struct reader *r, const char *words);
 
 /* REFUSED for keys of `map` that are unknown in `group` or given twice. */
-status check_keys(struct reader *r, const struct node *map, const char *group);
+status check_keys(struct reader *r, const struct yaml_node *map, const char *group);
 
 /* REFUSED if n is not of this kind; `what` completes the sentence "... is not ". */
-status expect_kind(struct reader *r, const struct node *n, enum node_kind kind, const char *what);
+status expect_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what);
 
 /* Reads all keys of a group that the table alone can read into the struct `base`. `map` NULL: defaults only; missing
  * keys are reported at `where`. */
-status read_group(struct reader *r, const struct node *where, const struct node *map, const char *group, void *base);
+status read_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map, const char *group,
+                  void *base);
 
 /* Reads the value n of key k by the table into `base`, the struct of its group. REFUSED for an invalid value. */
-status read_key(struct reader *r, const struct key *k, const struct node *n, void *base);
+status read_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base);
 
 /* Reads a number in the unit and range of key k. REFUSED for an invalid value. */
-status read_number(struct reader *r, const struct key *k, const struct node *n, real *value);
+status read_number(struct reader *r, const struct key *k, const struct yaml_node *n, real *value);
 
 /* Reads a point or vector [r->dim] in the unit and range of key k. REFUSED for an invalid value. */
-status read_point(struct reader *r, const struct key *k, const struct node *n, real *point);
+status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point);
 
 /* Returns the space of the points that are being read, in words for messages. */
-const char *space_shown(const struct reader *r);
+const char *space_for_message(const struct reader *r);
 
 /* REFUSED if n is not a list with as many items as the range of k allows. */
-status expect_list(struct reader *r, const struct key *k, const struct node *n);
+status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Reads a file name: searches the folder of the scene, then the current folder, and computes the checksum of the
  * contents. The caller releases *path with memory_free. what: kind of file, for messages. Copies the name without
  * opening the file if r->files is false (scene_files.c). */
-status read_path(struct reader *r, const struct node *n, const char *what, char **path, uint64_t *contents);
+status read_path(struct reader *r, const struct yaml_node *n, const char *what, char **path, uint64_t *contents);
 
 /* ---- parts (scene_solids.c, scene_parts.c, scene_loads.c) -------------------------------------------------------- */
 
 /* Reads a region: a list of solids, with the regions to which they refer by name. */
-status read_region(struct reader *r, const struct node *n, struct region *region);
+status read_region(struct reader *r, const struct yaml_node *n, struct region *region);
 
 /* Reads the named regions of the scene. */
-status read_regions(struct reader *r, const struct node *root);
+status read_regions(struct reader *r, const struct yaml_node *root);
 
 /* Reads a solid from an STL file (scene_shapes.c). */
-status read_stl(struct reader *r, const struct node *n, struct solid *s);
+status read_stl(struct reader *r, const struct yaml_node *n, struct solid *s);
 
 /* Reads a solid from a mesh file (scene_shapes.c). */
-status read_mesh(struct reader *r, const struct node *n, struct solid *s);
+status read_mesh(struct reader *r, const struct yaml_node *n, struct solid *s);
 
 /* Reads a solid from the grey values of an image (scene_shapes.c). */
-status read_image(struct reader *r, const struct node *n, struct solid *s);
+status read_image(struct reader *r, const struct yaml_node *n, struct solid *s);
 
 /* Adds a part to a body for each material in `materials` of the images in its shape (scene_shapes.c). */
-status read_grey_parts(struct reader *r, const struct node *shape, struct scene_body *b);
+status read_grey_parts(struct reader *r, const struct yaml_node *shape, struct scene_body *b);
 
 /* Returns true for a key that moves, turns or repeats a solid (scene_motions.c). */
-bool is_motion(const struct node *n);
+bool is_motion(const struct yaml_node *n);
 
 /* Moves, turns and repeats a solid by the keys of `n` (scene_motions.c). */
-status read_motions(struct reader *r, const struct node *n, struct solid *s);
+status read_motions(struct reader *r, const struct yaml_node *n, struct solid *s);
 
-status read_materials(struct reader *r, const struct node *root);
+status read_materials(struct reader *r, const struct yaml_node *root);
 
 /* Words of enum flow in `hardening`; NULL for laws that have a key of their own (scene_laws.c). */
 extern const char *const flow_words[FLOW_LAWS];
@@ -407,63 +412,63 @@ extern const char *const flow_words[FLOW_LAWS];
 /* Reads the flow law, kinematic hardening and heating of a material; n: its node. Call it after the keys of linear
  * hardening are read (scene_laws.c). REFUSED for invalid constants, contradictions, and where the method or solver has
  * no laws. */
-status read_law(struct reader *r, const struct node *n, struct material *m);
+status read_law(struct reader *r, const struct yaml_node *n, struct material *m);
 
-status read_bodies(struct reader *r, const struct node *root);
+status read_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Reads the parts of a body from the list of key k; list NULL: not given (scene_body_parts.c). */
-status read_body_parts(struct reader *r, const struct node *list, const struct key *k, struct scene_body *b);
+status read_body_parts(struct reader *r, const struct yaml_node *list, const struct key *k, struct scene_body *b);
 
-status read_cracks(struct reader *r, const struct node *root);
-status read_growths(struct reader *r, const struct node *root);
-status read_initials(struct reader *r, const struct node *root);
+status read_cracks(struct reader *r, const struct yaml_node *root);
+status read_growths(struct reader *r, const struct yaml_node *root);
+status read_initials(struct reader *r, const struct yaml_node *root);
 
 /* Reads the function of time of a boundary; n NULL or `constant`: the function is 1 (scene_time.c). */
-status read_time(struct reader *r, const struct node *n, struct boundary *b);
+status read_time(struct reader *r, const struct yaml_node *n, struct boundary *b);
 
 /* Reads the axis of a rotation from the mapping `n`: a unit vector in space, z in the plane (scene_loads.c). */
-status read_axis_of(struct reader *r, const struct node *n, const char *group, real *axis);
+status read_axis_of(struct reader *r, const struct yaml_node *n, const char *group, real *axis);
 
 /* Reads the components of a vector: numbers to value[dim], or formulas of x, y, z and the arguments in `of` to
  * formula[dim]. The value of a component with a formula is 1 (scene_loads.c). */
-status read_formulas(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
+status read_formulas(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
                      struct expression *formula);
 
-status read_boundaries(struct reader *r, const struct node *root);
-status read_probes(struct reader *r, const struct node *root);
-status read_frame_regions(struct reader *r, const struct node *root);
+status read_boundaries(struct reader *r, const struct yaml_node *root);
+status read_probes(struct reader *r, const struct yaml_node *root);
+status read_frame_regions(struct reader *r, const struct yaml_node *root);
 /* Sets defaults that depend on several keys, and checks conditions between keys outside of lists (scene_check.c).
  * REFUSED for keys that contradict each other. */
-status check_scene(struct reader *r, const struct node *root);
+status check_scene(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of the safety factor on the critical time step, which depends on whether bonds can break. Call it
  * after the materials are read. */
-void resolve_safety(struct reader *r, const struct node *root);
+void resolve_safety(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of contact.between. REFUSED for contact with a static solver, and for friction without contact. */
-status resolve_contact(struct reader *r, const struct node *root);
+status resolve_contact(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED if the bodies hold more particles than 32-bit indices can count. Call it after the bodies are read. */
-status check_particle_count(struct reader *r, const struct node *root);
+status check_particle_count(struct reader *r, const struct yaml_node *root);
 
 /* Reads the interfaces and joins their bodies (scene_interfaces.c). */
-status read_interfaces(struct reader *r, const struct node *root);
+status read_interfaces(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED for a boundary on one of several joined bodies (scene_interfaces.c). */
-status check_joined(struct reader *r, const struct node *root);
+status check_joined(struct reader *r, const struct yaml_node *root);
 
 /* Returns the critical stretch that follows from the energy release rate of a material, for the model, horizon and
  * space of the scene [1]. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
 /* REFUSED for friction with a contact law or beside boundaries that do not support it. */
-status check_friction(struct reader *r, const struct node *root);
+status check_friction(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED for absorbing boundaries in a static problem. */
-status check_absorbing(struct reader *r, const struct node *root);
+status check_absorbing(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED for loads that static solvers or irregular lattices do not support. */
-status check_supported_loads(struct reader *r, const struct node *root);
+status check_supported_loads(struct reader *r, const struct yaml_node *root);
 
 /* Decides the frame of bodies for which the scene leaves it at `auto`: the current frame if the body cannot use the
  * reference frame, with the reason in body.frame_reason; else `auto` remains, and the choice is made when the particles
@@ -472,16 +477,16 @@ void resolve_frames(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and determines the default correction of bonds near faces again, which
  * depends on that. Call it after the bodies are read. */
-void resolve_lists(struct reader *r, const struct node *root);
+void resolve_lists(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED for keys that the static solvers do not support. Call it after materials and probes are read. */
-status check_solver(struct reader *r, const struct node *root);
+status check_solver(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED for keys that load steps do not support (scene_steps.c). */
-status check_load_steps(struct reader *r, const struct node *root);
+status check_load_steps(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED for keys of load steps with another solver, unless they all have their defaults (scene_steps.c). */
-status check_steps_given(struct reader *r, const struct node *root);
+status check_steps_given(struct reader *r, const struct yaml_node *root);
 
 /* Words of enum space. */
 extern const char *const space_names[];
@@ -490,6 +495,6 @@ extern const char *const space_names[];
 extern const char *const probe_names[PROBES];
 
 /* Returns the scene as run, in YAML (scene_echo.c); the caller releases it with memory_free. NULL: out of memory. */
-char *scene_echo(const struct scene *s);
+char *scene_to_yaml(const struct scene *s);
 
 #endif

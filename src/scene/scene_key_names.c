@@ -36,7 +36,7 @@ const struct key *key_nearest(const char *group, const char *leaf)
     return nearest;
 }
 
-const struct key *key_elsewhere(const char *leaf, int *keys_of_name)
+const struct key *key_find_in_any_group(const char *leaf, int *keys_of_name)
 {
     const struct key *first = NULL;
     *keys_of_name = 0;

@@ -12,9 +12,9 @@ const char *const flow_words[FLOW_LAWS] = {
 
 /* Returns REFUSED unless the curve is that of a stable material that the return mapping can solve without search: from
  * strain 0 on, strains ascend, stresses do not fall, slopes do not grow. n: list of the points. */
-static status check_curve(struct reader *r, const struct node *n, const struct flow_curve *c)
+static status check_curve(struct reader *r, const struct yaml_node *n, const struct flow_curve *c)
 {
-    const struct node *point = n->first;
+    const struct yaml_node *point = n->first;
     real before = INFINITY;
     for (int k = 0; k < c->points; k++, point = point->next) {
         if (k == 0 && c->strain[0] != 0)
@@ -41,7 +41,7 @@ static status check_curve(struct reader *r, const struct node *n, const struct f
 }
 
 /* Reads a hardening curve, a list of pairs of plastic strain and stress. */
-static status read_curve(struct reader *r, const struct node *n, struct flow_curve *c)
+static status read_curve(struct reader *r, const struct yaml_node *n, struct flow_curve *c)
 {
     const struct key strain = {
         .path = "material.hardening.table", .type = KEY_REAL, .unit = UNIT_NONE, .range = {0, 1000, false, true}};
@@ -51,10 +51,10 @@ static status read_curve(struct reader *r, const struct node *n, struct flow_cur
                                .range = {0, INFINITY, true, true}};
     TRY(expect_kind(r, n, NODE_LIST, "a list of points [plastic strain, stress]"));
     if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; 2 to %d are expected", n->n, FLOW_POINTS);
-    for (const struct node *point = n->first; point; point = point->next, c->points++) {
+    for (const struct yaml_node *point = n->first; point; point = point->next, c->points++) {
         if (point->kind != NODE_LIST || point->n != 2)
             return fault(r, point, "%s is no point of a curve; [plastic strain, stress] is expected",
-                         node_shown(r, point));
+                         node_text(r, point));
         TRY(read_number(r, &strain, point->first, &c->strain[c->points]));
         TRY(read_number(r, &stress, point->first->next, &c->stress[c->points]));
     }
@@ -63,18 +63,19 @@ static status read_curve(struct reader *r, const struct node *n, struct flow_cur
 
 /* Reads the flow law in `hardening`. REFUSED for none or several, and beside keys of linear hardening. material: its
  * parent node. */
-static status read_hardening_law(struct reader *r, const struct node *material, const struct node *n, struct law *law)
+static status read_hardening_law(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
+                                 struct law *law)
 {
     char group[64];
-    const struct node *given = NULL, *modulus = node_find(material, "yield_hardening");
+    const struct yaml_node *given = NULL, *modulus = yaml_node_find(material, "yield_hardening");
     TRY(read_group(r, n, n, "material.hardening", law));
     for (int flow = 0; flow < FLOW_LAWS; flow++) {
-        const struct node *one = flow_words[flow] ? node_find(n, flow_words[flow]) : NULL;
-        if (one && given) return fault_both(r, given, one);
+        const struct yaml_node *one = flow_words[flow] ? yaml_node_find(n, flow_words[flow]) : NULL;
+        if (one && given) return fault_keys_exclude(r, given, one);
         if (one) given = one, law->flow = flow;
     }
     if (!given) return fault(r, n, "has no law; linear, voce, power or table is expected");
-    if (modulus) return fault_both(r, modulus, n);
+    if (modulus) return fault_keys_exclude(r, modulus, n);
     law->given = true;
     if (law->flow == FLOW_TABLE) return read_curve(r, given, &law->table);
     snprintf(group, sizeof group, "material.hardening.%s", flow_words[law->flow]);
@@ -82,21 +83,24 @@ static status read_hardening_law(struct reader *r, const struct node *material, 
 }
 
 /* Reads Johnson and Cook's law. */
-static status read_johnson_cook(struct reader *r, const struct node *material, const struct node *n, struct law *law)
+static status read_johnson_cook(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
+                                struct law *law)
 {
-    const struct node *hardening = node_find(material, "hardening"), *modulus = node_find(material, "yield_hardening");
-    if (hardening || modulus) return fault_both(r, hardening ? hardening : modulus, n);
+    const struct yaml_node *hardening = yaml_node_find(material, "hardening"),
+                           *modulus = yaml_node_find(material, "yield_hardening");
+    if (hardening || modulus) return fault_keys_exclude(r, hardening ? hardening : modulus, n);
     TRY(read_group(r, n, n, "material.johnson_cook", law));
     law->given = true, law->flow = FLOW_JOHNSON_COOK;
     if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
-    return fault(r, node_find(n, "T_melt"), "%g K is not above T_room, %g K; the melting temperature is expected",
+    return fault(r, yaml_node_find(n, "T_melt"), "%g K is not above T_room, %g K; the melting temperature is expected",
                  law->johnson_cook.T_melt, law->johnson_cook.T_room);
 }
 
 /* Reads what heats the material. REFUSED without a law that depends on temperature. */
-static status read_heat(struct reader *r, const struct node *material, struct law *law)
+static status read_heat(struct reader *r, const struct yaml_node *material, struct law *law)
 {
-    const struct node *heat = node_find(material, "specific_heat"), *share = node_find(material, "taylor_quinney");
+    const struct yaml_node *heat = yaml_node_find(material, "specific_heat"),
+                           *share = yaml_node_find(material, "taylor_quinney");
     if (!heat && share) return fault(r, share, "has no meaning without specific_heat");
     if (!heat) return OK;
     if (!law->given || law->flow != FLOW_JOHNSON_COOK)
@@ -106,21 +110,22 @@ static status read_heat(struct reader *r, const struct node *material, struct la
 }
 
 /* Returns REFUSED for a yield stress or tangent that the law replaces, or lacks. */
-static status check_first_yield(struct reader *r, const struct node *material, const struct node *law_node,
+static status check_first_yield(struct reader *r, const struct yaml_node *material, const struct yaml_node *law_node,
                                 const struct material *m)
 {
-    const struct node *yield = node_find(material, "yield_stress"), *tangent = node_find(material, "yield_tangent");
+    const struct yaml_node *yield = yaml_node_find(material, "yield_stress"),
+                           *tangent = yaml_node_find(material, "yield_tangent");
     const bool own = m->law.flow == FLOW_TABLE || m->law.flow == FLOW_JOHNSON_COOK;
-    const bool linear = m->law.flow == FLOW_LINEAR && !node_find(material, "hardening");
-    if (own && isfinite(m->yield_stress)) return fault_both(r, yield, law_node);
+    const bool linear = m->law.flow == FLOW_LINEAR && !yaml_node_find(material, "hardening");
+    if (own && isfinite(m->yield_stress)) return fault_keys_exclude(r, yield, law_node);
     if (!own && !isfinite(m->yield_stress))
         return fault(r, law_node, "needs the yield stress at no plastic strain; yield_stress is expected beside it");
-    if (!linear && m->yield_tangent > 0) return fault_both(r, tangent, law_node);
+    if (!linear && m->yield_tangent > 0) return fault_keys_exclude(r, tangent, law_node);
     return OK;
 }
 
 /* Returns REFUSED where the method of the scene has no laws. */
-static status check_law_place(struct reader *r, const struct node *law_node)
+static status check_law_place(struct reader *r, const struct yaml_node *law_node)
 {
     if (r->scene->method == METHOD_MPM) return OK;
     return fault(r, law_node,
@@ -128,11 +133,12 @@ static status check_law_place(struct reader *r, const struct node *law_node)
                  "bonds have");
 }
 
-status read_law(struct reader *r, const struct node *n, struct material *m)
+status read_law(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct law *law = &m->law;
-    const struct node *hardening = node_find(n, "hardening"), *kinematic = node_find(n, "kinematic"),
-                      *johnson_cook = node_find(n, "johnson_cook"), *first = hardening ? hardening : johnson_cook;
+    const struct yaml_node *hardening = yaml_node_find(n, "hardening"), *kinematic = yaml_node_find(n, "kinematic"),
+                           *johnson_cook = yaml_node_find(n, "johnson_cook"),
+                           *first = hardening ? hardening : johnson_cook;
     if (hardening) TRY(read_hardening_law(r, n, hardening, law));
     if (johnson_cook) TRY(read_johnson_cook(r, n, johnson_cook, law));
     if (kinematic) {

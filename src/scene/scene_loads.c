@@ -10,31 +10,31 @@
 /* ---- profiles in space ------------------------------------------------------------------------------------------- */
 
 /* Reads the profile in space of a body force; n NULL or `uniform`: 1. */
-static status read_profile(struct reader *r, const struct node *n, struct profile *f)
+static status read_profile(struct reader *r, const struct yaml_node *n, struct profile *f)
 {
     f->direction[0] = 1;
     if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "uniform") == 0)) return OK;
     if (n->kind != NODE_MAP)
         return fault(r, n, "%s is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected",
-                     node_shown(r, n));
+                     node_text(r, n));
     TRY(check_keys(r, n, "boundary.profile"));
     if (n->n != 1) return fault(r, n, "has %d keys; sine is expected", n->n);
     f->kind = PROFILE_SINE;
     TRY(read_group(r, n->first, n->first, "boundary.profile.sine", f));
     real length2 = dot(f->direction, f->direction, r->dim);
     if (length2 > 0 && isfinite(length2)) return OK;
-    return fault(r, node_find(n->first, "direction"),
+    return fault(r, yaml_node_find(n->first, "direction"),
                  "its length is 0 or not finite; the direction in which the force varies is expected");
 }
 
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
 
 /* Reads the name of an axis, x, y or z, as its number. REFUSED for axes that the space does not have. */
-static status read_axis(struct reader *r, const struct node *n, const char *text, int *axis)
+static status read_axis(struct reader *r, const struct yaml_node *n, const char *text, int *axis)
 {
     *axis = word_index("x|y|z", text);
     if (n->kind != NODE_SCALAR || *axis < 0 || *axis >= r->dim)
-        return fault(r, n, "%s is no axis of space %s; %s is expected", node_shown(r, n), space_names[r->scene->space],
+        return fault(r, n, "%s is no axis of space %s; %s is expected", node_text(r, n), space_names[r->scene->space],
                      r->dim == 1   ? "x"
                      : r->dim == 2 ? "x or y"
                                    : "x, y or z");
@@ -42,7 +42,7 @@ static status read_axis(struct reader *r, const struct node *n, const char *text
 }
 
 /* Reads the constrained components, `all` or a list of axes, into b->components. */
-static status read_fixed(struct reader *r, const struct node *n, struct boundary *b)
+static status read_fixed(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     int axis;
     if (n->kind == NODE_SCALAR && strcmp(n->text, "all") == 0) {
@@ -50,11 +50,11 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
         return OK;
     }
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is no list of axes; all or a list such as [x, y] is expected", node_shown(r, n));
-    for (const struct node *c = n->first; c; c = c->next) {
+        return fault(r, n, "%s is no list of axes; all or a list such as [x, y] is expected", node_text(r, n));
+    for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(read_axis(r, c, c->text, &axis));
         if (b->components >> axis & 1)
-            return fault(r, c, "%s is given twice; each axis is expected once", node_shown(r, c));
+            return fault(r, c, "%s is given twice; each axis is expected once", node_text(r, c));
         b->components |= (uint8_t)(1 << axis);
     }
     return OK;
@@ -62,7 +62,7 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
 
 /* Reads one component of a vector as a number into *value, or as a formula of position and time into *f, with *value
  * = 1. of: the variables allowed in the formula (EXPRESS_*). */
-static status read_formula(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
+static status read_formula(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
                            struct expression *f)
 {
     if (n->kind != NODE_SCALAR || !looks_like_expression(r, n->text)) return read_number(r, k, n, value);
@@ -73,33 +73,35 @@ static status read_formula(struct reader *r, const struct key *k, const struct n
     return read_number(r, k, n, value);
 }
 
-status read_formulas(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
+status read_formulas(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
                      struct expression *formula)
 {
     int d = 0;
     if (n->kind == NODE_SCALAR && r->dim == 1) return read_formula(r, k, n, of, value, formula);
     if (n->kind != NODE_LIST || n->n != r->dim) return read_point(r, k, n, value);
-    for (const struct node *c = n->first; c; c = c->next, d++) TRY(read_formula(r, k, c, of, &value[d], &formula[d]));
+    for (const struct yaml_node *c = n->first; c; c = c->next, d++)
+        TRY(read_formula(r, k, c, of, &value[d], &formula[d]));
     return OK;
 }
 
 /* Reads component d of the vector that a boundary prescribes. */
-static status read_load_value(struct reader *r, const struct key *k, const struct node *n, struct boundary *b, int d)
+static status read_load_value(struct reader *r, const struct key *k, const struct yaml_node *n, struct boundary *b,
+                              int d)
 {
     return read_formula(r, k, n, EXPRESS_SPACE | EXPRESS_TIME, &b->value[d], &b->formula[d]);
 }
 
 /* Reads a pressure: one value, along all components. */
-static status read_pressure(struct reader *r, const struct node *n, struct boundary *b)
+static status read_pressure(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     TRY(read_load_value(r, key_find("boundary", "pressure"), n, b, 0));
     for (int d = 1; d < r->dim; d++) b->value[d] = b->value[0];
-    b->section = scene_section(r->scene);
+    b->section = scene_section_factor(r->scene);
     return OK;
 }
 
 /* Reads component d of a prescribed velocity or displacement; `free` leaves the component unconstrained. */
-static status read_component(struct reader *r, const struct node *n, struct boundary *b, int d)
+static status read_component(struct reader *r, const struct yaml_node *n, struct boundary *b, int d)
 {
     if (n->kind == NODE_SCALAR && strcmp(n->text, "free") == 0) return OK;
     b->components |= (uint8_t)(1 << d);
@@ -108,17 +110,17 @@ static status read_component(struct reader *r, const struct node *n, struct boun
 
 /* Reads prescribed velocities or displacements, one number or `free` per component, into b->value [m/s, m] and
  * b->components. */
-static status read_velocity(struct reader *r, const struct node *n, struct boundary *b)
+static status read_velocity(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     const char *const examples[2][DIM_MAX] = {{"[22 m/s]", "[22 m/s, free]", "[22 m/s, free, free]"},
                                               {"[0.1 mm]", "[0.1 mm, free]", "[0.1 mm, free, free]"}};
     int d = 0;
     if (n->kind == NODE_LIST && n->n == r->dim) {
-        for (const struct node *c = n->first; c; c = c->next) TRY(read_component(r, c, b, d++));
+        for (const struct yaml_node *c = n->first; c; c = c->next) TRY(read_component(r, c, b, d++));
     } else if (n->kind == NODE_SCALAR && r->dim == 1) {
         TRY(read_component(r, n, b, 0));
     } else {
-        return fault(r, n, "%s does not fit space %s; a list of %d is expected, as %s", node_shown(r, n),
+        return fault(r, n, "%s does not fit space %s; a list of %d is expected, as %s", node_text(r, n),
                      space_names[r->scene->space], r->dim, examples[b->displaces][r->dim - 1]);
     }
     return b->components ? OK
@@ -126,19 +128,19 @@ static status read_velocity(struct reader *r, const struct node *n, struct bound
                                  b->displaces ? "displacement" : "velocity");
 }
 
-status read_axis_of(struct reader *r, const struct node *n, const char *group, real *axis)
+status read_axis_of(struct reader *r, const struct yaml_node *n, const char *group, real *axis)
 {
     const struct key *k = key_find(group, "axis");
-    const struct node *list = node_find(n, "axis");
+    const struct yaml_node *list = yaml_node_find(n, "axis");
     int d = 0;
     if (r->dim == 1) return fault(r, n, "space line does not turn; a plane space or solid is expected");
     axis[2] = 1;
     if (!list && r->dim == 2) return OK;
-    if (!list) return fault_missing(r, n, k);
+    if (!list) return fault_key_missing(r, n, k);
     if (r->dim == 2) return fault(r, list, "is z in a plane space; leave it out");
     if (list->kind != NODE_LIST || list->n != DIM_MAX)
-        return fault(r, list, "%s is no axis; three numbers such as [0, 0, 1] are expected", node_shown(r, list));
-    for (const struct node *c = list->first; c; c = c->next) {
+        return fault(r, list, "%s is no axis; three numbers such as [0, 0, 1] are expected", node_text(r, list));
+    for (const struct yaml_node *c = list->first; c; c = c->next) {
         struct key plain = *k;
         plain.unit = UNIT_NONE;
         TRY(read_number(r, &plain, c, &axis[d++]));
@@ -148,7 +150,7 @@ status read_axis_of(struct reader *r, const struct node *n, const char *group, r
 }
 
 /* Reads the prescribed rotation of a boundary. */
-static status read_rotation(struct reader *r, const struct node *n, struct boundary *b)
+static status read_rotation(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     TRY(read_group(r, n, n, "boundary.rotation", b));
     TRY(read_axis_of(r, n, "boundary.rotation", b->axis_of));
@@ -159,54 +161,54 @@ static status read_rotation(struct reader *r, const struct node *n, struct bound
 }
 
 /* Reads a mirror. REFUSED beside region, body or time, which have no meaning with it. */
-static status read_mirror(struct reader *r, const struct node *map, const struct node *n, struct boundary *b)
+static status read_mirror(struct reader *r, const struct yaml_node *map, const struct yaml_node *n, struct boundary *b)
 {
     const char *const senseless[] = {"region", "body", "time"};
     int axis;
     for (size_t k = 0; k < COUNT_OF(senseless); k++) {
-        const struct node *other = node_find(map, senseless[k]);
+        const struct yaml_node *other = yaml_node_find(map, senseless[k]);
         if (other) return fault(r, other, "has no meaning with mirror, which always acts on every body; leave it out");
     }
     TRY(read_group(r, n, n, "boundary.mirror", b));
-    const struct node *at = node_find(n, "axis");
+    const struct yaml_node *at = yaml_node_find(n, "axis");
     return read_axis(r, at, at->text, &axis);
 }
 
 /* Reads an absorbing face. REFUSED beside time, and with another value than true. */
-static status read_absorbing(struct reader *r, const struct node *map, const struct node *n)
+static status read_absorbing(struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
 {
-    const struct node *time = node_find(map, "time");
+    const struct yaml_node *time = yaml_node_find(map, "time");
     if (time) return fault(r, time, "has no meaning with absorbing, which acts at all times; leave it out");
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
     return fault(r, n, "%s is given, but absorbing can only be true; write absorbing: true, or leave the boundary out",
-                 node_shown(r, n));
+                 node_text(r, n));
 }
 
 /* Reads the face of a boundary into b->face (axis) and b->side (+1 or -1). */
-static status read_face(struct reader *r, const struct node *map, struct boundary *b)
+static status read_face(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
-    const struct node *n = node_find(map, "face");
+    const struct yaml_node *n = yaml_node_find(map, "face");
     const struct key *k = key_find("boundary", "face");
-    if (!n) return fault_missing(r, map, k);
+    if (!n) return fault_key_missing(r, map, k);
     int face = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
     if (face < 0 || face >= 2 * r->dim)
-        return fault(r, n, "%s is not the name of a face in space %s; %s is expected", node_shown(r, n),
+        return fault(r, n, "%s is not the name of a face in space %s; %s is expected", node_text(r, n),
                      space_names[r->scene->space],
                      r->dim == 1   ? "x+ or x-"
                      : r->dim == 2 ? "x+, x-, y+ or y-"
-                                   : word_list(r, k->words));
+                                   : words_for_message(r, k->words));
     b->face = face / 2;
     b->side = face % 2 == 0 ? 1 : -1;
-    b->section = scene_section(r->scene);
+    b->section = scene_section_factor(r->scene);
     return OK;
 }
 
 /* Reads the face and the depth of a driven layer, if they are given. */
-static status read_layer(struct reader *r, const struct node *map, struct boundary *b)
+static status read_layer(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
-    const struct node *depth = node_find(map, "depth");
+    const struct yaml_node *depth = yaml_node_find(map, "depth");
     const struct scene *s = r->scene;
-    if (!node_find(map, "face"))
+    if (!yaml_node_find(map, "face"))
         return depth ? fault(r, depth, "has no meaning without face; x+ for instance is expected") : OK;
     b->depth = (s->method == METHOD_MPM ? 1 : s->horizon) * s->spacing;
     if (depth) TRY(read_number(r, key_find("boundary", "depth"), depth, &b->depth));
@@ -215,11 +217,11 @@ static status read_layer(struct reader *r, const struct node *map, struct bounda
 
 /* Finds the entry of a boundary condition that gives its kind, such as velocity or pressure. REFUSED if there is none
  * or more than one. */
-static status kind_of_boundary(struct reader *r, const struct node *map, const struct node **kind)
+static status kind_of_boundary(struct reader *r, const struct yaml_node *map, const struct yaml_node **kind)
 {
     const char *const words = "fixed|velocity|displacement|rotation|traction|pressure|body_force|mirror|absorbing";
     *kind = NULL;
-    for (const struct node *n = map->first; n; n = n->next) {
+    for (const struct yaml_node *n = map->first; n; n = n->next) {
         if (word_index(words, n->key) < 0) continue;
         if (*kind)
             return fault(r, n,
@@ -228,11 +230,11 @@ static status kind_of_boundary(struct reader *r, const struct node *map, const s
                          (*kind)->key);
         *kind = n;
     }
-    return *kind ? OK : fault(r, map, "does nothing; %s is expected", word_list(r, words));
+    return *kind ? OK : fault(r, map, "does nothing; %s is expected", words_for_message(r, words));
 }
 
 /* Returns true if a node is a number with a unit or a formula with one, other than 0. value: its value. */
-static bool carries_unit(struct reader *r, const struct node *n, real value)
+static bool carries_unit(struct reader *r, const struct yaml_node *n, real value)
 {
     struct key plain = *key_find("boundary", "traction");
     struct expression e = {0};
@@ -245,25 +247,25 @@ static bool carries_unit(struct reader *r, const struct node *n, real value)
 
 /* Returns REFUSED if a boundary takes its function of time from a file column with a unit and also has a value with a
  * unit: only one of them can give the magnitude of the load. */
-static status check_time_unit(struct reader *r, const struct node *kind, const struct boundary *b)
+static status check_time_unit(struct reader *r, const struct yaml_node *kind, const struct boundary *b)
 {
     real most = 0;
-    bool unit = carries_unit(r, kind->kind == NODE_MAP ? node_find(kind, "rate") : kind, b->value[0]);
+    bool unit = carries_unit(r, kind->kind == NODE_MAP ? yaml_node_find(kind, "rate") : kind, b->value[0]);
     int k = 0;
     for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(b->value[d]));
-    for (const struct node *c = kind->kind == NODE_LIST ? kind->first : NULL; c && k < r->dim; c = c->next)
+    for (const struct yaml_node *c = kind->kind == NODE_LIST ? kind->first : NULL; c && k < r->dim; c = c->next)
         unit = carries_unit(r, c, b->value[k++]) || unit;
     if (!b->time_unit || (most <= 1 && !unit)) return OK;
     return fault(r, kind,
                  "%s would be multiplied by a column of the file that has a unit, too; a direction such as [0, -1], or "
                  "a column without unit, is expected",
-                 node_shown(r, kind));
+                 node_text(r, kind));
 }
 
 /* Reads the value of a boundary condition by its kind. REFUSED for keys that have no meaning with its kind. */
-static status read_kind(struct reader *r, const struct node *n, const struct node *kind, struct boundary *b)
+static status read_kind(struct reader *r, const struct yaml_node *n, const struct yaml_node *kind, struct boundary *b)
 {
-    const struct node *face = NULL, *depth = NULL, *profile = node_find(n, "profile");
+    const struct yaml_node *face = NULL, *depth = NULL, *profile = yaml_node_find(n, "profile");
     b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
               : *kind->key == 'b' ? BOUNDARY_BODY_FORCE
               : *kind->key == 'p' ? BOUNDARY_PRESSURE
@@ -273,16 +275,16 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
     if (b->kind == BOUNDARY_VELOCITY)
         TRY(read_layer(r, n, b));
     else
-        depth = node_find(n, "depth");
+        depth = yaml_node_find(n, "depth");
     if (depth) return fault(r, depth, "has no meaning without fixed, velocity, displacement or rotation; leave it out");
-    if (boundary_is_force(b) || b->kind == BOUNDARY_MIRROR) face = node_find(n, "face");
+    if (boundary_applies_force(b) || b->kind == BOUNDARY_MIRROR) face = yaml_node_find(n, "face");
     if (face && b->kind == BOUNDARY_PRESSURE)
         return fault(r, face,
                      "pressure acts on every free face of the particles in `region`: give a region in place of face, "
                      "or a traction on the face");
     if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no meaning with %s; leave it out", kind->key);
     if (b->follow && b->kind != BOUNDARY_PRESSURE)
-        return fault(r, node_find(n, "follow"), "has no meaning without pressure; leave it out");
+        return fault(r, yaml_node_find(n, "follow"), "has no meaning without pressure; leave it out");
     if (profile && b->kind != BOUNDARY_BODY_FORCE)
         return fault(r, profile, "has no meaning without body_force; leave it out");
     TRY(read_profile(r, profile, &b->profile));
@@ -300,20 +302,20 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
     return b->kind == BOUNDARY_TRACTION ? read_face(r, n, b) : OK;
 }
 
-static status read_boundary(struct reader *r, const struct node *n, struct boundary *b)
+static status read_boundary(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
-    const struct node *kind;
+    const struct yaml_node *kind;
     TRY(expect_kind(r, n, NODE_MAP, "a mapping of keys to values"));
     TRY(check_keys(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
     TRY(read_group(r, n, n, "boundary", b));
     TRY(read_kind(r, n, kind, b));
-    TRY(read_time(r, node_find(n, "time"), b));
+    TRY(read_time(r, yaml_node_find(n, "time"), b));
     return check_time_unit(r, kind, b);
 }
 
 /* Appends gravity to the boundaries as one more load. */
-static status gravity_add(struct reader *r, const struct node *n)
+static status gravity_add(struct reader *r, const struct yaml_node *n)
 {
     struct scene *s = r->scene;
     struct boundary *b = &s->boundary[s->boundaries];
@@ -324,15 +326,15 @@ static status gravity_add(struct reader *r, const struct node *n)
             return fault(r, n, "a boundary has this name; another one is expected there");
     *b = (struct boundary){.name = "gravity", .kind = BOUNDARY_BODY_FORCE, .body = -1, .by_mass = true};
     memcpy(b->value, s->gravity, sizeof b->value);
-    fault_place(r, n, b->place, sizeof b->place);
+    fault_write_location(r, n, b->place, sizeof b->place);
     s->boundaries++;
     return OK;
 }
 
-status read_boundaries(struct reader *r, const struct node *root)
+status read_boundaries(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
+    const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
     const bool falls = dot(s->gravity, s->gravity, s->dim) > 0;
     if (list) TRY(expect_list(r, key_find("", "boundary"), list));
     s->boundary = NEW("boundary conditions", (list ? list->n : 0) + falls, struct boundary);
@@ -340,14 +342,14 @@ status read_boundaries(struct reader *r, const struct node *root)
         struct boundary *b = &s->boundary[k];
         s->boundaries++; /* released with the scene if the rest is refused */
         b->body = -1, b->end = s->duration;
-        fault_place(r, n, b->place, sizeof b->place);
+        fault_write_location(r, n, b->place, sizeof b->place);
         snprintf(b->name, sizeof b->name, "boundary%d", k);
         TRY(read_boundary(r, n, b));
         for (int j = 0; j < k; j++)
             if (strcmp(s->boundary[j].name, b->name) == 0)
                 return fault(r, n, "%s is the name of another boundary; every one has its own", b->name);
     }
-    return falls ? gravity_add(r, node_find(root, "gravity")) : OK;
+    return falls ? gravity_add(r, yaml_node_find(root, "gravity")) : OK;
 }
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
@@ -356,9 +358,10 @@ const char *const probe_names[PROBES] = {"tip",    "break",    "reaction", "patc
                                          "energy", "momentum", "pulse",    "exact", "sif",   "growth", "rigid"};
 
 /* Finds the kind of a probe and the mapping of its keys, NULL if there are none: `tip`, `tip:` or `tip: {at: [..]}`. */
-static status kind_of_probe(struct reader *r, const struct node *n, enum probe_kind *kind, const struct node **map)
+static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum probe_kind *kind,
+                            const struct yaml_node **map)
 {
-    struct node word = *n, list = {.kind = NODE_MAP, .n = 1, .first = &word};
+    struct yaml_node word = *n, list = {.kind = NODE_MAP, .n = 1, .first = &word};
     *map = NULL;
     if (n->kind == NODE_SCALAR) {
         word.key = n->text, word.next = NULL;
@@ -376,7 +379,7 @@ static status kind_of_probe(struct reader *r, const struct node *n, enum probe_k
 }
 
 /* Returns REFUSED for a reaction probe of a boundary that the scene does not have. */
-static status check_probe_boundary(struct reader *r, const struct node *n, const struct probe_request *p)
+static status check_probe_boundary(struct reader *r, const struct yaml_node *n, const struct probe_request *p)
 {
     const struct scene *s = r->scene;
     int nearest = 0;
@@ -395,22 +398,25 @@ static status check_probe_boundary(struct reader *r, const struct node *n, const
 
 /* Returns REFUSED for a probe with a closed-form solution unless the scene is in space line. REFUSED if a number of
  * the manufactured solution is missing, or is given with another solution. */
-static status check_exact(struct reader *r, const struct node *n, const struct node *map, const struct probe_request *p)
+static status check_exact(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
+                          const struct probe_request *p)
 {
     const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
     if (p->kind != PROBE_EXACT) return OK;
     if (r->scene->space != SPACE_LINE)
         return fault(r, map ? map : n, "closed forms are for a bar; space: line is expected");
     for (size_t k = 0; k < COUNT_OF(numbers); k++) {
-        const struct node *given = node_find(map, numbers[k]);
+        const struct yaml_node *given = yaml_node_find(map, numbers[k]);
         if (given && p->form != EXACT_MANUFACTURED)
             return fault(r, given, "has no meaning without form: manufactured; leave it out");
-        if (!given && p->form == EXACT_MANUFACTURED) return fault_missing(r, map, key_find("probes.exact", numbers[k]));
+        if (!given && p->form == EXACT_MANUFACTURED)
+            return fault_key_missing(r, map, key_find("probes.exact", numbers[k]));
     }
     return OK;
 }
 
-static status check_rigid(struct reader *r, const struct node *n, const struct node *map, const struct probe_request *p)
+static status check_rigid(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
+                          const struct probe_request *p)
 {
     if (p->kind != PROBE_RIGID || r->dim == 2) return OK;
     return fault(r, map ? map : n, "plane spaces only in this version");
@@ -418,31 +424,32 @@ static status check_rigid(struct reader *r, const struct node *n, const struct n
 
 /* Sets the outer radius of a probe of stress-intensity factors to its last contour, if it is not given. REFUSED if
  * its radii or its direction are not valid. */
-static status check_sif(struct reader *r, const struct node *n, const struct node *map, struct probe_request *p)
+static status check_sif(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
+                        struct probe_request *p)
 {
     enum { CONTOURS_MAX = 16 };
     if (p->kind != PROBE_SIF) return OK;
     if (r->dim != 2) return fault(r, map ? map : n, "plane spaces only in this version");
     const struct number_list *c = &p->contours;
-    const struct node *contours = node_find(map, "contours");
+    const struct yaml_node *contours = yaml_node_find(map, "contours");
     if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; 1 to %d are expected", c->n, CONTOURS_MAX);
     if (isnan(p->outer) && c->n > 0) p->outer = c->value[c->n - 1];
     const real outer = isnan(p->outer) ? 20 * r->scene->spacing : p->outer;
     if (p->inner >= outer)
         return fault(
-            r, node_find(map, "inner"),
+            r, yaml_node_find(map, "inner"),
             "the inner radius %s is not smaller than the outer radius, %.6g m; about half the outer radius is usual",
-            node_shown(r, node_find(map, "inner")), outer);
+            node_text(r, yaml_node_find(map, "inner")), outer);
     const real shares[2] = {p->direction[0], p->direction[1]};
     if (!p->has_direction || dot(shares, shares, 2) > 0) return OK;
-    return fault(r, node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
+    return fault(r, yaml_node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
 }
 
 /* Reads one probe in any of its forms. Numbers without a default that are not given become NaN. */
-static status read_probe(struct reader *r, const struct node *n, struct probe_request *p)
+static status read_probe(struct reader *r, const struct yaml_node *n, struct probe_request *p)
 {
-    const struct node *map;
-    struct node form, short_form;
+    const struct yaml_node *map;
+    struct yaml_node form, short_form;
     char group[32];
     TRY(kind_of_probe(r, n, &p->kind, &map));
     if (p->kind == PROBE_EXACT && map && map->kind == NODE_SCALAR) { /* `exact: step bar` */
@@ -451,7 +458,7 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
         short_form.kind = NODE_MAP, short_form.n = 1, short_form.first = short_form.last = &form;
         map = &short_form;
     }
-    fault_place(r, n, p->place, sizeof p->place);
+    fault_write_location(r, n, p->place, sizeof p->place);
     p->amplitude = p->period = p->wavelength = p->origin = NAN;
     p->inner = p->outer = p->core = p->experiment = NAN;
     snprintf(group, sizeof group, "probes.%s", probe_names[p->kind]);
@@ -462,18 +469,18 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
     TRY(check_exact(r, n, map, p));
     TRY(check_sif(r, n, map, p));
     TRY(check_rigid(r, n, map, p));
-    return check_probe_boundary(r, map ? node_find(map, "boundary") : n, p);
+    return check_probe_boundary(r, map ? yaml_node_find(map, "boundary") : n, p);
 }
 
-status read_probes(struct reader *r, const struct node *root)
+status read_probes(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *list = node_find(root, "probes");
+    const struct yaml_node *list = yaml_node_find(root, "probes");
     if (!list) return OK;
     TRY(expect_list(r, key_find("", "probes"), list));
     s->probes = list->n;
     s->probe = NEW("probes", list->n, struct probe_request);
-    const struct node *n = list->first;
+    const struct yaml_node *n = list->first;
     for (int k = 0; k < s->probes; k++, n = n->next) {
         TRY(read_probe(r, n, &s->probe[k]));
         for (int j = 0; j < k; j++)

@@ -6,7 +6,7 @@
 
 static const char *const motion_words[] = {"move", "rotate", "mirror", "pattern"};
 
-bool is_motion(const struct node *n)
+bool is_motion(const struct yaml_node *n)
 {
     bool is = false;
     for (size_t k = 0; k < COUNT_OF(motion_words); k++) is |= strcmp(n->key, motion_words[k]) == 0;
@@ -14,9 +14,9 @@ bool is_motion(const struct node *n)
 }
 
 /* Reads the axis of a rotation, by default z. REFUSED for an axis without length, and for any axis in the plane. */
-static status read_turning_axis(struct reader *r, const struct node *n, struct solid_motion *m)
+static status read_turning_axis(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
-    const struct node *axis = node_find(n, "axis");
+    const struct yaml_node *axis = yaml_node_find(n, "axis");
     if (r->dim == 1) return fault(r, n, "nothing turns on a line; move, mirror or pattern.grid is expected");
     if (r->dim == 2 && axis) return fault(r, axis, "the plane has one axis to turn about; it has none to give");
     if (!m->has_axis) m->axis[2] = 1;
@@ -26,7 +26,7 @@ static status read_turning_axis(struct reader *r, const struct node *n, struct s
 }
 
 /* Reads the centre of a rotation, by default the centre of the bounding box of the solid. */
-static status read_about(struct reader *r, const struct node *n, const struct solid *s, struct solid_motion *m)
+static status read_about(struct reader *r, const struct yaml_node *n, const struct solid *s, struct solid_motion *m)
 {
     for (int d = 0; d < r->dim && !m->has_about; d++) {
         real along[DIM_MAX] = {0};
@@ -41,7 +41,7 @@ static status read_about(struct reader *r, const struct node *n, const struct so
     return OK;
 }
 
-static status read_rotate(struct reader *r, const struct node *n, const struct solid *s, struct solid_motion *m)
+static status read_rotate(struct reader *r, const struct yaml_node *n, const struct solid *s, struct solid_motion *m)
 {
     m->kind = MOTION_ROTATE;
     TRY(read_group(r, n, n, "solid.rotate", m));
@@ -49,33 +49,33 @@ static status read_rotate(struct reader *r, const struct node *n, const struct s
     return read_about(r, n, s, m);
 }
 
-static status read_mirror_image(struct reader *r, const struct node *n, struct solid_motion *m)
+static status read_mirror_image(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
     m->kind = MOTION_MIRROR;
     TRY(read_group(r, n, n, "solid.mirror", m));
     if (dot(m->axis, m->axis, r->dim) > 0) return OK;
-    return fault(r, node_find(n, "normal"), "has no length; the normal of the plane is expected");
+    return fault(r, yaml_node_find(n, "normal"), "has no length; the normal of the plane is expected");
 }
 
-static status read_pattern(struct reader *r, const struct node *n, struct solid_motion *m)
+static status read_pattern(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
     TRY(expect_kind(r, n, NODE_MAP, "a pattern such as grid: {count: [..], step: [..]}"));
     TRY(check_keys(r, n, "solid.pattern"));
     if (n->n != 1) return fault(r, n, "has %d keys; a pattern is one of grid and ring", n->n);
-    const struct node *form = n->first;
+    const struct yaml_node *form = n->first;
     const bool ring = strcmp(form->key, "ring") == 0;
     m->kind = ring ? MOTION_RING : MOTION_GRID;
     TRY(read_group(r, form, form, ring ? "solid.pattern.ring" : "solid.pattern.grid", m));
     for (int d = 0; d < (ring ? 1 : r->dim); d++)
         if (m->count[d] != round(m->count[d]))
-            return fault(r, node_find(form, "count"), "%s is not a whole number; the number of copies is expected",
-                         node_shown(r, node_find(form, "count")));
+            return fault(r, yaml_node_find(form, "count"), "%s is not a whole number; the number of copies is expected",
+                         node_text(r, yaml_node_find(form, "count")));
     if (!ring) return OK;
     if (!m->has_angle) m->angle = 2 * 3.14159265358979323846 / m->count[0];
     return read_turning_axis(r, form, m);
 }
 
-static status read_motion(struct reader *r, const struct node *n, const struct solid *s, struct solid_motion *m)
+static status read_motion(struct reader *r, const struct yaml_node *n, const struct solid *s, struct solid_motion *m)
 {
     const int word = word_index("move|rotate|mirror|pattern", n->key);
     switch (word) {
@@ -91,9 +91,9 @@ static status read_motion(struct reader *r, const struct node *n, const struct s
     }
 }
 
-status read_motions(struct reader *r, const struct node *n, struct solid *s)
+status read_motions(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
-    for (const struct node *c = n->first; c; c = c->next) {
+    for (const struct yaml_node *c = n->first; c; c = c->next) {
         struct solid_motion m = {0};
         if (!is_motion(c)) continue;
         TRY(read_motion(r, c, s, &m));

@@ -8,7 +8,7 @@
 enum { CHAIN_MOST = 32, NAME_LONGEST = 40 };
 
 struct variable {
-    const struct node *n; /* node whose key is the name of the variable */
+    const struct yaml_node *n; /* node whose key is the name of the variable */
     struct quantity q;
     enum { WAITING, OPEN, KNOWN } state;
 };
@@ -16,13 +16,13 @@ struct variable {
 /* ---- variables --------------------------------------------------------------------------------------------------- */
 
 /* Evaluates a variable, and first the variables on which it depends. Returns false on failure, with the fault in
- * what[room]. */
-static bool evaluate(struct reader *r, struct variable *v, char *what, size_t room)
+ * message[capacity]. */
+static bool evaluate(struct reader *r, struct variable *v, char *message, size_t capacity)
 {
     bool fine = true;
     if (v->state == KNOWN) return true;
     if (v->state == OPEN || r->variables_open == CHAIN_MOST) {
-        snprintf(what, room,
+        snprintf(message, capacity,
                  v->state == OPEN
                      ? "depends on itself"
                      : "depends on other variables through a chain of more than %d; a shorter chain is expected",
@@ -31,11 +31,11 @@ static bool evaluate(struct reader *r, struct variable *v, char *what, size_t ro
     }
     v->state = OPEN;
     r->variables_open++;
-    if (!number_quantity(&v->q, v->n->text)) fine = quantity_of_text(r, v->n->text, &v->q, what, room);
+    if (!quantity_parse(&v->q, v->n->text)) fine = quantity_evaluate_text(r, v->n->text, &v->q, message, capacity);
     r->variables_open--;
     v->state = KNOWN;
-    if (!fine || quantity_bounded(v->q.value, UNIT_NONE, what, room)) return fine;
-    what[strcspn(what, ";")] = '\0'; /* a variable has no key, and so no expected unit to name */
+    if (!fine || value_is_in_unit_bounds(v->q.value, UNIT_NONE, message, capacity)) return fine;
+    message[strcspn(message, ";")] = '\0'; /* a variable has no key, and so no expected unit to name */
     return false;
 }
 
@@ -51,35 +51,36 @@ static struct variable *variable_nearest(struct reader *r, const char *name)
     return nearest;
 }
 
-const struct quantity *variable_value(struct reader *r, const char *name, char *what, size_t room)
+const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity)
 {
     char why[200];
     if (r->variables == 0) {
-        snprintf(what, room, "has an unknown name %.40s, and the scene has no variables", name);
+        snprintf(message, capacity, "has an unknown name %.40s, and the scene has no variables", name);
         return NULL;
     }
     struct variable *v = variable_nearest(r, name);
     if (strcmp(v->n->key, name) != 0) {
-        snprintf(what, room, "has an unknown name %.40s; the nearest variable is %.40s", name, v->n->key);
+        snprintf(message, capacity, "has an unknown name %.40s; the nearest variable is %.40s", name, v->n->key);
         return NULL;
     }
     if (evaluate(r, v, why, sizeof why)) return &v->q;
     const bool further = strncmp(why, "needs ", 6) == 0; /* the last variable of a chain is the one with the fault */
-    snprintf(what, room, "%s%.40s%s%s", further ? "" : "needs ", further ? "" : name, further ? "" : ", which ", why);
+    snprintf(message, capacity, "%s%.40s%s%s", further ? "" : "needs ", further ? "" : name, further ? "" : ", which ",
+             why);
     return NULL;
 }
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
 /* Returns REFUSED for a text that is no name, and for a name with a meaning in expressions. */
-static status check_variable_name(struct reader *r, const struct node *n)
+static status check_variable_name(struct reader *r, const struct yaml_node *n)
 {
     size_t length = 0;
     while (is_letter(n->key[length])) length++;
     if (length == 0 || length > NAME_LONGEST || n->key[length] || isdigit((unsigned char)*n->key))
         return fault(r, n, "no name of a variable; up to %d letters, digits and _ are expected, a letter first",
                      NAME_LONGEST);
-    const char *meaning = reserved_word(n->key);
+    const char *meaning = reserved_word_meaning(n->key);
     return meaning ? fault(r, n, "is %s in expressions; another name is expected, as %.20s1", meaning, n->key) : OK;
 }
 
@@ -95,16 +96,16 @@ static bool has_word(const char *text, const char *name)
 }
 
 /* Returns true if a value in the tree below n, other than its own, contains the name of the variable. */
-static bool is_used(const struct node *n, const struct node *variable)
+static bool is_used(const struct yaml_node *n, const struct yaml_node *variable)
 {
     if (n->kind == NODE_SCALAR) return n != variable && has_word(n->text, variable->key);
-    for (const struct node *c = n->first; c; c = c->next)
+    for (const struct yaml_node *c = n->first; c; c = c->next)
         if (is_used(c, variable)) return true;
     return false;
 }
 
 /* Returns REFUSED for an override of a variable that no value contains: a misspelt name would have no effect. */
-static status check_overrides(struct reader *r, const struct node *root)
+static status check_overrides(struct reader *r, const struct yaml_node *root)
 {
     for (const struct variable *v = r->variable; v < r->variable + r->variables; v++) {
         if (v->n->origin < 0 || is_used(root, v->n)) continue;
@@ -120,17 +121,17 @@ static status check_overrides(struct reader *r, const struct node *root)
     return OK;
 }
 
-status read_variables(struct reader *r, const struct node *root)
+status read_variables(struct reader *r, const struct yaml_node *root)
 {
     const struct key *k = key_find("", "variables");
-    const struct node *map = node_find(root, k->path);
+    const struct yaml_node *map = yaml_node_find(root, k->path);
     char what[256];
     r->variables = 0;
     if (!map || (map->kind == NODE_SCALAR && *map->text == '\0')) return OK;
     TRY(expect_kind(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
     if (map->n > k->range.most) return fault(r, map, "has %d variables; up to %g are expected", map->n, k->range.most);
     r->variable = arena_new(r, (size_t)(map->n + 1) * sizeof *r->variable);
-    for (const struct node *n = map->first; n; n = n->next) {
+    for (const struct yaml_node *n = map->first; n; n = n->next) {
         TRY(check_variable_name(r, n));
         TRY(expect_kind(r, n, NODE_SCALAR, "a number or an expression"));
         for (int v = 0; v < r->variables; v++)
@@ -139,43 +140,45 @@ status read_variables(struct reader *r, const struct node *root)
         r->variable[r->variables++] = (struct variable){.n = n};
     }
     for (struct variable *v = r->variable; v < r->variable + r->variables; v++)
-        if (!evaluate(r, v, what, sizeof what)) return fault(r, v->n, "%s %s", node_shown(r, v->n), what);
+        if (!evaluate(r, v, what, sizeof what)) return fault(r, v->n, "%s %s", node_text(r, v->n), what);
     return check_overrides(r, root);
 }
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
 /* Reads a number, or an expression of variables, with a unit of the given kind. Returns false with a message in
- * what[room] if it is invalid. */
-bool number_of_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *what,
-                    size_t room)
+ * message[capacity] if it is invalid. */
+bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *message,
+                          size_t capacity)
 {
     char other[256];
     struct quantity q;
-    if (number_read(value, text, unit, infinite, what, room)) return true;
-    const bool known = quantity_of_text(r, text, &q, other, sizeof other);
+    if (number_read(value, text, unit, infinite, message, capacity)) return true;
+    const bool known = quantity_evaluate_text(r, text, &q, other, sizeof other);
     if (known && unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
-        snprintf(what, room, "has no unit; %s is expected, as %s", unit_rows[unit].name, unit_rows[unit].example);
+        snprintf(message, capacity, "has no unit; %s is expected, as %s", unit_rows[unit].name,
+                 unit_rows[unit].example);
         return false;
     }
-    if (known && quantity_fits(&q, unit, other, sizeof other) && quantity_bounded(q.value, unit, other, sizeof other)) {
+    if (known && quantity_has_unit(&q, unit, other, sizeof other) &&
+        value_is_in_unit_bounds(q.value, unit, other, sizeof other)) {
         *value = q.value;
         return true;
     }
-    if (looks_like_expression(r, text)) snprintf(what, room, "%s", other);
+    if (looks_like_expression(r, text)) snprintf(message, capacity, "%s", other);
     return false;
 }
 
-void length_in_spacings_advise(struct reader *r, const struct key *k, const char *text, char *what, size_t room)
+void advise_length_in_spacings(struct reader *r, const struct key *k, const char *text, char *message, size_t capacity)
 {
     char other[256];
     real length;
     if (k->unit != UNIT_NONE || !strstr(k->help, "in spacings")) return;
-    if (!number_of_text(r, &length, text, UNIT_LENGTH, false, other, sizeof other)) return;
+    if (!number_evaluate_text(r, &length, text, UNIT_LENGTH, false, other, sizeof other)) return;
     if (!(r->scene->spacing > 0)) {
-        snprintf(what, room, "is a length; this key takes a number of spacings");
+        snprintf(message, capacity, "is a length; this key takes a number of spacings");
         return;
     }
-    snprintf(what, room, "is a length; this key takes a number of spacings, here %s: %.4g%s", key_leaf(k),
+    snprintf(message, capacity, "is a length; this key takes a number of spacings, here %s: %.4g%s", key_leaf(k),
              length / r->scene->spacing, strcmp(key_leaf(k), "horizon") ? "" : " (3.015 is usual)");
 }

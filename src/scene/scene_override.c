@@ -32,24 +32,24 @@ static bool step_of_path(const char **path, const char **key, size_t *length, in
 
 /* Appends an empty mapping with the given key to `map` and returns it. origin: number of the override, for
  * messages. */
-static struct node *new_entry(struct reader *r, struct node *map, const char *key, size_t length, int origin)
+static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, const char *key, size_t length, int origin)
 {
-    struct node *n = arena_new(r, sizeof *n);
-    *n = (struct node){.kind = NODE_MAP, .line = 1, .column = 1, .origin = origin, .text = ""};
+    struct yaml_node *n = arena_new(r, sizeof *n);
+    *n = (struct yaml_node){.kind = NODE_MAP, .line = 1, .column = 1, .origin = origin, .text = ""};
     n->key = arena_text(r, key, length);
-    node_append(map, n);
+    yaml_node_append(map, n);
     return n;
 }
 
 /* Returns the name by which an item of a list is addressed: the value of its key `name`; for a probe the `name` below
  * its kind, or else the kind. NULL if it has none. */
-static const char *item_name(const struct node *list, const struct node *item)
+static const char *item_name(const struct yaml_node *list, const struct yaml_node *item)
 {
     const bool probe = list->key && strcmp(list->key, "probes") == 0;
-    const struct node *name = item->kind == NODE_MAP ? node_find(item, "name") : NULL;
+    const struct yaml_node *name = item->kind == NODE_MAP ? yaml_node_find(item, "name") : NULL;
     if (probe && item->kind == NODE_SCALAR) return item->text;
     if (probe && item->n == 1) {
-        name = item->first->kind == NODE_MAP ? node_find(item->first, "name") : NULL;
+        name = item->first->kind == NODE_MAP ? yaml_node_find(item->first, "name") : NULL;
         if (!name) return item->first->key;
     }
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
@@ -57,21 +57,21 @@ static const char *item_name(const struct node *list, const struct node *item)
 
 /* Sets the origin of a node to an override, so that a following error message names the override. The tree must not
  * be used afterwards. */
-static const struct node *blamed(struct node *n, int origin)
+static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 {
     n->origin = origin;
     return n;
 }
 
 /* Finds item `index` of a list, from 0. REFUSED if the node is no list or has fewer items. */
-static status item_of(struct reader *r, struct node *list, int index, int origin, struct node **out)
+static status item_of(struct reader *r, struct yaml_node *list, int index, int origin, struct yaml_node **out)
 {
     if (list->kind != NODE_LIST)
         return fault(r, blamed(list, origin), "is no list in this scene; [%d] has no meaning", index);
     if (index >= list->n)
         return fault(r, blamed(list, origin), "has %d items, and [%d] is beyond the last one (the first is [0])",
                      list->n, index);
-    struct node *n = list->first;
+    struct yaml_node *n = list->first;
     while (index-- > 0) n = n->next;
     *out = n;
     return OK;
@@ -79,15 +79,15 @@ static status item_of(struct reader *r, struct node *list, int index, int origin
 
 /* Returns the names of the items of a list as part of a message, such as ` or by name (pull, hold)`; "" if no item
  * has a name. */
-static const char *names_text(struct reader *r, const struct node *list)
+static const char *names_text(struct reader *r, const struct yaml_node *list)
 {
     char text[192] = "";
     size_t used = 0;
-    for (const struct node *n = list->first; n && used < 100; n = n->next) {
+    for (const struct yaml_node *n = list->first; n && used < 100; n = n->next) {
         const char *name = item_name(list, n);
         if (!name) continue;
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%.40s", used ? ", " : " or by name (",
-                                 shown_text(r, name));
+                                 text_for_message(r, name));
     }
     if (used) snprintf(text + used, sizeof text - used, "%s)", used < 100 ? "" : ", ...");
     return arena_text(r, text, strlen(text));
@@ -95,15 +95,15 @@ static const char *names_text(struct reader *r, const struct node *list)
 
 /* Finds an item of a list. The key is its index, its name, or the name of the list with the index, as in boundary0.
  * REFUSED with the names of all items if there is no such item. origin: number of the override, for messages. */
-static status item_called(struct reader *r, struct node *list, const char *key, size_t length, int origin,
-                          struct node **out)
+static status item_called(struct reader *r, struct yaml_node *list, const char *key, size_t length, int origin,
+                          struct yaml_node **out)
 {
     const char *called = arena_text(r, key, length);
     const size_t stem = list->key && strncmp(called, list->key, strlen(list->key)) == 0 ? strlen(list->key) : 0;
     const size_t digits = strspn(called + stem, "0123456789");
     const bool number = digits > 0 && digits <= 6 && stem + digits == length;
     if (number && atoi(called + stem) < list->n) return item_of(r, list, atoi(called + stem), origin, out);
-    for (struct node *n = list->first; n; n = n->next) {
+    for (struct yaml_node *n = list->first; n; n = n->next) {
         const char *name = item_name(list, n);
         if (name && strcmp(name, called) == 0) {
             *out = n;
@@ -111,30 +111,31 @@ static status item_called(struct reader *r, struct node *list, const char *key, 
         }
     }
     return fault(r, blamed(list, origin), "has %d item%s, and %s is %s; refer to an item by its number (from 0)%s",
-                 list->n, list->n == 1 ? "" : "s", shown_text(r, called),
+                 list->n, list->n == 1 ? "" : "s", text_for_message(r, called),
                  number ? "beyond the last" : "the name of none", names_text(r, list));
 }
 
-static bool is_key(const struct node *n, const char *key, size_t length)
+static bool is_key(const struct yaml_node *n, const char *key, size_t length)
 {
     return strlen(n->key) == length && memcmp(n->key, key, length) == 0;
 }
 
 /* Turns a node with a word as its value into a mapping with the entry `key`, whose value is `text` (NULL: empty); for
  * example `exact: step bar` into `exact: {form: step bar}`. Does nothing to other nodes. */
-static void write_out(struct reader *r, struct node *n, const char *key, const char *text, int origin)
+static void write_out(struct reader *r, struct yaml_node *n, const char *key, const char *text, int origin)
 {
     if (n->kind != NODE_SCALAR || *n->text == '\0') return;
     n->kind = NODE_MAP, n->text = (char *)"";
-    struct node *entry = new_entry(r, n, key, strlen(key), origin);
+    struct yaml_node *entry = new_entry(r, n, key, strlen(key), origin);
     if (text) entry->kind = NODE_SCALAR, entry->text = (char *)text;
 }
 
 /* Returns the node below which `key` of an item is found. This is the item itself; for a probe, whose keys are below
  * its kind, it is the mapping of the kind, so that a path can omit the kind: probes.0.at is probes.0.point.at. */
-static struct node *probe_keys(struct reader *r, struct node *item, const char *key, size_t length, int origin)
+static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, const char *key, size_t length,
+                                    int origin)
 {
-    const struct node *list = item->parent;
+    const struct yaml_node *list = item->parent;
     if (!list || list->kind != NODE_LIST || !list->key || strcmp(list->key, "probes") != 0) return item;
     write_out(r, item, item->text, NULL, origin);
     if (item->kind != NODE_MAP || item->n != 1 || is_key(item->first, key, length)) return item;
@@ -144,69 +145,70 @@ static struct node *probe_keys(struct reader *r, struct node *item, const char *
 
 /* Finds the node that one part of a path addresses: in a mapping the entry `key`, created if it is missing; in a list
  * the item with this index or name. origin: number of the override, for messages. */
-static status scene_override_entry_of(struct reader *r, struct node *map, const char *key, size_t length, int origin,
-                                      struct node **out)
+static status scene_override_entry_of(struct reader *r, struct yaml_node *map, const char *key, size_t length,
+                                      int origin, struct yaml_node **out)
 {
-    struct node at = {.origin = origin, .key = arena_text(r, key, length)};
+    struct yaml_node at = {.origin = origin, .key = arena_text(r, key, length)};
     if (map->kind == NODE_LIST) return item_called(r, map, key, length, origin, out);
     map = probe_keys(r, map, key, length, origin);
     bool empty = map->kind == NODE_SCALAR && *map->text == '\0';
     if (empty) map->kind = NODE_MAP;
     if (map->kind != NODE_MAP)
         return fault(r, &at, "%s holds %s, not keys; `cleave help` shows the path of every key",
-                     map->key ? shown_text(r, map->key) : "the item", node_shown(r, map));
+                     map->key ? text_for_message(r, map->key) : "the item", node_text(r, map));
     if (strspn(at.key, "0123456789") == length) {
         at.key = map->key;
         return fault(r, &at, "is no list in this scene; %.*s has no meaning", (int)length, key);
     }
-    *out = node_find(map, at.key);
+    *out = yaml_node_find(map, at.key);
     if (!*out) *out = new_entry(r, map, key, length, origin);
     return OK;
 }
 
 /* Replaces the value of a node; its key and its position in the tree are kept. */
-static void replace(struct node *n, const struct node *value)
+static void replace(struct yaml_node *n, const struct yaml_node *value)
 {
-    struct node whole = *value;
+    struct yaml_node whole = *value;
     whole.key = n->key;
     whole.parent = n->parent;
     whole.next = n->next;
     *n = whole;
-    for (struct node *c = n->first; c; c = c->next) c->parent = n;
+    for (struct yaml_node *c = n->first; c; c = c->next) c->parent = n;
 }
 
 /* Applies override number `origin`: sets the value at its path, or removes the key if the value is empty. */
-static status override_one(struct reader *r, struct node *root, int origin)
+static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];
     const char *path = path_present_name(r, o->key), *key = NULL;
     size_t length = 0;
     int index;
-    struct node *n = root, *value;
+    struct yaml_node *n = root, *value;
     TRY(tree_read(r, o->value, strlen(o->value), origin, &value));
     while (*path) {
         if (!step_of_path(&path, &key, &length, &index))
-            return fault_mark(r, origin, 0, 0, "%s: not a path of keys; material.young or boundary.0.velocity is one",
-                              shown_text(r, o->key));
+            return fault_at_location(r, origin, 0, 0,
+                                     "%s: not a path of keys; material.young or boundary.0.velocity is one",
+                                     text_for_message(r, o->key));
         TRY(index >= 0 ? item_of(r, n, index, origin, &n) : scene_override_entry_of(r, n, key, length, origin, &n));
     }
-    if (n == root) return fault_mark(r, origin, 0, 0, "no key; material.young=70e9 is an override");
+    if (n == root) return fault_at_location(r, origin, 0, 0, "no key; material.young=70e9 is an override");
     if (value)
         replace(n, value);
     else if (n->origin == origin)
         return fault(r, n, "is not in the scene; an empty value takes a key away");
     else
-        node_remove(n->parent, n);
+        yaml_node_remove(n->parent, n);
     return OK;
 }
 
-status tree_override(struct reader *r, struct node *root)
+status tree_override(struct reader *r, struct yaml_node *root)
 {
     for (int k = 0; k < r->overrides; k++) TRY(override_one(r, root, k));
     return OK;
 }
 
-status tree_set(struct reader *r, struct node *root, const char *key, const char *value)
+status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value)
 {
     const int n = r->overrides;
     struct scene_override *more = arena_new(r, (size_t)(n + 1) * sizeof *more);
@@ -217,14 +219,14 @@ status tree_set(struct reader *r, struct node *root, const char *key, const char
     return override_one(r, root, r->overrides++);
 }
 
-const struct node *tree_find(const struct node *root, const char *path)
+const struct yaml_node *tree_find(const struct yaml_node *root, const char *path)
 {
     char leaf[64];
-    const struct node *n = root;
+    const struct yaml_node *n = root;
     while (n && *path) {
         const size_t length = strcspn(path, ".");
         snprintf(leaf, sizeof leaf, "%.*s", (int)length, path);
-        n = n->kind == NODE_MAP ? node_find(n, leaf) : NULL;
+        n = n->kind == NODE_MAP ? yaml_node_find(n, leaf) : NULL;
         path += length + (path[length] == '.');
     }
     return n;

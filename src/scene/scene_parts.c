@@ -11,12 +11,12 @@
 
 /* Reads the fracture strength of a material from one of three keys. REFUSED if more than one is given, since they
  * could contradict each other. */
-static status read_strength(struct reader *r, const struct node *n, struct material *m)
+static status read_strength(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
-    const struct node *given = NULL, *toughness = node_find(n, "toughness");
+    const struct yaml_node *given = NULL, *toughness = yaml_node_find(n, "toughness");
     for (size_t k = 0; k < COUNT_OF(ways); k++) {
-        const struct node *way = node_find(n, ways[k]);
+        const struct yaml_node *way = yaml_node_find(n, ways[k]);
         if (way && given)
             return fault(r, way, "is given together with %s, and each determines the other; leave one of them out",
                          given->key);
@@ -34,22 +34,23 @@ static status read_strength(struct reader *r, const struct node *n, struct mater
 
 /* Returns REFUSED for a Poisson's ratio that bonds cannot have: bond-based peridynamics has one elastic constant, an
  * isotropic solid two. */
-static status check_poisson(struct reader *r, const struct node *n, const struct material *m)
+static status check_poisson(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
-    real bond = material_bond_poisson(s->space);
-    const struct node *poisson = node_find(n, "poisson");
+    real bond = bond_based_poisson_ratio(s->space);
+    const struct yaml_node *poisson = yaml_node_find(n, "poisson");
     if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
     if (fabs(m->poisson - bond) <= 1e-6) return OK;
     return fault(r, poisson, "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; %s",
-                 node_shown(r, poisson), s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4", space_names[s->space],
+                 node_text(r, poisson), s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4", space_names[s->space],
                  material_yields(m) ? "`method: mpm` has any, and yields" : "`model: ospd` has any");
 }
 
 /* Reads the hardening modulus from one of two keys. REFUSED if it is not below Young's modulus. */
-static status read_hardening(struct reader *r, const struct node *n, struct material *m)
+static status read_hardening(struct reader *r, const struct yaml_node *n, struct material *m)
 {
-    const struct node *tangent = node_find(n, "yield_tangent"), *hardening = node_find(n, "yield_hardening");
+    const struct yaml_node *tangent = yaml_node_find(n, "yield_tangent"),
+                           *hardening = yaml_node_find(n, "yield_hardening");
     real H;
     if (tangent && hardening)
         return fault(r, hardening,
@@ -62,7 +63,7 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
     return fault(r, tangent ? tangent : hardening,
                  "%s is not below Young's modulus; the slope of the stress-strain curve after yield, 0 to below young, "
                  "is expected",
-                 node_shown(r, tangent ? tangent : hardening));
+                 node_text(r, tangent ? tangent : hardening));
 }
 
 /* Computes the critical stretch of bonds from the energy release rate: in closed form, or for model mospd from the
@@ -73,13 +74,13 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
     struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
     const struct state_modulus modulus = state_modulus_of(m, s->space, true);
-    family_make(&f, s->space, s->spacing, s->horizon, scene_section(s));
+    family_make(&f, s->space, s->spacing, s->horizon, scene_section_factor(s));
     return sqrt(m->energy_release_rate / family_separation_work(&f, &modulus, !s->bulk));
 }
 
 /* Reads the scatter of strength. REFUSED for a material without strength, and if the parameter of the distribution
  * is missing. */
-static status read_scatter(struct reader *r, const struct node *n, struct material *m)
+static status read_scatter(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct strength_scatter *s = &m->scatter;
     if (!n) return OK;
@@ -87,8 +88,8 @@ static status read_scatter(struct reader *r, const struct node *n, struct materi
     TRY(read_group(r, n, n, "material.scatter", s));
     s->given = true;
     const char *const own[] = {[SCATTER_WEIBULL] = "modulus", [SCATTER_LOGNORMAL] = "variation"};
-    const struct node *other = node_find(n, own[!s->form]);
-    if (!node_find(n, own[s->form])) return fault_missing(r, n, key_find("material.scatter", own[s->form]));
+    const struct yaml_node *other = yaml_node_find(n, own[!s->form]);
+    if (!yaml_node_find(n, own[s->form])) return fault_key_missing(r, n, key_find("material.scatter", own[s->form]));
     if (other)
         return fault(r, other, "belongs to the other distribution of strength; %s is the parameter of this one",
                      own[s->form]);
@@ -103,7 +104,7 @@ static status read_scatter(struct reader *r, const struct node *n, struct materi
 
 /* Reads the viscosity of a material. With viscosity all cells have one time step, and the active set is off, because
  * viscous forces act between moving regions and regions at rest. REFUSED where viscosity has no effect. */
-static status read_viscosity(struct reader *r, const struct node *n, struct material *m)
+static status read_viscosity(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct scene *s = r->scene;
     if (!n) return OK;
@@ -113,28 +114,28 @@ static status read_viscosity(struct reader *r, const struct node *n, struct mate
     const char *why = s->space == SPACE_PLANE_STRESS ? "goes with space plane strain, solid or line, where the rate of "
                                                        "volume is known"
                       : s->model != MODEL_BOND && s->method != METHOD_MPM ? "goes with model bond"
-                      : !scene_moves(s)                                   ? "goes with solver explicit"
+                      : !scene_is_dynamic(s)                              ? "goes with solver explicit"
                       : s->levels > 0 ? "goes with mpm.levels: 0, as it has one time step"
                                       : NULL;
     return why ? fault(r, n, "%s", why) : OK;
 }
 
 /* Reads one material with defaults by space, and derives its wave speeds and critical stretch. */
-static status scene_parts_read_material(struct reader *r, const struct node *n, struct material *m)
+static status scene_parts_read_material(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;
     bool line = s->space == SPACE_LINE;
     m->energy_release_rate = m->law.specific_heat = m->law.taylor_quinney = NAN;
-    m->poisson = line ? 0 : material_bond_poisson(s->space);
+    m->poisson = line ? 0 : bond_based_poisson_ratio(s->space);
     strcpy(m->name, "material");
     TRY(read_group(r, n, n, "material", m));
     TRY(check_poisson(r, n, m));
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
     TRY(read_law(r, n, m));
-    TRY(read_scatter(r, node_find(n, "scatter"), m));
-    TRY(read_viscosity(r, node_find(n, "viscosity"), m));
-    const struct node *yield = node_find(n, "yield_stress");
+    TRY(read_scatter(r, yaml_node_find(n, "scatter"), m));
+    TRY(read_viscosity(r, yaml_node_find(n, "viscosity"), m));
+    const struct yaml_node *yield = yaml_node_find(n, "yield_stress");
     if (s->model != MODEL_BOND && material_yields(m))
         return fault(r, yield ? yield : n,
                      "model %s does not yield; `model: bond` does, or, with any Poisson's ratio, `method: mpm` without "
@@ -146,22 +147,22 @@ static status scene_parts_read_material(struct reader *r, const struct node *n, 
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
 }
 
-status read_materials(struct reader *r, const struct node *root)
+status read_materials(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *one = node_find(root, "material"), *many = node_find(root, "materials");
-    if (!one && !many) return fault_missing(r, root, key_find("", "material"));
-    if (one && many) return fault_both(r, one, many);
+    const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
+    if (!one && !many) return fault_key_missing(r, root, key_find("", "material"));
+    if (one && many) return fault_keys_exclude(r, one, many);
     if (many) TRY(expect_list(r, key_find("", "materials"), many));
     s->materials = many ? many->n : 1;
     s->material = NEW("materials", s->materials, struct material);
-    const struct node *n = many ? many->first : one;
+    const struct yaml_node *n = many ? many->first : one;
     for (int k = 0; k < s->materials; k++, n = n->next) {
         TRY(scene_parts_read_material(r, n, &s->material[k]));
-        if (many && !node_find(n, "name")) return fault_missing(r, n, key_find("material", "name"));
+        if (many && !yaml_node_find(n, "name")) return fault_key_missing(r, n, key_find("material", "name"));
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
-                return fault(r, node_find(n, "name"), "%s is the name of another material", s->material[k].name);
+                return fault(r, yaml_node_find(n, "name"), "%s is the name of another material", s->material[k].name);
     }
     return OK;
 }
@@ -169,56 +170,56 @@ status read_materials(struct reader *r, const struct node *root)
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
 /* Reads the path and the checksum of a particle list. */
-static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
+static status read_file(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
-    fault_place(r, n, b->place, sizeof b->place);
+    fault_write_location(r, n, b->place, sizeof b->place);
     if (n->kind != NODE_SCALAR || !is_particle_list_name(n->text))
-        return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected",
-                     node_shown(r, n));
+        return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected", node_text(r, n));
     TRY(read_path(r, n, "a particle list", &b->file, &b->contents));
     return r->files ? particle_list_read_head(&b->list, b->file, r->dim) : OK;
 }
 
 /* Returns REFUSED for keys that a rigid body does not have, and for keys that only a rigid body has. */
-static status check_rigid_body(struct reader *r, const struct node *n, const struct scene_body *b)
+static status check_rigid_body(struct reader *r, const struct yaml_node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp", "force"};
     static const char *const others[] = {"material", "particles", "frame", "parts"};
     for (size_t k = 0; k < COUNT_OF(own) && !b->rigid; k++)
-        if (node_find(n, own[k])) return fault(r, node_find(n, own[k]), "only rigid bodies have it; add rigid: true");
-    if (node_find(n, "ramp") && (node_find(n, "mass") || !node_find(n, "velocity")))
-        return fault(r, node_find(n, "ramp"), "of a velocity that it keeps: one without mass, with a velocity");
-    if (node_find(n, "force") && !node_find(n, "mass"))
-        return fault(r, node_find(n, "force"), "moves only what has a mass; without, a body keeps its velocity");
+        if (yaml_node_find(n, own[k]))
+            return fault(r, yaml_node_find(n, own[k]), "only rigid bodies have it; add rigid: true");
+    if (yaml_node_find(n, "ramp") && (yaml_node_find(n, "mass") || !yaml_node_find(n, "velocity")))
+        return fault(r, yaml_node_find(n, "ramp"), "of a velocity that it keeps: one without mass, with a velocity");
+    if (yaml_node_find(n, "force") && !yaml_node_find(n, "mass"))
+        return fault(r, yaml_node_find(n, "force"), "moves only what has a mass; without, a body keeps its velocity");
     for (size_t k = 0; k < COUNT_OF(others) && b->rigid; k++)
-        if (node_find(n, others[k]))
-            return fault(r, node_find(n, others[k]),
+        if (yaml_node_find(n, others[k]))
+            return fault(r, yaml_node_find(n, others[k]),
                          "a rigid body has none; a shape is expected, and a mass if "
                          "it flies");
     if (b->rigid && region_has_endless_box(&b->shape, r->scene->dim))
-        return fault(r, node_find(n, "shape"), "a box without end; a half-space is expected");
+        return fault(r, yaml_node_find(n, "shape"), "a box without end; a half-space is expected");
     return OK;
 }
 
 /* Reads one body. number: index of the body. REFUSED if it has neither shape nor particles, or both. */
-static status scene_parts_read_body(struct reader *r, const struct node *n, struct scene_body *b, int number)
+static status scene_parts_read_body(struct reader *r, const struct yaml_node *n, struct scene_body *b, int number)
 {
-    const struct node *shape = node_find(n, "shape"), *file = node_find(n, "particles");
-    fault_place(r, n, b->place, sizeof b->place);
+    const struct yaml_node *shape = yaml_node_find(n, "shape"), *file = yaml_node_find(n, "particles");
+    fault_write_location(r, n, b->place, sizeof b->place);
     b->material = -1;
-    r->bounded = !node_find(n, "rigid");
+    r->bounded = !yaml_node_find(n, "rigid");
     TRY(read_group(r, n, n, "bodies", b));
     r->bounded = false;
     TRY(check_rigid_body(r, n, b));
     TRY(read_grey_parts(r, shape, b));
-    TRY(read_body_parts(r, node_find(n, "parts"), key_find("bodies", "parts"), b));
-    if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
-    if (shape && file) return fault_both(r, shape, file);
+    TRY(read_body_parts(r, yaml_node_find(n, "parts"), key_find("bodies", "parts"), b));
+    if (!shape && !file) return fault_key_missing(r, n, key_find("bodies", "shape"));
+    if (shape && file) return fault_keys_exclude(r, shape, file);
     if (file) TRY(read_file(r, file, b));
     if (!b->rigid && b->material < 0 && r->scene->materials > 1 && !b->list.material)
-        return fault_missing(r, n, key_find("bodies", "material"));
+        return fault_key_missing(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;
-    if (!node_find(n, "frame")) b->frame = r->scene->frame;
+    if (!yaml_node_find(n, "frame")) b->frame = r->scene->frame;
     for (int j = 0; j < number; j++)
         if (strcmp(r->scene->body[j].name, b->name) == 0)
             return fault(r, n, "%s is the name of another body; every body has its own", b->name);
@@ -239,13 +240,13 @@ static void sort_bodies(struct scene *s, int n)
     s->body = sorted;
 }
 
-status read_bodies(struct reader *r, const struct node *root)
+status read_bodies(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *one = node_find(root, "body"), *many = node_find(root, "bodies");
-    if (!one && !many) return fault_missing(r, root, key_find("", "body"));
-    if (one && many) return fault_both(r, one, many);
-    const struct node *parts = node_find(root, "parts");
+    const struct yaml_node *one = yaml_node_find(root, "body"), *many = yaml_node_find(root, "bodies");
+    if (!one && !many) return fault_key_missing(r, root, key_find("", "body"));
+    if (one && many) return fault_keys_exclude(r, one, many);
+    const struct yaml_node *parts = yaml_node_find(root, "parts");
     if (many && parts) return fault(r, parts, "of which body is it; bodies have parts of their own");
     if (many) TRY(expect_list(r, key_find("", "bodies"), many));
     const int n_bodies = many ? many->n : 1;
@@ -253,7 +254,7 @@ status read_bodies(struct reader *r, const struct node *root)
     if (one) {
         s->bodies = 1;
         strcpy(s->body->name, "body");
-        fault_place(r, one, s->body->place, sizeof s->body->place);
+        fault_write_location(r, one, s->body->place, sizeof s->body->place);
         s->body->frame = s->frame;
         r->bounded = true;
         TRY(read_region(r, one, &s->body->shape));
@@ -266,7 +267,7 @@ status read_bodies(struct reader *r, const struct node *root)
                          s->materials);
         return read_body_parts(r, parts, key_find("", "parts"), s->body);
     }
-    const struct node *n = many->first;
+    const struct yaml_node *n = many->first;
     for (int k = 0; k < n_bodies; k++, n = n->next) {
         snprintf(s->body[k].name, sizeof s->body[k].name, "body%d", k);
         s->bodies = k + 1; /* number of bodies to release if the scene is refused */
@@ -280,7 +281,7 @@ status read_bodies(struct reader *r, const struct node *root)
                      "rigid bodies meet peridynamic particles only; `method: pd` or `adaptive` is expected, or, for a "
                      "smooth wall "
                      "at rest, a boundary `mirror` in its place");
-    if (s->rigids > 0 && scene_at_rest(s))
+    if (s->rigids > 0 && scene_is_single_equilibrium(s))
         return fault(r, many,
                      "rigid bodies move in steps of time; `solver: explicit` is expected, or, for a smooth wall at "
                      "rest, a boundary "
@@ -292,7 +293,7 @@ status read_bodies(struct reader *r, const struct node *root)
 
 /* Reads the polarisation of a pulse: along its direction (default) or across it. Removes round-off from the vector.
  * REFUSED for any other direction. */
-static status read_polarisation(struct reader *r, const struct node *n, struct wave_pulse *w)
+static status read_polarisation(struct reader *r, const struct yaml_node *n, struct wave_pulse *w)
 {
     const int dim = r->dim;
     real *moved = w->polarisation, length = sqrt(dot(moved, moved, dim));
@@ -312,30 +313,31 @@ static status read_polarisation(struct reader *r, const struct node *n, struct w
     return OK;
 }
 
-static status read_pulse(struct reader *r, const struct node *n, struct scene_initial *initial)
+static status read_pulse(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     real *direction = initial->pulse.direction, length;
     if (!n) return OK;
     TRY(read_group(r, n, n, "initial.pulse", initial));
     length = sqrt(dot(direction, direction, r->dim));
-    if (!(length > 0)) return fault(r, node_find(n, "direction"), "has no length; a direction such as 1 is expected");
+    if (!(length > 0))
+        return fault(r, yaml_node_find(n, "direction"), "has no length; a direction such as 1 is expected");
     for (int d = 0; d < r->dim; d++) direction[d] /= length;
     initial->sets_pulse = true;
-    return read_polarisation(r, node_find(n, "polarisation"), &initial->pulse);
+    return read_polarisation(r, yaml_node_find(n, "polarisation"), &initial->pulse);
 }
 
 /* Reads a rigid rotation as the velocity gradient of w x (X - centre). */
-static status read_initial_rotation(struct reader *r, const struct node *map, struct scene_initial *initial)
+static status read_initial_rotation(struct reader *r, const struct yaml_node *map, struct scene_initial *initial)
 {
-    const struct node *n = node_find(map, "rotation"), *gradient = node_find(map, "velocity_gradient"),
-                      *centre = node_find(map, "centre");
+    const struct yaml_node *n = yaml_node_find(map, "rotation"), *gradient = yaml_node_find(map, "velocity_gradient"),
+                           *centre = yaml_node_find(map, "centre");
     real w[DIM_MAX] = {0}, rate;
     if (!n) return OK;
-    if (gradient || centre) return fault_both(r, n, gradient ? gradient : centre);
+    if (gradient || centre) return fault_keys_exclude(r, n, gradient ? gradient : centre);
     TRY(read_group(r, n, n, "initial.rotation", initial));
     TRY(read_axis_of(r, n, "initial.rotation", w));
-    if (!node_find(n, "rate")) return fault_missing(r, n, key_find("initial.rotation", "rate"));
-    TRY(read_number(r, key_find("initial.rotation", "rate"), node_find(n, "rate"), &rate));
+    if (!yaml_node_find(n, "rate")) return fault_key_missing(r, n, key_find("initial.rotation", "rate"));
+    TRY(read_number(r, key_find("initial.rotation", "rate"), yaml_node_find(n, "rate"), &rate));
     const real scale = rate / sqrt(dot(w, w, DIM_MAX));
     for (int a = 0; a < r->dim; a++)
         for (int b = 0; b < r->dim; b++) { /* row a, column b of the matrix of w x: -w_c or w_c with the third axis c */
@@ -347,20 +349,20 @@ static status read_initial_rotation(struct reader *r, const struct node *map, st
 }
 
 /* Reads an initial velocity: numbers, or formulas of the position. */
-static status read_initial_velocity(struct reader *r, const struct node *n, struct scene_initial *initial)
+static status read_initial_velocity(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     if (!n) return OK;
     initial->sets_velocity = true;
     return read_formulas(r, key_find("initial", "velocity"), n, EXPRESS_SPACE, initial->velocity, initial->formula);
 }
 
-static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)
+static status read_initial(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     initial->body = -1;
-    fault_place(r, n, initial->place, sizeof initial->place);
+    fault_write_location(r, n, initial->place, sizeof initial->place);
     TRY(read_group(r, n, n, "initial", initial));
-    TRY(read_initial_velocity(r, node_find(n, "velocity"), initial));
-    TRY(read_pulse(r, node_find(n, "pulse"), initial));
+    TRY(read_initial_velocity(r, yaml_node_find(n, "velocity"), initial));
+    TRY(read_pulse(r, yaml_node_find(n, "pulse"), initial));
     TRY(read_initial_rotation(r, n, initial));
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
     return fault(r, n,
@@ -368,15 +370,15 @@ static status read_initial(struct reader *r, const struct node *n, struct scene_
                  "expected");
 }
 
-status read_initials(struct reader *r, const struct node *root)
+status read_initials(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *list = node_find(root, "initial");
+    const struct yaml_node *list = yaml_node_find(root, "initial");
     if (!list) return OK;
     TRY(expect_list(r, key_find("", "initial"), list));
     s->initials = list->n;
     s->initial = NEW("initial states", list->n, struct scene_initial);
-    const struct node *n = list->first;
+    const struct yaml_node *n = list->first;
     for (int k = 0; k < s->initials; k++, n = n->next) TRY(read_initial(r, n, &s->initial[k]));
     return OK;
 }
@@ -384,34 +386,34 @@ status read_initials(struct reader *r, const struct node *root)
 /* ---- growth ------------------------------------------------------------------------------------------------------ */
 
 /* Reads one growth rule and normalises its direction. REFUSED for keys without meaning and for an unknown probe. */
-static status read_growth(struct reader *r, const struct node *n, struct growth_rule *g, int number)
+static status read_growth(struct reader *r, const struct yaml_node *n, struct growth_rule *g, int number)
 {
     real length;
     snprintf(g->name, sizeof g->name, "growth%d", number);
     TRY(read_group(r, n, n, "growth", g));
     length = sqrt(dot(g->direction, g->direction, r->dim));
     if (!(length > 0))
-        return fault(r, node_find(n, "direction"), "has no length; a direction such as [1, 0] is expected");
+        return fault(r, yaml_node_find(n, "direction"), "has no length; a direction such as [1, 0] is expected");
     for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
-    if (!g->probe[0] && node_find(n, "toughness"))
-        return fault(r, node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
+    if (!g->probe[0] && yaml_node_find(n, "toughness"))
+        return fault(r, yaml_node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
     if (!g->probe[0] && !isnan(g->smoothing))
-        return fault(r, node_find(n, "smoothing"), "has no meaning without probe, the name of a sif probe");
-    if (growth_follows(g) && !(g->toughness > 0))
-        return fault(r, node_find(n, "speed"),
+        return fault(r, yaml_node_find(n, "smoothing"), "has no meaning without probe, the name of a sif probe");
+    if (growth_speed_is_controlled(g) && !(g->toughness > 0))
+        return fault(r, yaml_node_find(n, "speed"),
                      "a speed that follows needs probe and toughness, the K_eq that it keeps");
-    if (!growth_follows(g) && !isnan(g->fastest))
-        return fault(r, node_find(n, "fastest"), "has no meaning beside a given speed; speed: follow is expected");
+    if (!growth_speed_is_controlled(g) && !isnan(g->fastest))
+        return fault(r, yaml_node_find(n, "fastest"), "has no meaning beside a given speed; speed: follow is expected");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
         if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
-    return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
+    return g->probe[0] ? fault(r, yaml_node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
 }
 
 /* Returns REFUSED for a growth probe of a crack that the scene does not have. */
-static status check_growth_probes(struct reader *r, const struct node *root)
+static status check_growth_probes(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *list = node_find(root, "probes"), *n = list ? list->first : NULL;
+    const struct yaml_node *list = yaml_node_find(root, "probes"), *n = list ? list->first : NULL;
     for (int k = 0; k < s->probes; k++, n = n->next) {
         bool found = false;
         if (s->probe[k].kind != PROBE_GROWTH) continue;
@@ -419,7 +421,7 @@ static status check_growth_probes(struct reader *r, const struct node *root)
         for (int g = 0; g < s->growths; g++)
             found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
         if (!found)
-            return fault(r, node_find(n->first, "of"), "there is no growth %s; the first is %s", s->probe[k].of,
+            return fault(r, yaml_node_find(n->first, "of"), "there is no growth %s; the first is %s", s->probe[k].of,
                          s->growth[0].name);
     }
     return OK;
@@ -427,17 +429,17 @@ static status check_growth_probes(struct reader *r, const struct node *root)
 
 /* Reads the rules of crack growth. Must be called after the probes are read, since a probe of stress-intensity
  * factors can control the growth. */
-status read_growths(struct reader *r, const struct node *root)
+status read_growths(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *list = node_find(root, "growth");
+    const struct yaml_node *list = yaml_node_find(root, "growth");
     if (!list) return check_growth_probes(r, root);
     TRY(expect_list(r, key_find("", "growth"), list));
     if (s->dim != 2) return fault(r, list, "plane spaces only in this version");
     if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; pd or adaptive is expected");
     s->growths = list->n;
     s->growth = NEW("growth", list->n, struct growth_rule);
-    const struct node *n = list->first;
+    const struct yaml_node *n = list->first;
     for (int k = 0; k < s->growths; k++, n = n->next) TRY(read_growth(r, n, &s->growth[k], k));
     return check_growth_probes(r, root);
 }
@@ -445,33 +447,35 @@ status read_growths(struct reader *r, const struct node *root)
 /* ---- frames of regions ------------------------------------------------------------------------------------------- */
 
 /* Reads the frame series of a region. REFUSED for a name whose files are used already, and for too many frames. */
-static status read_frame_region(struct reader *r, const struct node *n, int number)
+static status read_frame_region(struct reader *r, const struct yaml_node *n, int number)
 {
     struct scene *s = r->scene;
     struct scene_series *one = &s->series[number];
     TRY(read_group(r, n, n, "output.regions", one));
     if (strcmp(one->name, "frames") == 0)
-        return fault(r, node_find(n, "name"), "frames is the name of the body's own files; another one is expected");
+        return fault(r, yaml_node_find(n, "name"),
+                     "frames is the name of the body's own files; another one is expected");
     for (int k = 0; k < number; k++)
         if (strcmp(s->series[k].name, one->name) == 0)
-            return fault(r, node_find(n, "name"), "%s is the name of another region; give it a name of its own",
+            return fault(r, yaml_node_find(n, "name"), "%s is the name of another region; give it a name of its own",
                          one->name);
     if (s->duration / one->every > FRAMES_MOST)
-        return fault(r, node_find(n, "every"),
+        return fault(r, yaml_node_find(n, "every"),
                      "an interval of %s makes more than %d frames; at least %.3g s is expected",
-                     node_shown(r, node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
+                     node_text(r, yaml_node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
     return OK;
 }
 
-status read_frame_regions(struct reader *r, const struct node *root)
+status read_frame_regions(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *output = node_find(root, "output"), *list = output ? node_find(output, "regions") : NULL;
+    const struct yaml_node *output = yaml_node_find(root, "output"),
+                           *list = output ? yaml_node_find(output, "regions") : NULL;
     if (!list) return OK;
     TRY(expect_list(r, key_find("output", "regions"), list));
     s->n_series = list->n;
     s->series = NEW("scene.series", list->n, struct scene_series);
-    const struct node *n = list->first;
+    const struct yaml_node *n = list->first;
     for (int k = 0; k < s->n_series; k++, n = n->next) TRY(read_frame_region(r, n, k));
     return OK;
 }

@@ -10,19 +10,19 @@
  */
 
 /* Returns the number of nodes below `node`, down to a depth. */
-static int64_t nodes_count(const struct node *node, int depth)
+static int64_t nodes_count(const struct yaml_node *node, int depth)
 {
     int64_t n = 0;
-    for (const struct node *c = node->first; c && depth > 0; c = c->next) n += 1 + nodes_count(c, depth - 1);
+    for (const struct yaml_node *c = node->first; c && depth > 0; c = c->next) n += 1 + nodes_count(c, depth - 1);
     return n;
 }
 
 /* Adds the places of the nodes below `node`, down to a depth. path: that of `node`, "" for the root. */
-static void places_add(const struct reader *r, const struct node *node, const char *path, int depth)
+static void places_add(const struct reader *r, const struct yaml_node *node, const char *path, int depth)
 {
     struct scene *s = r->scene;
     int at = 0;
-    for (const struct node *c = node->first; c && depth > 0; c = c->next, at++) {
+    for (const struct yaml_node *c = node->first; c && depth > 0; c = c->next, at++) {
         struct key_place *k = &s->key_place[s->key_places++];
         if (c->key)
             snprintf(k->key, sizeof k->key, "%.50s%s%.50s", path, *path ? "." : "", c->key);
@@ -33,7 +33,7 @@ static void places_add(const struct reader *r, const struct node *node, const ch
     }
 }
 
-void scene_places_make(const struct reader *r, const struct node *root)
+void scene_places_make(const struct reader *r, const struct yaml_node *root)
 {
     enum { DEPTH = 2 }; /* mpm.frame, interfaces[0] */
     r->scene->key_place = NEW("scene.places", nodes_count(root, DEPTH), struct key_place);

@@ -24,9 +24,9 @@ static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
 }
 
 /* Returns the node of `method: auto`; NULL if the scene has another method. */
-static const struct node *auto_method(const struct node *root)
+static const struct yaml_node *auto_method(const struct yaml_node *root)
 {
-    const struct node *method = root->kind == NODE_MAP ? node_find(root, "method") : NULL;
+    const struct yaml_node *method = root->kind == NODE_MAP ? yaml_node_find(root, "method") : NULL;
     return method && method->kind == NODE_SCALAR && strcmp(method->text, "auto") == 0 ? method : NULL;
 }
 
@@ -35,9 +35,9 @@ static const struct node *auto_method(const struct node *root)
 static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
-    struct node *root;
-    TRY(scene_tree(r, text, length, &root));
-    const struct node *method = auto_method(root);
+    struct yaml_node *root;
+    TRY(scene_parse_tree(r, text, length, &root));
+    const struct yaml_node *method = auto_method(root);
     if (method && wish) return pilot_wish_read(r, root, text, length, wish);
     if (method)
         return fault(r, method,
@@ -45,7 +45,7 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
                      "particles.spacing, or take the scene.yaml that such a run leaves");
     scene_places_make(r, root);
     TRY(scene_from_tree(r, root));
-    s->text = scene_echo(s);
+    s->text = scene_to_yaml(s);
     return s->text ? OK : status_set(FAILED, "%s: no memory to write it out", r->name);
 }
 

@@ -18,7 +18,7 @@ static void table_head(FILE *out) { fputs("| key | value; default | meaning |\n|
 static void row(FILE *out, const struct key *k)
 {
     char facts[640];
-    key_facts(k, facts, sizeof facts);
+    key_describe_type(k, facts, sizeof facts);
     fprintf(out, "| `%s` | ", k->path);
     cell(out, facts);
     fputc(' ', out);

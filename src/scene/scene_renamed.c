@@ -51,19 +51,19 @@ const char *path_present_name(struct reader *r, const char *path)
     return path;
 }
 
-status tree_rename(struct reader *r, struct node *root)
+status tree_rename_old_keys(struct reader *r, struct yaml_node *root)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
-        struct node *old = (struct node *)tree_find(root, renamed[k].old);
-        const struct node *now = tree_find(root, renamed[k].now);
+        struct yaml_node *old = (struct yaml_node *)tree_find(root, renamed[k].old);
+        const struct yaml_node *now = tree_find(root, renamed[k].now);
         if (!old) continue;
-        if (now) return fault_both(r, now, old);
+        if (now) return fault_keys_exclude(r, now, old);
         const char *dot = strrchr(renamed[k].now, '.'), *leaf = dot ? dot + 1 : renamed[k].now;
         old->key = arena_text(r, leaf, strlen(leaf));
         renamed_note(r->scene, k);
     }
     for (int k = 0; k < (int)COUNT_OF(removed); k++) {
-        const struct node *n = tree_find(root, removed[k].path);
+        const struct yaml_node *n = tree_find(root, removed[k].path);
         if (n) return fault(r, n, "%s", removed[k].what);
     }
     return OK;

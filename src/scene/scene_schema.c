@@ -44,9 +44,10 @@ static void write_numbers(FILE *out, const struct key *k, const char *type)
     fprintf(out, "{\"type\": \"%s\"", type);
     if (bounded)
         fprintf(out, ", \"%s\": %s", k->range.open ? "exclusiveMinimum" : "minimum",
-                number_text(least, k->range.least));
+                number_write_shortest(least, k->range.least));
     if (k->type == KEY_SEED) fputs(", \"minimum\": 0", out);
-    if (bounded && isfinite(k->range.most)) fprintf(out, ", \"maximum\": %s", number_text(most, k->range.most));
+    if (bounded && isfinite(k->range.most))
+        fprintf(out, ", \"maximum\": %s", number_write_shortest(most, k->range.most));
     fputs("}, {\"$ref\": \"#/definitions/formula\"}", out);
 }
 
@@ -135,8 +136,8 @@ static void write_list_items(FILE *out, const struct key *k)
     char least[32], most[32];
     fputs("{\"type\": \"array\"", out);
     if (k->range.given && isfinite(k->range.most))
-        fprintf(out, ", \"minItems\": %s, \"maxItems\": %s", number_text(least, k->range.least),
-                number_text(most, k->range.most));
+        fprintf(out, ", \"minItems\": %s, \"maxItems\": %s", number_write_shortest(least, k->range.least),
+                number_write_shortest(most, k->range.most));
     fputs(", \"items\": ", out);
     if (strcmp(k->path, "probes") == 0)
         write_probe(out);

@@ -27,7 +27,7 @@ static void contents_add(struct shape_file *f, uint64_t contents)
         f->contents = (f->contents ^ contents) * UINT64_C(1099511628211);
 }
 
-static status shape_path_add(struct reader *r, const struct node *n, struct shape_file *f)
+static status shape_path_add(struct reader *r, const struct yaml_node *n, struct shape_file *f)
 {
     uint64_t contents = 0;
     GROW("shape files", f->path, f->files + 1);
@@ -39,7 +39,7 @@ static status shape_path_add(struct reader *r, const struct node *n, struct shap
 
 /* Adds the files that match a pattern with stars, sorted with numbers compared by value; searches the scene's
  * folder, then the current one. */
-static status pattern_add(struct reader *r, const struct node *n, struct shape_file *f)
+static status pattern_add(struct reader *r, const struct yaml_node *n, struct shape_file *f)
 {
     const char *slash = strrchr(r->name, '/');
     const int folder = slash && n->text[0] != '/' ? (int)(slash - r->name) + 1 : 0;
@@ -54,7 +54,7 @@ static status pattern_add(struct reader *r, const struct node *n, struct shape_f
     if (found.gl_pathc > SLICES_MOST) s = fault(r, n, "more than %d files", SLICES_MOST);
     array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, path_order);
     for (size_t k = 0; k < found.gl_pathc && s == OK; k++) {
-        struct node one = *n;
+        struct yaml_node one = *n;
         one.text = found.gl_pathv[k];
         if (folder > 0 && strncmp(one.text, r->name, (size_t)folder) == 0) one.text += folder;
         s = shape_path_add(r, &one, f);
@@ -63,12 +63,12 @@ static status pattern_add(struct reader *r, const struct node *n, struct shape_f
     return s;
 }
 
-static status paths_read(struct reader *r, const struct node *n, struct shape_file *f)
+static status paths_read(struct reader *r, const struct yaml_node *n, struct shape_file *f)
 {
     if (n->kind == NODE_SCALAR && f->kind == SHAPE_IMAGE && strchr(n->text, '*')) return pattern_add(r, n, f);
     if (n->kind != NODE_LIST || f->kind != SHAPE_IMAGE) return shape_path_add(r, n, f);
     if (n->n == 0 || n->n > SLICES_MOST) return fault(r, n, "%d files; 1 to %d are expected", n->n, SLICES_MOST);
-    for (const struct node *item = n->first; item; item = item->next) TRY(shape_path_add(r, item, f));
+    for (const struct yaml_node *item = n->first; item; item = item->next) TRY(shape_path_add(r, item, f));
     return OK;
 }
 
@@ -109,11 +109,11 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
 #define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
 /* Returns the spacing that the scene gives [m]; NAN if it gives none. n: any node of the tree. */
-static real spacing_given(struct reader *r, const struct node *n)
+static real spacing_given(struct reader *r, const struct yaml_node *n)
 {
     real spacing = NAN;
     while (n->parent) n = n->parent;
-    const struct node *given = tree_find(n, "particles.spacing");
+    const struct yaml_node *given = tree_find(n, "particles.spacing");
     const struct key *k = key_find("particles", "spacing");
     if (given && k && read_number(r, k, given, &spacing) == OK) return spacing;
     return NAN;
@@ -121,7 +121,7 @@ static real spacing_given(struct reader *r, const struct node *n)
 
 /* Reads the file f of a solid, or finds the same file with the same settings among those already read. *known points
  * to the result, which the scene owns. Takes ownership of f, and frees it if it is not needed or cannot be read. */
-static status shape_take(struct reader *r, const struct node *n, struct shape_file *f, struct shape_file **known)
+static status shape_take(struct reader *r, const struct yaml_node *n, struct shape_file *f, struct shape_file **known)
 {
     struct shape_file **last = &r->scene->shapes;
     for (; *last; last = &(*last)->next)
@@ -142,39 +142,40 @@ static status shape_take(struct reader *r, const struct node *n, struct shape_fi
 }
 
 /* Returns REFUSED if the scene gives the hash of the contents, and the file has another. */
-static status check_contents(struct reader *r, const struct node *n, const struct shape_words *words, uint64_t contents)
+static status check_contents(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
+                             uint64_t contents)
 {
     char found[NAME_MAX_LENGTH];
     snprintf(found, sizeof found, "%016" PRIx64, contents);
     if (!words->contents[0] || strcmp(words->contents, found) == 0) return OK;
-    return fault(r, node_find(n, "contents"),
+    return fault(r, yaml_node_find(n, "contents"),
                  "is %s, but the hash of the file is %s: the file has changed; restore the earlier file, or remove the "
                  "key contents",
                  words->contents, found);
 }
 
 /* Reads the length unit of the coordinates in the file, from the key unit or scale. */
-static status read_unit(struct reader *r, const struct node *n, struct shape_words *words)
+static status read_unit(struct reader *r, const struct yaml_node *n, struct shape_words *words)
 {
-    const struct node *unit = node_find(n, "unit"), *scale = node_find(n, "scale");
+    const struct yaml_node *unit = yaml_node_find(n, "unit"), *scale = yaml_node_find(n, "scale");
     char text[48], what[256];
-    if (unit && scale) return fault_both(r, unit, scale);
+    if (unit && scale) return fault_keys_exclude(r, unit, scale);
     if (!unit && !scale)
         return fault(r, n, "unit is missing: its numbers have none; unit: mm, or scale: 25.4 mm, is expected");
     if (!unit) return OK;
     snprintf(text, sizeof text, "1 %.40s", unit->text);
     if (unit->kind == NODE_SCALAR && number_read(&words->scale, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
-    return fault(r, unit, "%s is no unit of length; mm, m, um, .. is expected, or scale: 25.4 mm", node_shown(r, unit));
+    return fault(r, unit, "%s is no unit of length; mm, m, um, .. is expected, or scale: 25.4 mm", node_text(r, unit));
 }
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
 
 /* Finds the hull of the part of a mesh of which a solid consists: the whole mesh, a set of elements, or the points
  * within a distance `within` [m] of a set of nodes or faces. */
-static status read_mesh_set(struct reader *r, const struct node *n, const struct shape_words *words,
+static status read_mesh_set(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
                             const struct geometry *g, struct solid *s)
 {
-    const struct node *within = node_find(n, "within");
+    const struct yaml_node *within = yaml_node_find(n, "within");
     const struct geometry_set *set = words->set[0] ? geometry_find_set(g, words->set) : NULL;
     char names[200] = "";
     for (int k = 0; k < g->sets && strlen(names) < 120; k++) {
@@ -182,7 +183,8 @@ static status read_mesh_set(struct reader *r, const struct node *n, const struct
         strcat(names, g->set[k].name);
     }
     if (words->set[0] && !set)
-        return fault(r, node_find(n, "set"), "the file has no set %s; it has %s", words->set, g->sets ? names : "none");
+        return fault(r, yaml_node_find(n, "set"), "the file has no set %s; it has %s", words->set,
+                     g->sets ? names : "none");
     s->hull = set ? &set->hull : &g->whole;
     if (within && !s->hull->open)
         return fault(r, within, "has no meaning for what fills a volume; only sets of nodes or faces have it");
@@ -195,14 +197,14 @@ static status read_mesh_set(struct reader *r, const struct node *n, const struct
                  words->set);
 }
 
-static status read_geometry(struct reader *r, const struct node *n, enum shape_kind kind, struct solid *s)
+static status read_geometry(struct reader *r, const struct yaml_node *n, enum shape_kind kind, struct solid *s)
 {
     const char *const group = kind == SHAPE_STL ? "solid.stl" : "solid.mesh";
-    const struct node *file = node_find(n, "file");
+    const struct yaml_node *file = yaml_node_find(n, "file");
     struct shape_words words = {.scale = NAN, .within = NAN};
     struct shape_file *f = NULL;
     TRY(read_group(r, n, n, group, &words));
-    if (!file) return fault_missing(r, n, key_find(group, "file"));
+    if (!file) return fault_key_missing(r, n, key_find(group, "file"));
     TRY(read_unit(r, n, &words));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
     f = NEW("shape files", 1, struct shape_file);
@@ -218,18 +220,24 @@ static status read_geometry(struct reader *r, const struct node *n, enum shape_k
     return read_mesh_set(r, n, &words, &f->geometry, s);
 }
 
-status read_stl(struct reader *r, const struct node *n, struct solid *s) { return read_geometry(r, n, SHAPE_STL, s); }
-status read_mesh(struct reader *r, const struct node *n, struct solid *s) { return read_geometry(r, n, SHAPE_MESH, s); }
+status read_stl(struct reader *r, const struct yaml_node *n, struct solid *s)
+{
+    return read_geometry(r, n, SHAPE_STL, s);
+}
+status read_mesh(struct reader *r, const struct yaml_node *n, struct solid *s)
+{
+    return read_geometry(r, n, SHAPE_MESH, s);
+}
 
 /* ---- images ------------------------------------------------------------------------------------------------------ */
 
 /* Reads an image: its files, the size of its voxels and its position. */
-static status read_voxels(struct reader *r, const struct node *n, struct shape_file **known)
+static status read_voxels(struct reader *r, const struct yaml_node *n, struct shape_file **known)
 {
-    const struct node *file = node_find(n, "file"), *slice = node_find(n, "slice");
+    const struct yaml_node *file = yaml_node_find(n, "file"), *slice = yaml_node_find(n, "slice");
     struct shape_words words = {.pixel = NAN, .slice = NAN};
     TRY(read_group(r, n, n, "solid.image", &words));
-    if (!file) return fault_missing(r, n, key_find("solid.image", "file"));
+    if (!file) return fault_key_missing(r, n, key_find("solid.image", "file"));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
     if (slice && r->dim == 2) return fault(r, slice, "has no meaning in the plane, where there is one image");
     struct shape_file *f = NEW("shape files", 1, struct shape_file);
@@ -261,13 +269,13 @@ static const struct voxel_part *grey_part_of(struct shape_file *f, const struct 
     return f->part[f->parts++] = part;
 }
 
-status read_image(struct reader *r, const struct node *n, struct solid *s)
+status read_image(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
-    const struct node *values = node_find(n, "values"), *materials = node_find(n, "materials");
+    const struct yaml_node *values = yaml_node_find(n, "values"), *materials = yaml_node_find(n, "materials");
     struct voxel_part wanted = {.ranges = 1, .range = {{1, GREY_MAX}}};
     struct shape_file *f = NULL;
     TRY(read_voxels(r, n, &f));
-    if (values && materials) return fault_both(r, values, materials);
+    if (values && materials) return fault_keys_exclude(r, values, materials);
     if (values) TRY(read_grey_values(r, values, &wanted));
     if (materials) TRY(read_grey_materials(r, materials, &f->voxels, &wanted));
     s->kind = SOLID_VOXELS;

@@ -13,11 +13,12 @@ struct shape_words {
 };
 
 /* Reads the key `values` into ranges of grey values: a value, a range, or a list of these. */
-status read_grey_values(struct reader *r, const struct node *n, struct voxel_part *part);
+status read_grey_values(struct reader *r, const struct yaml_node *n, struct voxel_part *part);
 
 /* Reads all ranges of grey values of `materials` that are not void into `part`. REFUSED if the solid is not the shape
  * of a body, and if a grey value of the image is in no range. */
-status read_grey_materials(struct reader *r, const struct node *n, const struct voxels *v, struct voxel_part *part);
+status read_grey_materials(struct reader *r, const struct yaml_node *n, const struct voxels *v,
+                           struct voxel_part *part);
 
 /* Compares two file names for sorting; numbers in them are compared by value. */
 int path_order(const void *a, const void *b);

@@ -29,9 +29,9 @@ static const struct solid_word {
     {"all", SOLID_ALL, 0},
 };
 
-static status read_solids(struct reader *r, const struct node *n, struct region *region, bool intersect);
+static status read_solids(struct reader *r, const struct yaml_node *n, struct region *region, bool intersect);
 
-static status check_box(struct reader *r, const struct node *n, const struct solid *s)
+static status check_box(struct reader *r, const struct yaml_node *n, const struct solid *s)
 {
     for (int d = 0; d < r->dim; d++)
         if (!(s->from[d] < s->to[d]))
@@ -41,21 +41,21 @@ static status check_box(struct reader *r, const struct node *n, const struct sol
 }
 
 /* Returns REFUSED for an axis without length, and for a hole or section that does not fit. */
-static status check_round(struct reader *r, const struct node *n, const struct solid *s)
+static status check_round(struct reader *r, const struct yaml_node *n, const struct solid *s)
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
     if (has_ends && memcmp(s->from, s->to, sizeof s->from) == 0)
         return fault(r, n, "its axis has no length; from and to are its two ends");
     if ((s->kind == SOLID_TUBE || s->kind == SOLID_RING) && !(s->inner < s->radius))
-        return fault(r, node_find(n, "inner"), "is not below radius; the radius of its hole is expected");
+        return fault(r, yaml_node_find(n, "inner"), "is not below radius; the radius of its hole is expected");
     if (s->kind == SOLID_CONE && !(s->inner + s->radius > 0))
         return fault(r, n, "both radii are 0; one may be, for a cone that ends in a point");
     if (s->kind == SOLID_TORUS && !(s->inner < s->radius))
-        return fault(r, node_find(n, "section"), "is not below radius; a torus has a hole");
+        return fault(r, yaml_node_find(n, "section"), "is not below radius; a torus has a hole");
     return OK;
 }
 
-static status check_solid(struct reader *r, const struct node *n, const struct solid *s)
+static status check_solid(struct reader *r, const struct yaml_node *n, const struct solid *s)
 {
     if (s->kind == SOLID_BOX) return check_box(r, n, s);
     if (s->kind == SOLID_HALF_SPACE && !(dot(s->normal, s->normal, r->dim) > 0))
@@ -66,20 +66,21 @@ static status check_solid(struct reader *r, const struct node *n, const struct s
 }
 
 /* Reads the corners of a polygon and their radii. REFUSED if edges cross or a rounded corner does not fit. */
-static status read_corners(struct reader *r, const struct node *n, struct solid *s)
+static status read_corners(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     const struct key *k = key_find("solid.polygon", "corners");
-    const struct node *list = node_find(n, "corners");
+    const struct yaml_node *list = yaml_node_find(n, "corners");
     struct key corner = *k;
     int at = 0;
     corner.range.given = false;
     s->polygon = NEW("solids.polygon", 1, struct polygon);
     TRY(read_group(r, n, n, "solid.polygon", s->polygon));
-    if (!list) return fault_missing(r, n, k);
+    if (!list) return fault_key_missing(r, n, k);
     TRY(expect_list(r, k, list));
     s->polygon->n = list->n;
     s->polygon->corner = memory_new("solids.corner", list->n, sizeof *s->polygon->corner);
-    for (const struct node *p = list->first; p; p = p->next) TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
+    for (const struct yaml_node *p = list->first; p; p = p->next)
+        TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
     switch (polygon_make(s->polygon, &at)) {
     case POLYGON_SHORT:
         return fault(r, list, "corner %d and the next one are at the same position; remove one of them", at);
@@ -91,7 +92,7 @@ static status read_corners(struct reader *r, const struct node *n, struct solid 
                      "is expected",
                      at);
     case POLYGON_TIGHT:
-        return fault(r, node_find(n, "round"),
+        return fault(r, yaml_node_find(n, "round"),
                      "is too large for the edge from corner %d to the next; a smaller radius "
                      "is expected",
                      at);
@@ -102,11 +103,11 @@ static status read_corners(struct reader *r, const struct node *n, struct solid 
 
 /* Reads an extrusion along an axis from `begin` to `end`; its section is read as a region in the plane of the other
  * two axes. REFUSED if the section is missing or begin is not below end. */
-static status read_extrusion(struct reader *r, const struct node *n, struct solid *s)
+static status read_extrusion(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
-    const struct node *shape = node_find(n, "shape");
+    const struct yaml_node *shape = yaml_node_find(n, "shape");
     TRY(read_group(r, n, n, "solid.extrude", s));
-    if (!shape) return fault_missing(r, n, key_find("solid.extrude", "shape"));
+    if (!shape) return fault_key_missing(r, n, key_find("solid.extrude", "shape"));
     if (!(s->begin < s->end)) return fault(r, n, "from is not below to; from is the lower end");
     r->dim = 2;
     const status read = read_region(r, shape, &s->region);
@@ -116,13 +117,13 @@ static status read_extrusion(struct reader *r, const struct node *n, struct soli
 
 /* Reads the keys of a solid of this kind. REFUSED for kinds that the space does not have, and for an infinite solid
  * in a body. */
-static status read_shape(struct reader *r, const struct node *n, const struct solid_word *word, struct solid *s)
+static status read_shape(struct reader *r, const struct yaml_node *n, const struct solid_word *word, struct solid *s)
 {
     char group[32];
     snprintf(group, sizeof group, "solid.%s", word->name);
     s->kind = word->kind;
     if (word->dim && word->dim != r->dim)
-        return fault(r, n, "not in %s; %s is expected", space_shown(r),
+        return fault(r, n, "not in %s; %s is expected", space_for_message(r),
                      r->dim == 1                   ? "box"
                      : r->dim == 2                 ? "disc, polygon, ellipse, ring or box"
                      : word->kind == SOLID_POLYGON ? "extrude, with a polygon as its shape,"
@@ -138,36 +139,36 @@ static status read_shape(struct reader *r, const struct node *n, const struct so
         return check_solid(r, n, s);
     }
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
-    return fault(r, n, "%s is not true; write all: true", node_shown(r, n));
+    return fault(r, n, "%s is not true; write all: true", node_text(r, n));
 }
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
 /* Finds the node of the region with this name, or of the section in an extrusion. REFUSED with the nearest name. */
-static status region_called(struct reader *r, const struct node *n, const struct node **called)
+static status region_called(struct reader *r, const struct yaml_node *n, const struct yaml_node **called)
 {
-    const struct node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
+    const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
     const char *word = r->dim == r->scene->dim ? "region" : "section";
-    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of %ss is expected", node_shown(r, n), word);
+    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of %ss is expected", node_text(r, n), word);
     if (!map)
-        return fault(r, n, "%s is no solid, and no %s has a name; %ss: {%s: {box: ..}} is expected", node_shown(r, n),
-                     word, word, node_shown(r, n));
-    for (const struct node *c = map->first; c; c = c->next) {
+        return fault(r, n, "%s is no solid, and no %s has a name; %ss: {%s: {box: ..}} is expected", node_text(r, n),
+                     word, word, node_text(r, n));
+    for (const struct yaml_node *c = map->first; c; c = c->next) {
         *called = c;
         if (strcmp(c->key, n->text) == 0) return OK;
         if (!nearest || edit_distance(c->key, n->text) < edit_distance(nearest->key, n->text)) nearest = c;
     }
-    return fault(r, n, "there is no %s %s; the nearest is %s", word, node_shown(r, n), nearest->key);
+    return fault(r, n, "there is no %s %s; the nearest is %s", word, node_text(r, n), nearest->key);
 }
 
 /* Reads the solids of the region whose name is the value of n into `region`. REFUSED if there is no such region or it
  * contains itself. */
-static status read_called(struct reader *r, const struct node *n, struct region *region)
+static status read_called(struct reader *r, const struct yaml_node *n, struct region *region)
 {
     struct naming here = {.outer = r->naming};
     TRY(region_called(r, n, &here.region));
     for (const struct naming *k = r->naming; k; k = k->outer)
-        if (k->region == here.region) return fault(r, n, "region %s is part of itself", node_shown(r, n));
+        if (k->region == here.region) return fault(r, n, "region %s is part of itself", node_text(r, n));
     r->naming = &here;
     const status read = read_solids(r, here.region, region, false);
     r->naming = here.outer;
@@ -175,7 +176,7 @@ static status read_called(struct reader *r, const struct node *n, struct region 
 }
 
 /* Reads the region whose name is the value of n as one solid: the region's only solid, or a group of its solids. */
-static status read_named(struct reader *r, const struct node *n, struct solid *s)
+static status read_named(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     s->kind = SOLID_GROUP;
     TRY(read_called(r, n, &s->region));
@@ -189,12 +190,12 @@ static status read_named(struct reader *r, const struct node *n, struct solid *s
 }
 
 /* Reads the named regions of a mapping; *count: number of regions that have been read, also on failure. */
-static status read_names(struct reader *r, const struct node *map, struct named_region *named, int *count)
+static status read_names(struct reader *r, const struct yaml_node *map, struct named_region *named, int *count)
 {
-    for (const struct node *n = map->first; n; n = n->next) {
-        const struct node name = {
+    for (const struct yaml_node *n = map->first; n; n = n->next) {
+        const struct yaml_node name = {
             .text = n->key, .key = n->key, .line = n->line, .column = n->column, .origin = n->origin};
-        for (const struct node *twin = map->first; twin != n; twin = twin->next)
+        for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", twin->line);
         TRY(read_key(r, &(struct key){.type = KEY_NAME, .place = 1}, &name, named[*count].name));
@@ -205,9 +206,9 @@ static status read_names(struct reader *r, const struct node *map, struct named_
 
 /* Finds the mapping of a key with names and solids; *map is NULL if the key is missing. REFUSED if its value is no
  * mapping or is empty. */
-static status names_find(struct reader *r, const struct node *root, const char *key, const struct node **map)
+static status names_find(struct reader *r, const struct yaml_node *root, const char *key, const struct yaml_node **map)
 {
-    *map = node_find(root, key);
+    *map = yaml_node_find(root, key);
     if (!*map) return OK;
     TRY(expect_kind(r, *map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
     return (*map)->n > 0 ? OK : fault(r, *map, "has no region; a name and its solids are expected");
@@ -216,9 +217,9 @@ static status names_find(struct reader *r, const struct node *root, const char *
 /* Reads all named sections, so that faults in unused ones are found; extrusions read them again. */
 static status read_sections(struct reader *r)
 {
-    const struct node *map = r->sections;
+    const struct yaml_node *map = r->sections;
     int count = 0;
-    if (r->dim != 3) return fault(r, map, "not in %s; regions are expected there", space_shown(r));
+    if (r->dim != 3) return fault(r, map, "not in %s; regions are expected there", space_for_message(r));
     struct named_region *named = NEW("regions", map->n, struct named_region);
     r->dim = 2;
     const status read = read_names(r, map, named, &count);
@@ -228,7 +229,7 @@ static status read_sections(struct reader *r)
     return read;
 }
 
-status read_regions(struct reader *r, const struct node *root)
+status read_regions(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     r->regions = r->sections = NULL, r->solids = 0;
@@ -242,10 +243,10 @@ status read_regions(struct reader *r, const struct node *root)
 
 /* ---- lists of solids --------------------------------------------------------------------------------------------- */
 
-static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before);
+static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before);
 
 /* Reads the operand of add, subtract or intersect: a solid, or a group if it is a list or has motions. */
-static status read_operation(struct reader *r, const struct node *n, const struct node *what, struct solid *s)
+static status read_operation(struct reader *r, const struct yaml_node *n, const struct yaml_node *what, struct solid *s)
 {
     const bool cutting = r->cutting;
     status read;
@@ -264,14 +265,14 @@ static status read_operation(struct reader *r, const struct node *n, const struc
 
 /* Reads one solid with its motions, which may be the operand of add, subtract or intersect. signed_before: it is such
  * an operand already, so that another operation is REFUSED. */
-static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before)
+static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before)
 {
-    const struct node *child = NULL;
+    const struct yaml_node *child = NULL;
     const struct solid_word *word = NULL;
     int solids = 0;
     TRY(expect_kind(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
     TRY(check_keys(r, n, "solid"));
-    for (const struct node *c = n->first; c; c = c->next)
+    for (const struct yaml_node *c = n->first; c; c = c->next)
         if (!is_motion(c)) child = c, solids++;
     if (solids != 1)
         return fault(r, n, "has %d solids; it is one of box, disc, ball, cylinder, polygon, .. (`cleave help solid`)",
@@ -293,10 +294,10 @@ static status read_solid(struct reader *r, const struct node *n, struct solid *s
 }
 
 /* Reads a list of solids. intersect: solids without an operation are intersected. */
-static status read_solids(struct reader *r, const struct node *n, struct region *region, bool intersect)
+static status read_solids(struct reader *r, const struct yaml_node *n, struct region *region, bool intersect)
 {
     if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "an empty list; at least one solid is expected");
-    const struct node *item = n->kind == NODE_LIST ? n->first : n;
+    const struct yaml_node *item = n->kind == NODE_LIST ? n->first : n;
     int count = n->kind == NODE_LIST ? n->n : 1;
     region->solid = NEW("solids", count, struct solid);
     region->n = count;
@@ -310,7 +311,7 @@ static status read_solids(struct reader *r, const struct node *n, struct region 
     return OK;
 }
 
-status read_region(struct reader *r, const struct node *n, struct region *region)
+status read_region(struct reader *r, const struct yaml_node *n, struct region *region)
 {
     return n->kind == NODE_SCALAR && *n->text ? read_called(r, n, region) : read_solids(r, n, region, false);
 }
@@ -335,7 +336,7 @@ static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX
 
 /* Returns REFUSED unless every corner is in the plane, and on the inner side of every edge, to a millionth of the
  * size. */
-static status check_polygon(struct reader *r, const struct node *n, const struct crack *c)
+static status check_polygon(struct reader *r, const struct yaml_node *n, const struct crack *c)
 {
     real normal[DIM_MAX] = {0}, part[DIM_MAX];
     for (int k = 1; k + 1 < c->n; k++) {
@@ -359,7 +360,7 @@ static status check_polygon(struct reader *r, const struct node *n, const struct
     return OK;
 }
 
-static status read_polygon(struct reader *r, const struct node *n, struct crack *c)
+static status read_polygon(struct reader *r, const struct yaml_node *n, struct crack *c)
 {
     const struct key *k = key_find("cracks", "polygon");
     struct key corner = *k;
@@ -367,23 +368,23 @@ static status read_polygon(struct reader *r, const struct node *n, struct crack 
     corner.range.given = false;
     TRY(expect_list(r, k, n));
     crack_make(c, n->n);
-    for (const struct node *p = n->first; p; p = p->next) TRY(read_point(r, &corner, p, c->corner[at++]));
+    for (const struct yaml_node *p = n->first; p; p = p->next) TRY(read_point(r, &corner, p, c->corner[at++]));
     return check_polygon(r, n, c);
 }
 
 /* Reads the position of a crack: a point in 1D, a segment in 2D, a polygon in 3D. */
-static status read_crack_place(struct reader *r, const struct node *n, struct crack *c)
+static status read_crack_place(struct reader *r, const struct yaml_node *n, struct crack *c)
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
     const char *word = first[r->dim - 1];
     TRY(expect_kind(r, n, NODE_MAP, "a crack such as {from: [..], to: [..]}"));
     TRY(check_keys(r, n, "cracks"));
-    for (const struct node *k = n->first; k; k = k->next)
+    for (const struct yaml_node *k = n->first; k; k = k->next)
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
             return fault(r, k, "not in space %s; a crack there has %s", space_names[r->scene->space], form[r->dim - 1]);
-    const struct node *a = node_find(n, word), *b = node_find(n, "to");
-    if (!a) return fault_missing(r, n, key_find("cracks", word));
-    if (r->dim == 2 && !b) return fault_missing(r, n, key_find("cracks", "to"));
+    const struct yaml_node *a = yaml_node_find(n, word), *b = yaml_node_find(n, "to");
+    if (!a) return fault_key_missing(r, n, key_find("cracks", word));
+    if (r->dim == 2 && !b) return fault_key_missing(r, n, key_find("cracks", "to"));
     if (r->dim == 3) return read_polygon(r, a, c);
     crack_make(c, r->dim);
     TRY(read_point(r, key_find("cracks", word), a, c->corner[0]));
@@ -393,10 +394,10 @@ static status read_crack_place(struct reader *r, const struct node *n, struct cr
     return fault(r, n, "has no length; from and to are its two ends");
 }
 
-static status read_crack(struct reader *r, const struct node *n, struct crack *c)
+static status read_crack(struct reader *r, const struct yaml_node *n, struct crack *c)
 {
     TRY(read_crack_place(r, n, c));
-    const struct node *width = node_find(n, "width");
+    const struct yaml_node *width = yaml_node_find(n, "width");
     return width ? read_key(r, key_find("cracks", "width"), width, c) : OK;
 }
 
@@ -421,15 +422,15 @@ static void take_slits(struct scene *s, const struct region *shape)
     }
 }
 
-status read_cracks(struct reader *r, const struct node *root)
+status read_cracks(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    const struct node *list = node_find(root, "cracks");
+    const struct yaml_node *list = yaml_node_find(root, "cracks");
     if (list) {
         TRY(expect_list(r, key_find("", "cracks"), list));
         s->crack = NEW("cracks", list->n, struct crack);
         s->cracks = s->cracks_given = list->n;
-        const struct node *n = list->first;
+        const struct yaml_node *n = list->first;
         for (int k = 0; k < s->cracks; k++, n = n->next) TRY(read_crack(r, n, &s->crack[k]));
     }
     for (int b = 0; b < s->bodies; b++) take_slits(s, &s->body[b].shape);

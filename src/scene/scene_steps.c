@@ -4,10 +4,10 @@
 #include "scene_internal.h"
 
 /* Returns REFUSED for keys that require inertia or time, which load steps do not have. */
-static status check_steps_motion(struct reader *r, const struct node *root)
+static status check_steps_motion(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *solver = node_find(root, "solver"), *cracks = node_find(root, "growth");
+    const struct yaml_node *solver = yaml_node_find(root, "solver"), *cracks = yaml_node_find(root, "growth");
     for (int k = 0; k < s->rigids; k++)
         if (s->body[s->bodies + k].mass > 0)
             return status_prepend_location(
@@ -24,7 +24,8 @@ static status check_steps_motion(struct reader *r, const struct node *root)
                      "solver: explicit, is expected");
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
-            return fault(r, node_find(root, "initial"), "load steps have no velocities; solver: explicit is expected");
+            return fault(r, yaml_node_find(root, "initial"),
+                         "load steps have no velocities; solver: explicit is expected");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE)
             return fault(r, solver, "solver: static computes no waves, which probe %s measures; explicit is expected",
@@ -33,13 +34,13 @@ static status check_steps_motion(struct reader *r, const struct node *root)
 }
 
 /* Returns REFUSED for loads that load steps do not support. */
-static status check_steps_loads(struct reader *r, const struct node *root)
+static status check_steps_loads(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
+    const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
     for (int b = 0; b < s->boundaries && n; b++, n = n->next) {
         if (s->boundary[b].follow)
-            return fault(r, node_find(n, "follow"),
+            return fault(r, yaml_node_find(n, "follow"),
                          "load steps have loads on the reference state only; false, or solver: explicit, is expected");
         TRY(status_prepend_location(s->boundary[b].place, load_check_displacement_known(&s->boundary[b])));
     }
@@ -47,7 +48,7 @@ static status check_steps_loads(struct reader *r, const struct node *root)
 }
 
 /* Returns REFUSED if no boundary loads or displaces the body. */
-static status check_steps_loaded(struct reader *r, const struct node *root)
+static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     bool loaded = dot(s->gravity, s->gravity, DIM_MAX) > 0;
@@ -60,15 +61,15 @@ static status check_steps_loaded(struct reader *r, const struct node *root)
         loaded |= dot(s->body[k].velocity, s->body[k].velocity, DIM_MAX) > 0;
     if (loaded) return OK;
     return fault(
-        r, node_find(root, "solver"),
+        r, yaml_node_find(root, "solver"),
         "nothing loads the body: a boundary with a displacement, velocity, traction, pressure or body force, or a "
         "rigid body with a velocity, is expected");
 }
 
-status check_load_steps(struct reader *r, const struct node *root)
+status check_load_steps(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *steps = node_find(root, "steps");
+    const struct yaml_node *steps = yaml_node_find(root, "steps");
     const bool opening = s->steps.control == CONTROL_OPENING;
     TRY(check_steps_motion(r, root));
     TRY(check_steps_loads(r, root));
@@ -89,13 +90,13 @@ status check_load_steps(struct reader *r, const struct node *root)
 
 /* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because
  * the echo of every scene writes all keys. */
-status check_steps_given(struct reader *r, const struct node *root)
+status check_steps_given(struct reader *r, const struct yaml_node *root)
 {
     const struct scene_steps *s = &r->scene->steps;
-    const struct node *steps = node_find(root, "steps");
+    const struct yaml_node *steps = yaml_node_find(root, "steps");
     const struct key *number = key_find("steps", "number"), *breaks = key_find("steps", "breaks");
     const bool usual = s->number == atoi(number->fallback) && s->control == CONTROL_LOAD && s->energy == 0 &&
                        s->opening == 0 && s->path == PATH_AUTO && s->breaks == atoi(breaks->fallback);
-    if (!steps || scene_in_steps(r->scene) || usual) return OK;
+    if (!steps || scene_has_load_steps(r->scene) || usual) return OK;
     return fault(r, steps, "load steps belong to solver: static, which is expected beside them");
 }

@@ -10,7 +10,7 @@
 #include "csv.h"
 
 /* Reads a table of [time, factor] with ascending times into f->t, f->value, [n]. */
-static status read_table(struct reader *r, const struct node *n, struct time_function *f)
+static status read_table(struct reader *r, const struct yaml_node *n, struct time_function *f)
 {
     const struct key *k = key_find("boundary.time", "table");
     struct key time = *k, factor = *k;
@@ -20,15 +20,15 @@ static status read_table(struct reader *r, const struct node *n, struct time_fun
     f->kind = TIME_TABLE;
     f->t = NEW("time table", n->n, real);
     f->value = NEW("time table", n->n, real);
-    for (const struct node *row = n->first; row; row = row->next) {
+    for (const struct yaml_node *row = n->first; row; row = row->next) {
         if (row->kind != NODE_LIST || row->n != 2)
-            return fault(r, row, "%s is not a pair; [time, factor] is expected, as [5 us, 1]", node_shown(r, row));
+            return fault(r, row, "%s is not a pair; [time, factor] is expected, as [5 us, 1]", node_text(r, row));
         TRY(read_number(r, &time, row->first, &f->t[f->n]));
         TRY(read_number(r, &factor, row->last, &f->value[f->n]));
         if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
             return fault(r, row->first,
                          "time %s is not later than the previous one; times in ascending order are expected",
-                         node_shown(r, row->first));
+                         node_text(r, row->first));
         f->n++;
     }
     return OK;
@@ -162,14 +162,14 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
 }
 
 /* Reads `file: name` with `column: name`. Opens no file if the reader has files = false. */
-static status read_time_file(struct reader *r, const struct node *map, struct boundary *b)
+static status read_time_file(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     struct time_columns c = {.unit = unit_of_boundary(b)};
-    const struct node *n = node_find(map, "file");
-    const struct node *column = node_find(map, "column");
+    const struct yaml_node *n = yaml_node_find(map, "file");
+    const struct yaml_node *column = yaml_node_find(map, "column");
     if (!n) return fault(r, column, "has no meaning without file; the name of a CSV file is expected");
     if (column && (column->kind != NODE_SCALAR || !*column->text || strlen(column->text) >= sizeof b->time_column))
-        return fault(r, column, "%s is no name of a column", node_shown(r, column));
+        return fault(r, column, "%s is no name of a column", node_text(r, column));
     if (column) snprintf(b->time_column, sizeof b->time_column, "%s", column->text);
     b->time.kind = TIME_TABLE;
     TRY(read_path(r, n, "a CSV file of time and value", &b->time_file, &b->time_contents));
@@ -184,22 +184,22 @@ static status read_time_file(struct reader *r, const struct node *map, struct bo
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
 /* Reads the function of time of a boundary; it is 1 if n is NULL or `constant`. */
-status read_time(struct reader *r, const struct node *n, struct boundary *b)
+status read_time(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};
     const char *forms = "constant, step, pulse, ramp, table or file";
     struct time_function *f = &b->time;
     if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "constant") == 0)) return OK;
-    if (n->kind != NODE_MAP) return fault(r, n, "%s is no function of time; %s is expected", node_shown(r, n), forms);
+    if (n->kind != NODE_MAP) return fault(r, n, "%s is no function of time; %s is expected", node_text(r, n), forms);
     TRY(check_keys(r, n, "boundary.time"));
-    if (node_find(n, "file") || node_find(n, "column")) {
-        for (const struct node *other = n->first; other; other = other->next)
+    if (yaml_node_find(n, "file") || yaml_node_find(n, "column")) {
+        for (const struct yaml_node *other = n->first; other; other = other->next)
             if (word_index("file|column", other->key) < 0)
                 return fault(r, other, "is given together with file; only one of %s is expected", forms);
         return read_time_file(r, n, b);
     }
     if (n->n != 1) return fault(r, n, "has %d keys; one of %s is expected", n->n, forms);
-    const struct node *form = n->first;
+    const struct yaml_node *form = n->first;
     int kind = word_index("step|pulse|ramp", form->key);
     if (kind < 0) return read_table(r, form, f);
     f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;

@@ -42,7 +42,7 @@ static const struct {
     {"km/h", "1 km/h is 0.2778 m/s"},
 };
 
-const char *unit_word_meant(const char *text)
+const char *unit_meant_by_word(const char *text)
 {
     for (size_t k = 0; k < COUNT_OF(unit_words); k++) {
         const size_t length = strlen(unit_words[k].word);

@@ -188,27 +188,27 @@ static size_t unit_length(struct measure *sum, const char *text)
     return (size_t)(end - text);
 }
 
-void unit_name_text(const int twice[3], char *text, size_t room)
+void unit_describe(const int twice[3], char *text, size_t capacity)
 {
     static const char *const symbol[] = {"m", "kg", "s"};
     const struct unit_row *row = unit_of(twice);
-    size_t used = (size_t)snprintf(text, room, "%s", row ? row->name : "in");
+    size_t used = (size_t)snprintf(text, capacity, "%s", row ? row->name : "in");
     for (int k = 0; k < 3 && !row; k++)
-        if (twice[k] && used < room)
-            used += (size_t)snprintf(text + used, room - used, " %s^%g", symbol[k], twice[k] / 2.0);
+        if (twice[k] && used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, " %s^%g", symbol[k], twice[k] / 2.0);
 }
 
-void unit_text(const int twice[3], char *text, size_t room)
+void unit_write_text(const int twice[3], char *text, size_t capacity)
 {
     static const char *const symbol[] = {"m", "kg", "s"};
     size_t used = 0;
     *text = '\0';
     for (int k = 0; k < 3; k++) {
         const int whole = twice[k] / 2, sign = whole < 0 ? -1 : 1;
-        for (int left = whole * sign; left > 0 && used < room; left -= 9)
-            used += (size_t)snprintf(text + used, room - used, " %s^%d", symbol[k], sign * (left < 9 ? left : 9));
-        if (twice[k] % 2 && used < room)
-            used += (size_t)snprintf(text + used, room - used, " %s^%s0.5", symbol[k], twice[k] < 0 ? "-" : "");
+        for (int left = whole * sign; left > 0 && used < capacity; left -= 9)
+            used += (size_t)snprintf(text + used, capacity - used, " %s^%d", symbol[k], sign * (left < 9 ? left : 9));
+        if (twice[k] % 2 && used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, " %s^%s0.5", symbol[k], twice[k] < 0 ? "-" : "");
     }
 }
 
@@ -281,10 +281,10 @@ static bool complain(struct complaint c, const char *wrong, enum unit unit)
 
 /* Writes `text` with the letters of each symbol in the case that makes it a unit: GPa for Gpa. Returns false if that is
  * no unit, or if nothing changes. */
-static bool unit_in_other_case(const char *text, char *out, size_t room)
+static bool unit_in_other_case(const char *text, char *out, size_t capacity)
 {
     struct measure m;
-    snprintf(out, room, "%s", text);
+    snprintf(out, capacity, "%s", text);
     for (char *c = out; *c; c += *c != '\0') {
         char word[16];
         const size_t length = symbol_length(c);
@@ -311,7 +311,7 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     *ten = 0;
     if (*unit_text == '\0') return true;
     if (!unit_read(&m, unit_text)) {
-        const char *meant = unit_word_meant(unit_text);
+        const char *meant = unit_meant_by_word(unit_text);
         if (!meant && (strlen(unit_text) > UNIT_LONGEST || !unit_in_other_case(unit_text, other, sizeof other)))
             return complain(c, "has an unknown unit", unit);
         snprintf(wrong, sizeof wrong, "has an unknown unit (%s%s)", meant ? meant : other, meant ? "" : "?");
@@ -387,9 +387,9 @@ static real number_scaled(const char *text, size_t length, int ten, int clock, r
     return clock ? clock * number_value(text, length, 0) / divisor : number_value(text, length, ten) / divisor;
 }
 
-bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room)
+bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *message, size_t capacity)
 {
-    struct complaint c = {what, room};
+    struct complaint c = {message, capacity};
     real divisor;
     int ten;
     if (infinite_read(value, text)) return infinite || complain(c, "is not finite", unit);
@@ -398,7 +398,7 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     if (length > NUMBER_LONGEST) return complain(c, "has too many digits", unit);
     const char *other = trap(text, length);
     if (other) {
-        snprintf(what, room, "is not a number here: %s", other);
+        snprintf(message, capacity, "is not a number here: %s", other);
         return false;
     }
     const char *rest = text + length;
@@ -439,7 +439,7 @@ size_t quantity_read_unit(struct quantity *q, const char *text)
     return length;
 }
 
-bool number_quantity(struct quantity *q, const char *text)
+bool quantity_parse(struct quantity *q, const char *text)
 {
     struct measure m = {{0, 0, 0}, 0};
     real divisor;
@@ -477,24 +477,24 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
     return letters ? (size_t)(unit - text) + letters : length;
 }
 
-bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t room)
+bool quantity_has_unit(const struct quantity *q, enum unit unit, char *message, size_t capacity)
 {
-    const struct complaint c = {what, room};
+    const struct complaint c = {message, capacity};
     const signed char *twice = unit_rows[unit].twice;
     const bool same = q->twice[0] == twice[0] && q->twice[1] == twice[1] && q->twice[2] == twice[2];
     char name[64], wrong[80];
     if (same || q->bare) return true;
-    unit_name_text(q->twice, name, sizeof name);
+    unit_describe(q->twice, name, sizeof name);
     snprintf(wrong, sizeof wrong, "is %s", name);
     return complain(c, wrong, unit);
 }
 
-bool quantity_bounded(real value, enum unit unit, char *what, size_t room)
+bool value_is_in_unit_bounds(real value, enum unit unit, char *message, size_t capacity)
 {
-    return in_bounds((struct complaint){what, room}, value, unit);
+    return in_bounds((struct complaint){message, capacity}, value, unit);
 }
 
-const char *number_text(char text[32], real value)
+const char *number_write_shortest(char text[32], real value)
 {
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, 32, "%.*g", digits, value);

@@ -15,7 +15,7 @@ enum { SHOWN_LONGEST = 40 };
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
-const char *shown_text(struct reader *r, const char *text)
+const char *text_for_message(struct reader *r, const char *text)
 {
     size_t length = strlen(text), cut = length;
     if (cut > SHOWN_LONGEST) cut = SHOWN_LONGEST;
@@ -28,39 +28,39 @@ const char *shown_text(struct reader *r, const char *text)
     return copy;
 }
 
-const char *node_shown(struct reader *r, const struct node *n)
+const char *node_text(struct reader *r, const struct yaml_node *n)
 {
     if (n->kind == NODE_LIST) return "a list";
     if (n->kind == NODE_MAP) return "a mapping";
-    return *n->text ? shown_text(r, n->text) : "no value";
+    return *n->text ? text_for_message(r, n->text) : "no value";
 }
 
 /* Writes the name of a node for messages: its key, or the key of its list with an index, as in `velocity[1]`. */
-static void node_name(const struct node *n, char *name, size_t room)
+static void node_name(const struct yaml_node *n, char *name, size_t capacity)
 {
     if (n->key) {
-        snprintf(name, room, "%.48s", n->key);
+        snprintf(name, capacity, "%.48s", n->key);
     } else if (n->parent) {
         int place = 0;
-        for (const struct node *c = n->parent->first; c != n; c = c->next) place++;
-        node_name(n->parent, name, room);
+        for (const struct yaml_node *c = n->parent->first; c != n; c = c->next) place++;
+        node_name(n->parent, name, capacity);
         size_t used = strlen(name);
-        snprintf(name + used, room - used, "[%d]", place);
+        snprintf(name + used, capacity - used, "[%d]", place);
     } else {
         *name = '\0';
     }
 }
 
-void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room)
+void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity)
 {
     if (origin < 0) {
-        snprintf(text, room, "%.300s:%d:%d", origin_file_name(r, origin), line, column);
+        snprintf(text, capacity, "%.300s:%d:%d", origin_file_name(r, origin), line, column);
         return;
     }
-    snprintf(text, room, "-s %.100s=%.100s", r->override[origin].key, r->override[origin].value);
+    snprintf(text, capacity, "-s %.100s=%.100s", r->override[origin].key, r->override[origin].value);
 }
 
-status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
+status fault_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
 {
     char what[512], place[400];
     va_list arguments;
@@ -71,28 +71,28 @@ status fault_mark(const struct reader *r, int origin, int line, int column, cons
     return status_set(REFUSED, "%s: %s", place, what);
 }
 
-void fault_place(const struct reader *r, const struct node *at, char *text, size_t room)
+void fault_write_location(const struct reader *r, const struct yaml_node *at, char *text, size_t capacity)
 {
     char name[100];
     node_name(at, name, sizeof name);
-    place_text(r, at->origin, at->line, at->column, text, room);
-    snprintf(text + strlen(text), room - strlen(text), ": %s%s", name, *name ? ": " : "");
+    place_text(r, at->origin, at->line, at->column, text, capacity);
+    snprintf(text + strlen(text), capacity - strlen(text), ": %s%s", name, *name ? ": " : "");
 }
 
-status fault(const struct reader *r, const struct node *at, const char *format, ...)
+status fault(const struct reader *r, const struct yaml_node *at, const char *format, ...)
 {
     char what[512], place[PLACE_LENGTH];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    fault_place(r, at, place, sizeof place);
+    fault_write_location(r, at, place, sizeof place);
     return status_set(REFUSED, "%s%s", place, what);
 }
 
-status fault_both(const struct reader *r, const struct node *a, const struct node *b)
+status fault_keys_exclude(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b)
 {
-    const struct node *late = a->origin > b->origin ? a : b;
+    const struct yaml_node *late = a->origin > b->origin ? a : b;
     return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
 }
 
@@ -111,23 +111,23 @@ static const char *form_text(struct reader *r, const struct key *k)
     case KEY_MATERIAL:
         return "the name of a material";
     default:
-        return k->words ? word_list(r, k->words) : "a mapping of keys";
+        return k->words ? words_for_message(r, k->words) : "a mapping of keys";
     }
 }
 
-status fault_missing(struct reader *r, const struct node *map, const struct key *k)
+status fault_key_missing(struct reader *r, const struct yaml_node *map, const struct key *k)
 {
     char group[64];
     snprintf(group, sizeof group, "%s", k->path);
     char *dot = strrchr(group, '.');
     if (dot) *dot = '\0';
     bool number = k->type == KEY_REAL;
-    return fault_mark(r, map->origin, map->line, map->column, "%s: missing%s%s; %s is expected%s%s", key_leaf(k),
-                      dot ? " in " : "", dot ? group : "", form_text(r, k), number ? ", as " : "",
-                      number ? unit_rows[k->unit].example : "");
+    return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%s; %s is expected%s%s", key_leaf(k),
+                             dot ? " in " : "", dot ? group : "", form_text(r, k), number ? ", as " : "",
+                             number ? unit_rows[k->unit].example : "");
 }
 
-const char *word_list(struct reader *r, const char *words)
+const char *words_for_message(struct reader *r, const char *words)
 {
     int left = 1;
     for (const char *c = words; *c; c++) left += *c == '|';
@@ -145,7 +145,7 @@ const char *word_list(struct reader *r, const char *words)
 
 /* ---- keys -------------------------------------------------------------------------------------------------------- */
 
-static status fault_unknown(const struct reader *r, const struct node *n, const char *group)
+static status fault_unknown(const struct reader *r, const struct yaml_node *n, const char *group)
 {
     char instead[400];
     if (foreign_word_advice(n->key, group, instead, sizeof instead)) return fault(r, n, "unknown key; %s", instead);
@@ -154,7 +154,7 @@ static status fault_unknown(const struct reader *r, const struct node *n, const 
     int most = (int)strlen(leaf) / 2 > 2 ? (int)strlen(leaf) / 2 : 2;
     if (nearest && edit_distance(leaf, n->key) <= most) return fault(r, n, "unknown key; the nearest is %s", leaf);
     int others;
-    const struct key *other = key_elsewhere(n->key, &others);
+    const struct key *other = key_find_in_any_group(n->key, &others);
     if (other && !strchr(other->path, '.'))
         return fault(r, n, "does not belong here; %s is a key of its own, at the left margin", n->key);
     if (others == 1) return fault(r, n, "does not belong here; it is the key %s", other->path);
@@ -164,27 +164,27 @@ static status fault_unknown(const struct reader *r, const struct node *n, const 
 }
 
 /* Returns REFUSED if a key of a mapping is unknown in its group or given twice. */
-status check_keys(struct reader *r, const struct node *map, const char *group)
+status check_keys(struct reader *r, const struct yaml_node *map, const char *group)
 {
-    for (const struct node *n = map->first; n; n = n->next) {
+    for (const struct yaml_node *n = map->first; n; n = n->next) {
         const struct key *k = key_find(group, n->key);
         if (!k) return fault_unknown(r, n, group);
-        for (const struct node *twin = map->first; twin != n; twin = twin->next)
+        for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", twin->line);
     }
     return OK;
 }
 
-status expect_kind(struct reader *r, const struct node *n, enum node_kind kind, const char *what)
+status expect_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what)
 {
     const bool top = n->key && n->parent && !n->parent->key;
     const char *advice = top ? foreign_value_advice(n->key, n->text) : NULL;
     if (n->kind == kind) return OK;
-    return fault(r, n, "%s is not %s%s%s", node_shown(r, n), what, advice ? "; " : "", advice ? advice : "");
+    return fault(r, n, "%s is not %s%s%s", node_text(r, n), what, advice ? "; " : "", advice ? advice : "");
 }
 
-status expect_list(struct reader *r, const struct key *k, const struct node *n)
+status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n)
 {
     int least = (int)k->range.least, most = (int)k->range.most;
     TRY(expect_kind(r, n, NODE_LIST, "a list"));
@@ -195,59 +195,59 @@ status expect_list(struct reader *r, const struct key *k, const struct node *n)
 /* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
 /* Returns REFUSED with the expected range if the value is outside it. */
-static status check_range(struct reader *r, const struct key *k, const struct node *n, real value)
+static status check_range(struct reader *r, const struct key *k, const struct yaml_node *n, real value)
 {
     const struct range *range = &k->range;
     char least[32], most[32];
     if (!range->given) return OK;
     bool low = range->open ? !(value > range->least) : !(value >= range->least);
     if (!low && value <= range->most) return OK;
-    if (low && k->low) return fault(r, n, "%s %s", node_shown(r, n), k->low);
+    if (low && k->low) return fault(r, n, "%s %s", node_text(r, n), k->low);
     const struct unit_row *unit = &unit_rows[k->unit];
     const char *name = k->type == KEY_INT ? "a whole number" : unit->name;
     bool bounded = isfinite(range->most);
     const char *advice = foreign_value_advice(k->path, n->text);
-    return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s%s%s", node_shown(r, n), name,
-                 range->open ? "above" : "from", number_text(least, range->least),
+    return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s%s%s", node_text(r, n), name,
+                 range->open ? "above" : "from", number_write_shortest(least, range->least),
                  bounded       ? (range->open ? " up to " : " to ")
                  : range->open ? ""
                                : " on",
-                 bounded ? number_text(most, range->most) : "", k->unit ? ", as " : "", k->unit ? unit->example : "",
-                 advice ? "; " : "", advice ? advice : "");
+                 bounded ? number_write_shortest(most, range->most) : "", k->unit ? ", as " : "",
+                 k->unit ? unit->example : "", advice ? "; " : "", advice ? advice : "");
 }
 
-status read_number(struct reader *r, const struct key *k, const struct node *n, real *value)
+status read_number(struct reader *r, const struct key *k, const struct yaml_node *n, real *value)
 {
     char what[256];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a number; %s is expected, as %s", node_shown(r, n), unit_rows[k->unit].name,
+        return fault(r, n, "%s is not a number; %s is expected, as %s", node_text(r, n), unit_rows[k->unit].name,
                      unit_rows[k->unit].example);
     if (k->type == KEY_REAL && k->words && strcmp(n->text, k->words) == 0) {
         *value = k->word_value;
         return OK;
     }
     bool infinite = k->infinite && !(k->type == KEY_POINT && r->bounded);
-    if (!number_of_text(r, value, n->text, k->unit, infinite, what, sizeof what)) {
-        length_in_spacings_advise(r, k, n->text, what, sizeof what);
-        return fault(r, n, "%s %s", node_shown(r, n), what);
+    if (!number_evaluate_text(r, value, n->text, k->unit, infinite, what, sizeof what)) {
+        advise_length_in_spacings(r, k, n->text, what, sizeof what);
+        return fault(r, n, "%s %s", node_text(r, n), what);
     }
     return check_range(r, k, n, *value);
 }
 
 /* Reads an expression whose value is a whole number within rounding. */
-static status read_whole(struct reader *r, const struct node *n, real *value)
+static status read_whole(struct reader *r, const struct yaml_node *n, real *value)
 {
     char what[256];
     real number;
-    if (!number_of_text(r, &number, n->text, UNIT_NONE, false, what, sizeof what))
-        return fault(r, n, "%s %s", node_shown(r, n), what);
+    if (!number_evaluate_text(r, &number, n->text, UNIT_NONE, false, what, sizeof what))
+        return fault(r, n, "%s %s", node_text(r, n), what);
     *value = round(number);
     if (fabs(number - *value) <= 1e-9 * (1 + fabs(number))) return OK;
-    return fault(r, n, "%s is %g; a whole number is expected", node_shown(r, n), number);
+    return fault(r, n, "%s is %g; a whole number is expected", node_text(r, n), number);
 }
 
 /* Reads a whole number. Numbers beyond 32 bits are clamped and then refused by the range of the key. */
-static status read_int(struct reader *r, const struct key *k, const struct node *n, int *value)
+static status read_int(struct reader *r, const struct key *k, const struct yaml_node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
     if (n->kind == NODE_SCALAR && (strchr(n->text, '/') || looks_like_expression(r, n->text))) {
@@ -258,7 +258,7 @@ static status read_int(struct reader *r, const struct key *k, const struct node 
     }
     size_t digits = strspn(c, "0123456789");
     if (n->kind != NODE_SCALAR || digits == 0 || c[digits] != '\0' || (*c == '0' && digits > 1))
-        return fault(r, n, "%s is not a whole number; digits alone are expected, as 20", node_shown(r, n));
+        return fault(r, n, "%s is not a whole number; digits alone are expected, as 20", node_text(r, n));
     errno = 0;
     long long number = strtoll(n->text, NULL, 10);
     if (errno || number > INT32_MAX || number < INT32_MIN) number = *n->text == '-' ? INT32_MIN : INT32_MAX;
@@ -266,7 +266,7 @@ static status read_int(struct reader *r, const struct key *k, const struct node 
     return check_range(r, k, n, (real)number);
 }
 
-static status read_seed(struct reader *r, const struct node *n, uint64_t *value)
+static status read_seed(struct reader *r, const struct yaml_node *n, uint64_t *value)
 {
     size_t digits = strspn(n->text, "0123456789");
     real whole = -1;
@@ -279,24 +279,24 @@ static status read_seed(struct reader *r, const struct node *n, uint64_t *value)
     else
         errno = EINVAL;
     if (errno == 0) return OK;
-    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected", node_shown(r, n));
+    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected", node_text(r, n));
 }
 
-static status read_flag(struct reader *r, const struct node *n, bool *value)
+static status read_flag(struct reader *r, const struct yaml_node *n, bool *value)
 {
     int word = n->kind == NODE_SCALAR ? word_index("false|true", n->text) : -1;
-    if (word < 0) return fault(r, n, "%s is neither true nor false; write true or false", node_shown(r, n));
+    if (word < 0) return fault(r, n, "%s is neither true nor false; write true or false", node_text(r, n));
     *value = word == 1;
     return OK;
 }
 
-static status read_choice(struct reader *r, const struct key *k, const struct node *n, void *place)
+static status read_choice(struct reader *r, const struct key *k, const struct yaml_node *n, void *place)
 {
-    const char *words = word_list(r, k->words);
+    const char *words = words_for_message(r, k->words);
     int word = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
     const char *advice = foreign_value_advice(k->path, n->text);
     if (word < 0)
-        return fault(r, n, "%s is unknown; %s is expected%s%s", node_shown(r, n), words, advice ? "; " : "",
+        return fault(r, n, "%s is unknown; %s is expected%s%s", node_text(r, n), words, advice ? "; " : "",
                      advice ? advice : "");
     if (k->size == sizeof(int)) memcpy(place, &word, sizeof word);
     if (k->size == 1) *(bool *)place = word == 1;
@@ -317,21 +317,21 @@ static const char *word_near(struct reader *r, const char *words, const char *te
 }
 
 /* Reads a list of words, `none` or `all` as bits in the order of the words. REFUSED for unknown words. */
-static status read_set(struct reader *r, const struct key *k, const struct node *n, unsigned *bits)
+static status read_set(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned *bits)
 {
-    const char *words = word_list(r, k->words);
+    const char *words = words_for_message(r, k->words);
     *bits = 0;
     if (n->kind == NODE_SCALAR && strcmp(n->text, "none") == 0) return OK;
     for (const char *c = k->words; c && n->kind == NODE_SCALAR && strcmp(n->text, "all") == 0; c = strchr(c + 1, '|'))
         *bits = *bits << 1 | 1;
     if (*bits) return OK;
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is unknown; none, all or a list of %s is expected", node_shown(r, n), words);
-    for (const struct node *c = n->first; c; c = c->next) {
+        return fault(r, n, "%s is unknown; none, all or a list of %s is expected", node_text(r, n), words);
+    for (const struct yaml_node *c = n->first; c; c = c->next) {
         int word = c->kind == NODE_SCALAR ? word_index(k->words, c->text) : -1;
         if (word < 0) {
             const char *near = word_near(r, k->words, c->text);
-            return fault(r, c, "%s is unknown%s%s; %s is expected", node_shown(r, c), near ? "; the nearest is " : "",
+            return fault(r, c, "%s is unknown%s%s; %s is expected", node_text(r, c), near ? "; the nearest is " : "",
                          near ? near : "", words);
         }
         *bits |= 1u << word;
@@ -340,57 +340,57 @@ static status read_set(struct reader *r, const struct key *k, const struct node 
 }
 
 /* Reads a text of fewer than NAME_MAX_LENGTH characters into name, for names that another file defines. */
-static status read_any_text(struct reader *r, const struct node *n, char *name)
+static status read_any_text(struct reader *r, const struct yaml_node *n, char *name)
 {
     const size_t length = strlen(n->text);
-    if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is no text", node_shown(r, n));
+    if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is no text", node_text(r, n));
     if (length >= NAME_MAX_LENGTH)
-        return fault(r, n, "%s is too long; at most %d characters are expected", node_shown(r, n), NAME_MAX_LENGTH - 1);
+        return fault(r, n, "%s is too long; at most %d characters are expected", node_text(r, n), NAME_MAX_LENGTH - 1);
     memset(name, 0, NAME_MAX_LENGTH);
     memcpy(name, n->text, length);
     return OK;
 }
 
 /* Reads a name of letters, digits, _ and - into name, [NAME_MAX_LENGTH]. */
-static status read_name(struct reader *r, const struct node *n, char *name)
+static status read_name(struct reader *r, const struct yaml_node *n, char *name)
 {
     size_t length = strlen(n->text), fine = 0;
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
     if (n->kind == NODE_SCALAR && length > 0 && fine == length && n->text[0] != '-') return read_any_text(r, n, name);
-    return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", node_shown(r, n));
+    return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", node_text(r, n));
 }
 
 /* ---- lists of numbers -------------------------------------------------------------------------------------------- */
 
 const char *const space_names[] = {"line", "plane stress", "plane strain", "solid"};
 
-const char *space_shown(const struct reader *r)
+const char *space_for_message(const struct reader *r)
 {
     static const char *const shown_as[] = {"space line", "space plane stress", "space plane strain", "space solid"};
     return r->dim == r->scene->dim ? shown_as[r->scene->space] : "the plane of extrude";
 }
 
-status read_point(struct reader *r, const struct key *k, const struct node *n, real *point)
+status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point)
 {
     int d = 0;
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
-    const char *space = space_shown(r);
+    const char *space = space_for_message(r);
     if (n->kind != NODE_LIST)
-        return fault(r, n, "%s is not a list; %d components are expected in %s", node_shown(r, n), r->dim, space);
+        return fault(r, n, "%s is not a list; %d components are expected in %s", node_text(r, n), r->dim, space);
     if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in %s", n->n, r->dim, space);
-    for (const struct node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
+    for (const struct yaml_node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
 }
 
 /* Reads dim x dim numbers, row by row or in one list. */
-static status read_matrix(struct reader *r, const struct key *k, const struct node *n, real *matrix)
+static status read_matrix(struct reader *r, const struct key *k, const struct yaml_node *n, real *matrix)
 {
     int dim = r->dim, entry = 0;
     if (dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, matrix);
     bool rows = n->kind == NODE_LIST && n->n == dim && n->first->kind == NODE_LIST;
     if (!rows && (n->kind != NODE_LIST || n->n != dim * dim))
-        return fault(r, n, "%s is not a matrix; %d rows of %d numbers are expected", node_shown(r, n), dim, dim);
-    for (const struct node *c = n->first; c; c = c->next) {
+        return fault(r, n, "%s is not a matrix; %d rows of %d numbers are expected", node_text(r, n), dim, dim);
+    for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(rows ? read_point(r, k, c, &matrix[entry]) : read_number(r, k, c, &matrix[entry]));
         entry += rows ? dim : 1;
     }
@@ -400,16 +400,16 @@ static status read_matrix(struct reader *r, const struct key *k, const struct no
 enum { SERIES_MOST = 100000 };
 
 /* Reads a list of ascending numbers. */
-static status read_series(struct reader *r, const struct key *k, const struct node *n, struct number_list *series)
+static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
     TRY(expect_kind(r, n, NODE_LIST, "a list"));
     if (n->n < 1 || n->n > SERIES_MOST) return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
     series->value = NEW("scene series", n->n, real);
-    for (const struct node *c = n->first; c; c = c->next) {
+    for (const struct yaml_node *c = n->first; c; c = c->next) {
         TRY(read_number(r, k, c, &series->value[series->n]));
         if (series->n > 0 && !(series->value[series->n] > series->value[series->n - 1]))
             return fault(r, c, "%s is not larger than the previous value; values in ascending order are expected",
-                         node_shown(r, c));
+                         node_text(r, c));
         series->n++;
     }
     return OK;
@@ -417,13 +417,13 @@ static status read_series(struct reader *r, const struct key *k, const struct no
 
 /* ---- references by name ------------------------------------------------------------------------------------------ */
 
-static status fault_reference(struct reader *r, const struct node *n, const char *what, const char *nearest)
+static status fault_reference(struct reader *r, const struct yaml_node *n, const char *what, const char *nearest)
 {
-    return fault(r, n, "there is no %s %s; the nearest is %s", what, node_shown(r, n), nearest);
+    return fault(r, n, "there is no %s %s; the nearest is %s", what, node_text(r, n), nearest);
 }
 
 /* Finds the index of the material of this name. REFUSED with the nearest name. */
-static status scene_value_read_material(struct reader *r, const struct node *n, int *index)
+static status scene_value_read_material(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;
     const struct material *m = s->material;
@@ -437,7 +437,7 @@ static status scene_value_read_material(struct reader *r, const struct node *n, 
 }
 
 /* Finds the index of the body of this name. REFUSED with the nearest name. */
-static status scene_value_read_body(struct reader *r, const struct node *n, int *index)
+static status scene_value_read_body(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;
     const struct scene_body *b = s->body;
@@ -452,13 +452,13 @@ static status scene_value_read_body(struct reader *r, const struct node *n, int 
             return fault(r, n,
                          "%s is rigid; a body with particles is expected (rigid ones have a velocity, a mass "
                          "and a force of their own)",
-                         node_shown(r, n));
+                         node_text(r, n));
     return fault_reference(r, n, "body", b[nearest].name);
 }
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-status read_key(struct reader *r, const struct key *k, const struct node *n, void *base)
+status read_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base)
 {
     char none[16];
     void *place = k->place ? (char *)base + (k->place - 1) : (void *)none;
@@ -495,24 +495,25 @@ status read_key(struct reader *r, const struct key *k, const struct node *n, voi
 }
 
 /* Reads the default of a key that is not given; REFUSED at `where` if the key is required. */
-static status read_fallback(struct reader *r, const struct node *where, const struct key *k, void *base)
+static status read_fallback(struct reader *r, const struct yaml_node *where, const struct key *k, void *base)
 {
-    struct node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};
+    struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};
     if (k->type >= KEY_MAP || *k->fallback == '-' || *k->fallback == '(') return OK;
-    if (strcmp(k->fallback, "required") == 0) return fault_missing(r, where, k);
+    if (strcmp(k->fallback, "required") == 0) return fault_key_missing(r, where, k);
     n.key = (char *)key_leaf(k);
     n.text = (char *)k->fallback;
     return read_key(r, k, &n, base);
 }
 
-status read_group(struct reader *r, const struct node *where, const struct node *map, const char *group, void *base)
+status read_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map, const char *group,
+                  void *base)
 {
     if (map) TRY(expect_kind(r, map, NODE_MAP, "a mapping of keys to values"));
     if (map) TRY(check_keys(r, map, group));
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
         if (!key_is_directly_below(k, group)) continue;
-        const struct node *n = node_find(map, key_leaf(k));
+        const struct yaml_node *n = yaml_node_find(map, key_leaf(k));
         if (k->type == KEY_MAP)
             TRY(read_group(r, n ? n : where, n, k->path, base));
         else if (n)

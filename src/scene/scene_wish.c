@@ -13,27 +13,28 @@
 
 /* ---- the key accuracy -------------------------------------------------------------------------------------------- */
 
-/* Reads the name of a quantity in summary.json, parts joined by points as in crack.start_time, into figure[room].
+/* Reads the name of a quantity in summary.json, parts joined by points as in crack.start_time, into figure[capacity].
  * REFUSED for texts that cannot be such a name. */
-static status figure_read(struct reader *r, const struct node *of, char *figure, size_t room)
+static status figure_read(struct reader *r, const struct yaml_node *of, char *figure, size_t capacity)
 {
-    if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= room || strpbrk(of->text, " ,/"))
+    if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= capacity || strpbrk(of->text, " ,/"))
         return fault(r, of, "%s is no figure of summary.json; its names are joined by points, as in crack.start_time",
-                     node_shown(r, of));
-    snprintf(figure, room, "%s", of->text);
+                     node_text(r, of));
+    snprintf(figure, capacity, "%s", of->text);
     return OK;
 }
 
 /* Reads the key `accuracy`, a number or a mapping {of, within, budget}, into figure, within and budget of w; missing
  * entries get defaults. REFUSED for invalid entries. */
-static status accuracy_read(struct reader *r, const struct node *root, struct pilot_wish *w)
+static status accuracy_read(struct reader *r, const struct yaml_node *root, struct pilot_wish *w)
 {
-    const struct node *n = tree_find(root, "accuracy");
+    const struct yaml_node *n = tree_find(root, "accuracy");
     w->within = WITHIN_USUAL, w->budget = BUDGET_USUAL, w->figure[0] = '\0';
     if (!n) return OK;
     if (n->kind != NODE_MAP) return read_number(r, key_find("accuracy", "within"), n, &w->within);
     TRY(check_keys(r, n, "accuracy"));
-    const struct node *of = node_find(n, "of"), *within = node_find(n, "within"), *budget = node_find(n, "budget");
+    const struct yaml_node *of = yaml_node_find(n, "of"), *within = yaml_node_find(n, "within"),
+                           *budget = yaml_node_find(n, "budget");
     if (of) TRY(figure_read(r, of, w->figure, sizeof w->figure));
     if (within) TRY(read_number(r, key_find("accuracy", "within"), within, &w->within));
     return budget ? read_number(r, key_find("accuracy", "budget"), budget, &w->budget) : OK;
@@ -42,11 +43,11 @@ static status accuracy_read(struct reader *r, const struct node *root, struct pi
 /* ---- the scene with a provisional method ------------------------------------------------------------------------- */
 
 /* Returns true if a material of the scene has this key. */
-static bool material_key(const struct node *root, const char *key)
+static bool material_key(const struct yaml_node *root, const char *key)
 {
-    const struct node *one = node_find(root, "material"), *many = node_find(root, "materials");
-    bool has = one && node_find(one, key);
-    for (const struct node *n = many ? many->first : NULL; n; n = n->next) has = has || node_find(n, key);
+    const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
+    bool has = one && yaml_node_find(one, key);
+    for (const struct yaml_node *n = many ? many->first : NULL; n; n = n->next) has = has || yaml_node_find(n, key);
     return has;
 }
 
@@ -57,20 +58,20 @@ static status provisional_read(struct reader *r, const char *text, size_t length
 {
     static const char *const dropped[] = {"accuracy", "pd.surface"};
     struct reader own = *r;
-    struct node *root;
+    struct yaml_node *root;
     char number[32];
     own.scene = s;
-    status read = scene_tree(&own, text, length, &root);
+    status read = scene_parse_tree(&own, text, length, &root);
     for (size_t k = 0; k < COUNT_OF(dropped) && read == OK; k++)
-        if (tree_find(root, dropped[k])) read = tree_set(&own, root, dropped[k], "");
-    const struct node *space = read == OK ? tree_find(root, "space") : NULL;
+        if (tree_find(root, dropped[k])) read = tree_apply_override(&own, root, dropped[k], "");
+    const struct yaml_node *space = read == OK ? tree_find(root, "space") : NULL;
     const bool line = space && strcmp(space->text, "line") == 0,
                bonds = read == OK && (material_key(root, "yield_stress") || material_key(root, "viscosity"));
     if (read == OK && !tree_find(root, "particles.spacing"))
-        read = tree_set(&own, root, "particles.spacing", number_text(number, spacing));
-    if (read == OK) read = tree_set(&own, root, "method", method);
-    if (read == OK) read = tree_set(&own, root, "solver", "explicit");
-    if (read == OK && !line && !bonds) read = tree_set(&own, root, "model", "mospd");
+        read = tree_apply_override(&own, root, "particles.spacing", number_write_shortest(number, spacing));
+    if (read == OK) read = tree_apply_override(&own, root, "method", method);
+    if (read == OK) read = tree_apply_override(&own, root, "solver", "explicit");
+    if (read == OK && !line && !bonds) read = tree_apply_override(&own, root, "model", "mospd");
     if (read == OK) read = scene_from_tree(&own, root);
     r->arena = own.arena;
     if (read != OK) scene_free(s);
@@ -103,9 +104,10 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* Reads what a scene with `method: auto` requires of its pilot runs into *w. */
-status pilot_wish_read(struct reader *r, const struct node *root, const char *text, size_t length, struct pilot_wish *w)
+status pilot_wish_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
+                       struct pilot_wish *w)
 {
-    const struct node *model = tree_find(root, "model"), *solver = tree_find(root, "solver");
+    const struct yaml_node *model = tree_find(root, "model"), *solver = tree_find(root, "solver");
     const bool given = tree_find(root, "particles.spacing");
     if (tree_find(root, "steps"))
         return fault(r, tree_find(root, "method"), "auto does not do load steps (steps); pd, or adaptive, is expected");

@@ -4,14 +4,14 @@
 #include "base/edit_distance.h"
 #include "scene_internal.h"
 
-bool length_read(real *value, const char *text, char *what, size_t room)
+bool length_read(real *value, const char *text, char *message, size_t capacity)
 {
-    return number_read(value, text, UNIT_LENGTH, false, what, room);
+    return number_read(value, text, UNIT_LENGTH, false, message, capacity);
 }
 
-bool time_read(real *value, const char *text, char *what, size_t room)
+bool time_read(real *value, const char *text, char *message, size_t capacity)
 {
-    return number_read(value, text, UNIT_TIME, false, what, room);
+    return number_read(value, text, UNIT_TIME, false, message, capacity);
 }
 
 const char *word_nearest(const char *word, const char *const *name, int n)

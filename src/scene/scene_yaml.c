@@ -51,7 +51,7 @@ void arena_free(struct reader *r)
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
 /* Appends a node to the entries of a list or mapping. */
-void node_append(struct node *parent, struct node *child)
+void yaml_node_append(struct yaml_node *parent, struct yaml_node *child)
 {
     child->parent = parent;
     child->next = NULL;
@@ -63,10 +63,10 @@ void node_append(struct node *parent, struct node *child)
     parent->n++;
 }
 
-void node_remove(struct node *parent, struct node *child)
+void yaml_node_remove(struct yaml_node *parent, struct yaml_node *child)
 {
-    struct node *before = NULL;
-    for (struct node *n = parent->first; n != child; n = n->next) before = n;
+    struct yaml_node *before = NULL;
+    for (struct yaml_node *n = parent->first; n != child; n = n->next) before = n;
     if (before)
         before->next = child->next;
     else
@@ -75,10 +75,10 @@ void node_remove(struct node *parent, struct node *child)
     parent->n--;
 }
 
-struct node *node_find(const struct node *map, const char *key)
+struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key)
 {
     if (!map || map->kind != NODE_MAP) return NULL;
-    for (struct node *child = map->first; child; child = child->next)
+    for (struct yaml_node *child = map->first; child; child = child->next)
         if (strcmp(child->key, key) == 0) return child;
     return NULL;
 }
@@ -95,7 +95,7 @@ struct parse {
 
 static status fault_at(struct parse *p, yaml_mark_t mark, const char *what)
 {
-    return fault_mark(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
+    return fault_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
 }
 
 /* Returns the line and column of a byte offset, since faults of the encoding have an offset only. */
@@ -115,9 +115,9 @@ static status yaml_fault(struct parse *p)
     const yaml_parser_t *yaml = &p->yaml;
     if (yaml->error == YAML_MEMORY_ERROR) return status_set(FAILED, "%s: no memory to read it", p->r->name);
     yaml_mark_t mark = yaml->error == YAML_READER_ERROR ? mark_of_offset(p, yaml->problem_offset) : yaml->problem_mark;
-    return fault_mark(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1,
-                      "not YAML: %s; spaces (not tabs) indent, a key ends in `: `, brackets close",
-                      yaml->problem ? yaml->problem : "it cannot be read");
+    return fault_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1,
+                             "not YAML: %s; spaces (not tabs) indent, a key ends in `: `, brackets close",
+                             yaml->problem ? yaml->problem : "it cannot be read");
 }
 
 static status next_event(struct parse *p, yaml_event_t *event)
@@ -156,38 +156,38 @@ static const char *key_refusal(const yaml_event_t *e)
     return NULL;
 }
 
-static struct node *node_new(struct parse *p, const yaml_event_t *e, enum node_kind kind)
+static struct yaml_node *node_new(struct parse *p, const yaml_event_t *e, enum node_kind kind)
 {
-    struct node *n = arena_new(p->r, sizeof *n);
-    *n = (struct node){.kind = kind,
-                       .line = (int)e->start_mark.line + 1,
-                       .column = (int)e->start_mark.column + 1,
-                       .origin = p->origin,
-                       .text = ""};
+    struct yaml_node *n = arena_new(p->r, sizeof *n);
+    *n = (struct yaml_node){.kind = kind,
+                            .line = (int)e->start_mark.line + 1,
+                            .column = (int)e->start_mark.column + 1,
+                            .origin = p->origin,
+                            .text = ""};
     return n;
 }
 
-static status read_value(struct parse *p, yaml_event_t *event, int depth, struct node **out);
+static status read_value(struct parse *p, yaml_event_t *event, int depth, struct yaml_node **out);
 
-static status read_items(struct parse *p, struct node *list, int depth)
+static status read_items(struct parse *p, struct yaml_node *list, int depth)
 {
     yaml_event_t event;
     for (;;) {
-        struct node *child;
+        struct yaml_node *child;
         TRY(next_event(p, &event));
         bool end = event.type == YAML_SEQUENCE_END_EVENT;
         if (end) yaml_event_delete(&event);
         if (end) return OK;
         TRY(read_value(p, &event, depth + 1, &child));
-        node_append(list, child);
+        yaml_node_append(list, child);
     }
 }
 
 /* Reads a key and its value; the key's line and column become those of the entry. */
-static status read_entry(struct parse *p, struct node *map, yaml_event_t *key_event, int depth)
+static status read_entry(struct parse *p, struct yaml_node *map, yaml_event_t *key_event, int depth)
 {
     yaml_event_t event;
-    struct node *key, *child;
+    struct yaml_node *key, *child;
     const char *refusal = key_refusal(key_event);
     if (refusal) {
         status s = fault_at(p, key_event->start_mark, refusal);
@@ -200,11 +200,11 @@ static status read_entry(struct parse *p, struct node *map, yaml_event_t *key_ev
     child->key = key->text;
     child->line = key->line;
     child->column = key->column;
-    node_append(map, child);
+    yaml_node_append(map, child);
     return OK;
 }
 
-static status read_entries(struct parse *p, struct node *map, int depth)
+static status read_entries(struct parse *p, struct yaml_node *map, int depth)
 {
     yaml_event_t event;
     for (;;) {
@@ -217,7 +217,7 @@ static status read_entries(struct parse *p, struct node *map, int depth)
 }
 
 /* Reads the node that begins with `event` into *out, and deletes the event. depth: levels of nesting above it. */
-static status read_value(struct parse *p, yaml_event_t *event, int depth, struct node **out)
+static status read_value(struct parse *p, yaml_event_t *event, int depth, struct yaml_node **out)
 {
     const char *refusal = event_refusal(event, depth);
     if (refusal) {
@@ -226,10 +226,10 @@ static status read_value(struct parse *p, yaml_event_t *event, int depth, struct
         return s;
     }
     yaml_event_type_t type = event->type;
-    struct node *n = node_new(p, event,
-                              type == YAML_SCALAR_EVENT           ? NODE_SCALAR
-                              : type == YAML_SEQUENCE_START_EVENT ? NODE_LIST
-                                                                  : NODE_MAP);
+    struct yaml_node *n = node_new(p, event,
+                                   type == YAML_SCALAR_EVENT           ? NODE_SCALAR
+                                   : type == YAML_SEQUENCE_START_EVENT ? NODE_LIST
+                                                                       : NODE_MAP);
     if (type == YAML_SCALAR_EVENT)
         n->text = arena_text(p->r, (char *)event->data.scalar.value, event->data.scalar.length);
     yaml_event_delete(event);
@@ -253,7 +253,7 @@ static status skip_event(struct parse *p, yaml_event_type_t *type)
 }
 
 /* Reads the one document of a text; *root is NULL if it is empty. */
-static status read_document(struct parse *p, struct node **root)
+static status read_document(struct parse *p, struct yaml_node **root)
 {
     yaml_event_t event;
     yaml_event_type_t type;
@@ -267,7 +267,7 @@ static status read_document(struct parse *p, struct node **root)
     return OK;
 }
 
-status tree_read(struct reader *r, const char *text, size_t length, int origin, struct node **root)
+status tree_read(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root)
 {
     struct parse p = {.r = r, .text = text, .length = length, .origin = origin};
     const char *nul = memchr(text, 0, length);

@@ -18,7 +18,7 @@ struct lengths {
 static real box_extent(const struct scene *s, int body, int axis)
 {
     const struct region *shape = &s->body[body].shape;
-    if (shape->n == 0 || !solid_is(&shape->solid[0], SOLID_BOX)) return 0;
+    if (shape->n == 0 || !solid_is_unmoved_of_kind(&shape->solid[0], SOLID_BOX)) return 0;
     return shape->solid[0].to[axis] - shape->solid[0].from[axis];
 }
 
@@ -52,7 +52,7 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
         for (int d = 0; d < s->dim; d++) length_add(l, box_extent(s, b, d));
         for (int k = 1; k < s->body[b].shape.n; k++) {
             const struct solid *gap = &s->body[b].shape.solid[k];
-            for (int d = 0; d < s->dim && gap->subtract && solid_is(gap, SOLID_BOX); d++)
+            for (int d = 0; d < s->dim && gap->subtract && solid_is_unmoved_of_kind(gap, SOLID_BOX); d++)
                 length_add_inside(l, box, d, gap->from[d]), length_add_inside(l, box, d, gap->to[d]);
         }
         lengths_add_cracks(l, s, box);
@@ -83,7 +83,7 @@ static bool spacing_fits(const struct lengths *l, const struct scene *s, real h,
     return true;
 }
 
-real spacing_fit(const struct scene *s, real h, bool even)
+real spacing_that_fits_lattice(const struct scene *s, real h, bool even)
 {
     struct lengths l;
     real least = INFINITY;
@@ -165,7 +165,7 @@ static double load_spacing(const struct scene *s)
         const struct boundary *b = &s->boundary[k];
         if (b->kind == BOUNDARY_BODY_FORCE && b->profile.kind == PROFILE_SINE)
             least = fmin(least, b->profile.wavelength / IN_PULSE);
-        if (scene_moves(s) && b->time.kind == TIME_PULSE)
+        if (scene_is_dynamic(s) && b->time.kind == TIME_PULSE)
             least = fmin(least, s->material[0].wave_speed * (b->time.until - b->time.from) / IN_PULSE);
     }
     return least;
@@ -203,5 +203,5 @@ real spacing_that_resolves(const struct scene *s)
     for (int k = 0; k < s->cracks; k++) h = fmin(h, crack_spacing(s, &s->crack[k]));
     for (int k = 0; k < s->probes; k++) h = fmin(h, probe_spacing(&s->probe[k]));
     h = fmin(h, spacing_for(s, particles_usual[s->dim]));
-    return h > 0 && isfinite(h) ? spacing_fit(s, fmax(h, spacing_for(s, PARTICLES_MOST)), true) : 0;
+    return h > 0 && isfinite(h) ? spacing_that_fits_lattice(s, fmax(h, spacing_for(s, PARTICLES_MOST)), true) : 0;
 }

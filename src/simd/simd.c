@@ -65,7 +65,7 @@ const int simd_set_count = COUNT_OF(simd_sets);
 KERNELS(DEFINE)
 static const struct simd_set *in_use;
 
-void simd_set_kernels(const struct simd_set *set)
+void simd_use_kernels(const struct simd_set *set)
 {
     INVARIANT(set->runs());
 #define TAKE(name) name = set->kernels->name;
@@ -86,7 +86,7 @@ static const char *names(bool running, char *text, size_t size)
     return text;
 }
 
-status simd_start(void)
+status simd_select_kernels(void)
 {
     const char *asked = getenv("CLEAVE_SIMD");
     const struct simd_set *widest = NULL, *wanted = NULL;
@@ -98,7 +98,7 @@ status simd_start(void)
     if (!widest)
         return status_set(REFUSED, "this build has kernels for other processors alone: %s; `make` builds the others",
                           names(false, text, sizeof text));
-    simd_set_kernels(wanted && wanted->runs() ? wanted : widest);
+    simd_use_kernels(wanted && wanted->runs() ? wanted : widest);
     if (!asked || in_use == wanted) return OK;
     if (!wanted)
         return status_set(REFUSED, "CLEAVE_SIMD=%s: no such set of kernels; there are: %s", asked,
@@ -108,4 +108,4 @@ status simd_start(void)
 }
 
 /* Kernels are selected before anything runs; main checks again, and reports a failure. */
-__attribute__((constructor)) static void simd_start_set(void) { (void)simd_start(); }
+__attribute__((constructor)) static void simd_start_set(void) { (void)simd_select_kernels(); }

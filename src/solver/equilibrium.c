@@ -42,14 +42,14 @@ enum { WORK_PARTS = 16 };
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
 /* Lists the addresses of all vectors of q in list [FIELDS]. */
-static void all_fields(struct equilibrium *q, struct field **list)
+static void all_fields(struct newton_solver *q, struct field **list)
 {
     struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before, &q->grown};
     memcpy(list, fields, sizeof fields);
 }
 enum { FIELDS = 10 };
 
-void equilibrium_make(struct equilibrium *q, int dim, int64_t n)
+void newton_solver_make(struct newton_solver *q, int dim, int64_t n)
 {
     struct field *list[FIELDS];
     q->dim = dim, q->n = n;
@@ -60,20 +60,20 @@ void equilibrium_make(struct equilibrium *q, int dim, int64_t n)
         for (int d = 0; d < dim; d++) list[k]->of[d] = NEW("equilibrium.field", n, real);
 }
 
-void equilibrium_free(struct equilibrium *q)
+void newton_solver_free(struct newton_solver *q)
 {
     struct field *list[FIELDS];
     all_fields(q, list);
     for (int k = 0; k < FIELDS; k++)
         for (int d = 0; d < DIM_MAX; d++) memory_free(list[k]->of[d]);
     memory_free(q->held);
-    *q = (struct equilibrium){0};
+    *q = (struct newton_solver){0};
 }
 
-static bool is_held(const struct equilibrium *q, int64_t i, int d) { return q->held[i] >> d & 1; }
+static bool is_held(const struct newton_solver *q, int64_t i, int d) { return q->held[i] >> d & 1; }
 
 /* Computes to = a x + b y. */
-static void combine(const struct equilibrium *q, struct field *to, real a, const struct field *x, real b,
+static void combine(const struct newton_solver *q, struct field *to, real a, const struct field *x, real b,
                     const struct field *y)
 {
     for (int d = 0; d < q->dim; d++) {
@@ -86,7 +86,7 @@ static void combine(const struct equilibrium *q, struct field *to, real a, const
 
 /* Parameters of dot_block and plain_block: two vectors whose scalar product is summed. */
 struct product {
-    const struct equilibrium *q;
+    const struct newton_solver *q;
     const struct field *a, *b;
 };
 
@@ -100,12 +100,12 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
 }
 
 /* Computes the product of a and b over free components, sum[0], and over held components, sum[1]. */
-static void dots(const struct equilibrium *q, const struct field *a, const struct field *b, real sum[2])
+static void dots(const struct newton_solver *q, const struct field *a, const struct field *b, real sum[2])
 {
     reproducible_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
 }
 
-static real dot_free(const struct equilibrium *q, const struct field *a, const struct field *b)
+static real dot_free(const struct newton_solver *q, const struct field *a, const struct field *b)
 {
     real sum[2];
     dots(q, a, b, sum);
@@ -115,7 +115,7 @@ static real dot_free(const struct equilibrium *q, const struct field *a, const s
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
 /* Computes the forces at displacement u and counts the evaluation. */
-static void forces_at(struct equilibrium *q, const struct field *u, struct field *f)
+static void forces_at(struct newton_solver *q, const struct field *u, struct field *f)
 {
     q->force(q->context, u, f);
     q->forces++;
@@ -135,7 +135,7 @@ static void plain_block(const void *context, int64_t first, int64_t end, real *s
 }
 
 /* Returns the scalar product of a and b over all components, free and constrained. */
-static real dot_all(const struct equilibrium *q, const struct field *a, const struct field *b)
+static real dot_all(const struct newton_solver *q, const struct field *a, const struct field *b)
 {
     real sum;
     reproducible_sums(q->n, 1, plain_block, &(struct product){q, a, b}, &sum);
@@ -144,23 +144,23 @@ static real dot_all(const struct equilibrium *q, const struct field *a, const st
 
 /* Returns the length over which an increment rotates bonds [m]: the extent of the region of nodes that move about as
  * much as the largest component `most` of the increment [m]. */
-static real turning_width(const struct equilibrium *q, const struct field *increment, real most)
+static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
 }
 
 /* Returns the factor by which an increment is multiplied for a difference of forces: small enough that strains and
  * rotations of bonds stay within DIFFERENCE_STRAIN and DIFFERENCE_TURN. most: its largest component [m]. */
-static real difference_step(const struct equilibrium *q, const struct field *increment, real most)
+static real difference_step(const struct newton_solver *q, const struct field *increment, real most)
 {
     return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
 }
 
 /* Computes the product of the tangent stiffness at u with the vector `in`, by a one-sided difference of forces: out =
  * (f(u) - f(u + step in))/step. q->f must contain f(u). Overwrites q->at. */
-static void stiffness(struct equilibrium *q, const struct field *in, struct field *out)
+static void stiffness(struct newton_solver *q, const struct field *in, struct field *out)
 {
-    const real most = solver_largest_component(in, q->dim, q->n);
+    const real most = field_largest_component(in, q->dim, q->n);
     const real step = most > 0 ? difference_step(q, in, most) : 0;
     combine(q, &q->at, 1, &q->u, step, in);
     forces_at(q, &q->at, out);
@@ -172,15 +172,15 @@ static void stiffness(struct equilibrium *q, const struct field *in, struct fiel
 
 /* Stores the ratio of strain to largest component of direction d, from which the step of the next difference of forces
  * follows. curvature: d . K d. */
-static void strain_note(struct equilibrium *q, const struct field *d, real curvature)
+static void strain_note(struct newton_solver *q, const struct field *d, real curvature)
 {
-    const real most = solver_largest_component(d, q->dim, q->n);
+    const real most = field_largest_component(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
 /* Computes from the present forces the residual relative to the scale, the scale itself (norm of applied forces and
  * reactions) and the node with the largest residual. */
-static void equilibrium_measure(struct equilibrium *q)
+static void equilibrium_measure(struct newton_solver *q)
 {
     real sum[2], most = -1;
     dots(q, &q->f, &q->f, sum);
@@ -198,9 +198,9 @@ static void equilibrium_measure(struct equilibrium *q)
 
 /* Computes the residual r = f - K x of the initial increment x, which contains the motion of supports; 0 on constrained
  * components. */
-static void residual_of_guess(struct equilibrium *q)
+static void residual_of_guess(struct newton_solver *q)
 {
-    if (solver_largest_component(&q->x, q->dim, q->n) == 0) {
+    if (field_largest_component(&q->x, q->dim, q->n) == 0) {
         combine(q, &q->r, 1, &q->f, 0, &q->f);
     } else {
         stiffness(q, &q->x, &q->q);
@@ -213,7 +213,7 @@ static void residual_of_guess(struct equilibrium *q)
 
 /* Sets the free components of the initial increment x to 0 if the residual is smaller without them: a fragment that
  * broke off and rotated does not follow proportional loads. */
-static void guess_check(struct equilibrium *q)
+static void guess_check(struct newton_solver *q)
 {
     residual_of_guess(q);
     const real with = dot_free(q, &q->r, &q->r);
@@ -227,7 +227,7 @@ static void guess_check(struct equilibrium *q)
 
 /* Parameters of advance_block. */
 struct step {
-    struct equilibrium *q;
+    struct newton_solver *q;
     real scale;
 };
 
@@ -236,7 +236,7 @@ struct step {
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct step *s = context;
-    const struct equilibrium *q = s->q;
+    const struct newton_solver *q = s->q;
     for (int d = 0; d < q->dim; d++) {
         real *x = q->x.of[d], *r = q->r.of[d], part = 0;
         const real *increment = q->d.of[d], *force = q->q.of[d];
@@ -251,16 +251,16 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
 }
 
 /* Extends x along d, a direction of negative stiffness, by a rotation of at most TURN_MOST. */
-static void follow_negative(struct equilibrium *q)
+static void follow_negative(struct newton_solver *q)
 {
-    const real most = solver_largest_component(&q->d, q->dim, q->n);
+    const real most = field_largest_component(&q->d, q->dim, q->n);
     if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
 }
 
 /* Solves K x = f on free components from the initial x; held components of x do not change. Stops at a residual of
  * `wanted` [N], or of FORCING_LEAST of that of the initial x. At a direction of negative stiffness x is extended
  * along it (Steihaug 1983), unless supports move. */
-static void correction(struct equilibrium *q, real wanted, bool prescribed)
+static void correction(struct newton_solver *q, real wanted, bool prescribed)
 {
     real rz = 0, left2, best2 = INFINITY;
     int best = 0;
@@ -289,7 +289,7 @@ static void correction(struct equilibrium *q, real wanted, bool prescribed)
 /* ---- its length -------------------------------------------------------------------------------------------------- */
 
 /* Computes the displacement z = u + share x and the forces there, in q->q. */
-static void forces_along(struct equilibrium *q, real share)
+static void forces_along(struct newton_solver *q, real share)
 {
     combine(q, &q->z, 1, &q->u, share, &q->x);
     forces_at(q, &q->z, &q->q);
@@ -299,9 +299,9 @@ static void forces_along(struct equilibrium *q, real share)
  * decreases up to that point: the factor is reduced if forces point against x and increased if they still point along
  * it. prescribed: supports move, and the increment is made in full. left: residual before the correction [N]. Stores
  * the displacement in z and the forces there in q->q. */
-static real line_search(struct equilibrium *q, real left, bool prescribed)
+static real line_search(struct newton_solver *q, real left, bool prescribed)
 {
-    const real push = dot_free(q, &q->f, &q->x), most = solver_largest_component(&q->x, q->dim, q->n);
+    const real push = dot_free(q, &q->f, &q->x), most = field_largest_component(&q->x, q->dim, q->n);
     real share = q->reach > 0 && !prescribed && most > q->reach ? q->reach / most : 1, low = 0, high = 0, at_low = push;
     for (int k = 0; k < EVALUATIONS_MOST; k++) {
         forces_along(q, share);
@@ -323,7 +323,7 @@ static real line_search(struct equilibrium *q, real left, bool prescribed)
 
 /* Returns the work of all forces over the increment share x [J], by Simpson's rule if forces are not linear along
  * it. Loads on the increment have grown in proportion since `before`. Overwrites at and r. */
-static real work_along(struct equilibrium *q, real share, real left)
+static real work_along(struct newton_solver *q, real share, real left)
 {
     real ends[2], after[2], middle[2], grown[2], sum = 0;
     dots(q, &q->before, &q->x, ends);
@@ -344,7 +344,7 @@ static real work_along(struct equilibrium *q, real share, real left)
 
 /* Adds the correction x, times the factor of the line search, to u and updates the forces. left: residual before it
  * [N]; prescribed: supports move. Returns the work of all forces along the increment [J]. */
-static real advance(struct equilibrium *q, real left, bool prescribed)
+static real advance(struct newton_solver *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);
     const real share = line_search(q, left, prescribed), work = work_along(q, share, left);
@@ -356,7 +356,7 @@ static real advance(struct equilibrium *q, real left, bool prescribed)
 }
 
 /* Returns the work of the forces on supports along the increment [J]. */
-static real dot_held(const struct equilibrium *q, const struct field *increment)
+static real dot_held(const struct newton_solver *q, const struct field *increment)
 {
     real sum[2];
     dots(q, &q->f, increment, sum);
@@ -367,20 +367,20 @@ static real dot_held(const struct equilibrium *q, const struct field *increment)
  * along it, later ones that they are complete. In fact the states form a curve: with the increment c s + d s^2 for the
  * share s of the growth, loads do 1/6 of `more` beyond the mean of both ends, and nothing is lost. more: growth of
  * loads times the increments of later corrections [J]. */
-static void loads_bend(struct equilibrium *q, real more)
+static void loads_bend(struct newton_solver *q, real more)
 {
     q->bent = more / 6;
     q->lost -= more / 3;
 }
 
-static bool is_balanced(const struct equilibrium *q)
+static bool is_balanced(const struct newton_solver *q)
 {
     return q->residual <= q->tolerance || q->residual * q->scale <= q->noise;
 }
 
 /* Updates the branches of the material laws and contacts for the present state (q->settle). Returns true if nothing has
  * changed; else recomputes the forces and returns false. */
-static bool laws_settle(struct equilibrium *q)
+static bool laws_settle(struct newton_solver *q)
 {
     if (!q->settle || q->settle(q->context)) return true;
     forces_at(q, &q->u, &q->f);
@@ -388,9 +388,9 @@ static bool laws_settle(struct equilibrium *q)
     return false;
 }
 
-status equilibrium_find(struct equilibrium *q, const struct field *increment, bool moved)
+status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool moved)
 {
-    bool prescribed = moved && solver_largest_component(increment, q->dim, q->n) > 0;
+    bool prescribed = moved && field_largest_component(increment, q->dim, q->n) > 0;
     combine(q, &q->x, prescribed, increment, 0, increment);
     combine(q, &q->before, 1, &q->f, 0, &q->f);
     real supports = prescribed ? 0.5 * dot_held(q, increment) : 0;

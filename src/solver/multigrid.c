@@ -22,7 +22,7 @@ enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 
 /* Replaces the diagonal of row i by minus the sum of the other entries if they differ by rounding only, so that a
  * rigid translation has exactly no energy. Larger differences (supports, foundations) are kept in `rest`. */
-static void diagonal_exact(const struct level *l, int64_t i)
+static void diagonal_exact(const struct multigrid_level *l, int64_t i)
 {
     const int size = l->width * l->width;
     real sum[9] = {0}, own[9] = {0}, trace = 0;
@@ -44,11 +44,11 @@ static void diagonal_exact(const struct level *l, int64_t i)
 
 /* Sets up the finest level from the matrix. Returns FAILED if an entry is not finite or a diagonal stiffness is
  * negative. */
-static status finest_make(struct level *l, const struct block_matrix *a, const uint8_t *held)
+static status finest_make(struct multigrid_level *l, const struct block_matrix *a, const uint8_t *held)
 {
     const unsigned all = (1u << a->dim) - 1;
     real most = 0;
-    *l = (struct level){.width = a->dim, .modes = a->dim * (a->dim + 1) / 2, .n = a->n};
+    *l = (struct multigrid_level){.width = a->dim, .modes = a->dim * (a->dim + 1) / 2, .n = a->n};
     l->first = a->first, l->column = a->column, l->single = a->block;
     l->diagonal = NEW("multigrid.diagonal", l->n * a->dim * a->dim, real);
     l->rest = NEW("multigrid.rest", l->n * a->dim * a->dim, float);
@@ -66,12 +66,12 @@ static status finest_make(struct level *l, const struct block_matrix *a, const u
     }
     for (int64_t i = 0; i < l->n; i++)
         if (l->scale[i] <= STIFFNESS_LEAST * most || (held[i] & all) == all) l->scale[i] = 0;
-    level_invert_blocks(l);
+    multigrid_invert_blocks(l);
     return OK;
 }
 
 /* Computes the rigid motions: translations, then rotations as velocities at the distance from the centre. */
-static void finest_modes(struct level *l, real *const *position)
+static void finest_modes(struct multigrid_level *l, real *const *position)
 {
     const int w = l->width, m = l->modes;
     real middle[DIM_MAX] = {0};
@@ -98,37 +98,37 @@ static void finest_modes(struct level *l, real *const *position)
 /* ---- all levels -------------------------------------------------------------------------------------------------- */
 
 /* Allocates the vectors of a level. */
-static void level_vectors(struct level *l)
+static void level_vectors(struct multigrid_level *l)
 {
     real **vector[] = {&l->b, &l->x, &l->y, &l->d, &l->t};
     for (size_t k = 0; k < COUNT_OF(vector); k++) *vector[k] = NEW("multigrid.vector", l->n * l->width, real);
 }
 
 /* Copies the diagonal blocks of a coarse level from its matrix and inverts them. */
-static void coarse_diagonal(struct level *l)
+static void coarse_diagonal(struct multigrid_level *l)
 {
     const int size = l->width * l->width;
     l->diagonal = NEW("multigrid.diagonal", l->n * size, real);
     for (int64_t i = 0; i < l->n; i++)
         for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
             if (l->column[q] == i) array_copy(l->diagonal + i * size, l->block + q * size, size, sizeof(real));
-    level_invert_blocks(l);
+    multigrid_invert_blocks(l);
 }
 
 /* Builds the next level; returns false if it would not have clearly fewer nodes. */
 static bool coarsen(struct multigrid *m)
 {
-    struct level *l = &m->level[m->levels - 1], *next = l + 1;
-    level_aggregate(l);
+    struct multigrid_level *l = &m->level[m->levels - 1], *next = l + 1;
+    multigrid_aggregate_nodes(l);
     if (l->coarse == 0 || l->coarse > 0.7 * (real)l->n) return false;
-    *next = (struct level){0};
-    level_make_modes(l, next);
-    level_make_transfer(l);
-    level_galerkin(l, next);
-    level_unconstrained(l, next);
+    *next = (struct multigrid_level){0};
+    multigrid_make_modes(l, next);
+    multigrid_make_transfer(l);
+    multigrid_make_coarse_matrix(l, next);
+    multigrid_find_unconstrained(l, next);
     coarse_diagonal(next);
     level_vectors(next);
-    level_estimate_largest(next);
+    multigrid_estimate_eigenvalue(next);
     m->levels++;
     return true;
 }
@@ -145,19 +145,19 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *a, real
     }
     finest_modes(&m->level[0], position);
     level_vectors(&m->level[0]);
-    level_estimate_largest(&m->level[0]);
+    multigrid_estimate_eigenvalue(&m->level[0]);
     while (m->levels < LEVELS_MOST) {
-        const struct level *l = &m->level[m->levels - 1];
+        const struct multigrid_level *l = &m->level[m->levels - 1];
         if (m->levels > 1 && l->n * l->width <= DENSE) break;
         if (!coarsen(m)) break;
     }
-    const struct level *last = &m->level[m->levels - 1];
+    const struct multigrid_level *last = &m->level[m->levels - 1];
     if (m->levels > 1 && last->n * last->width <= 4 * DENSE) dense_make(&m->dense, last);
     return OK;
 }
 
 /* Frees a level, but not the matrix that the finest level has by reference. */
-static void level_free(struct level *l)
+static void level_free(struct multigrid_level *l)
 {
     void *owned[] = {
         l->rest,      l->unconstrained, l->block,     l->diagonal,   l->inverse,     l->scale,      l->held,
@@ -181,15 +181,15 @@ void multigrid_free(struct multigrid *m)
 
 /* Relaxes by the Chebyshev polynomial that is small from largest/RANGE to largest (Saad, Iterative Methods for
  * Sparse Linear Systems, algorithm 12.1). zero: x is 0 on entry. */
-static void level_smooth(struct level *l, int degree, bool zero)
+static void level_smooth(struct multigrid_level *l, int degree, bool zero)
 {
     const real theta = 0.5 * l->largest * (1 + 1 / RANGE), delta = 0.5 * l->largest * (1 - 1 / RANGE);
     const real sigma = theta / delta;
     real rho = 1 / sigma;
-    level_relax(l, 0, 1 / theta, zero);
+    multigrid_smooth(l, 0, 1 / theta, zero);
     for (int k = 1; k < degree; k++) {
         const real next = 1 / (2 * sigma - rho);
-        level_relax(l, next * rho, 2 * next / delta, false);
+        multigrid_smooth(l, next * rho, 2 * next / delta, false);
         rho = next;
     }
 }
@@ -197,7 +197,7 @@ static void level_smooth(struct level *l, int degree, bool zero)
 /* Solves for x of level k with load b by a V-cycle. */
 static void cycle(struct multigrid *m, int k)
 {
-    struct level *l = &m->level[k];
+    struct multigrid_level *l = &m->level[k];
     if (k == m->levels - 1 && m->dense.n > 0) {
         dense_solve(&m->dense, l->b, l->x);
         return;
@@ -205,17 +205,17 @@ static void cycle(struct multigrid *m, int k)
     const int degree = k == 0 ? DEGREE : DEGREE_COARSE;
     level_smooth(l, degree, true);
     if (k < m->levels - 1) {
-        level_residual(l);
-        level_restrict(l, l + 1);
+        multigrid_compute_residual(l);
+        multigrid_restrict_residual(l, l + 1);
         cycle(m, k + 1);
-        level_prolong(l, l + 1);
+        multigrid_prolong_correction(l, l + 1);
     }
     level_smooth(l, degree, false);
 }
 
 void multigrid_apply(struct multigrid *m, real *const *r, real *const *z)
 {
-    struct level *l = &m->level[0];
+    struct multigrid_level *l = &m->level[0];
     const int w = l->width;
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < l->n; i++)

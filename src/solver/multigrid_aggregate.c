@@ -9,7 +9,7 @@
 #define WEAK 0.1
 
 /* Returns the Frobenius norm of entry q. */
-static float entry_norm(const struct level *l, int64_t q)
+static float entry_norm(const struct multigrid_level *l, int64_t q)
 {
     const int size = l->width * l->width;
     real sum = 0;
@@ -22,7 +22,7 @@ static float entry_norm(const struct level *l, int64_t q)
 
 /* Returns the strength of each matrix entry [first[n]]: its norm if it connects two free nodes strongly enough (WEAK),
  * else 0. The caller frees it. */
-static float *strengths_make(const struct level *l)
+static float *strengths_make(const struct multigrid_level *l)
 {
     float *strength = BARE("multigrid.strength", l->first[l->n], float), *most = NEW("multigrid.strength", l->n, float);
 #pragma omp parallel for schedule(static)
@@ -41,7 +41,7 @@ static float *strengths_make(const struct level *l)
 }
 
 /* Makes a new aggregate of node i and those of its strongly connected neighbours that belong to no aggregate. */
-static void aggregate_found(struct level *l, const float *strength, int64_t i)
+static void aggregate_found(struct multigrid_level *l, const float *strength, int64_t i)
 {
     const int32_t name = (int32_t)l->coarse++;
     l->aggregate[i] = name;
@@ -50,7 +50,7 @@ static void aggregate_found(struct level *l, const float *strength, int64_t i)
 }
 
 /* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate. */
-static bool neighbours_free(const struct level *l, const float *strength, int64_t i)
+static bool neighbours_free(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     bool any = false;
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
@@ -62,7 +62,7 @@ static bool neighbours_free(const struct level *l, const float *strength, int64_
 }
 
 /* Returns the aggregate whose nodes have the largest sum of connection strengths with node i, or -1. */
-static int32_t aggregate_nearest(const struct level *l, const float *strength, int64_t i)
+static int32_t aggregate_nearest(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };
     int32_t name[CANDIDATES], best = -1;
@@ -82,7 +82,7 @@ static int32_t aggregate_nearest(const struct level *l, const float *strength, i
     return best;
 }
 
-void level_aggregate(struct level *l)
+void multigrid_aggregate_nodes(struct multigrid_level *l)
 {
     float *strength = strengths_make(l);
     int32_t *joins = BARE("multigrid.joins", l->n, int32_t);
@@ -149,7 +149,7 @@ static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w
 }
 
 /* Lists the members of every aggregate: member[first[a] .. first[a + 1] - 1]. */
-static void members_list(const struct level *l, int64_t *first, int32_t *member)
+static void members_list(const struct multigrid_level *l, int64_t *first, int32_t *member)
 {
     for (int64_t i = 0; i < l->n; i++)
         if (l->aggregate[i] >= 0) first[l->aggregate[i] + 1]++;
@@ -161,7 +161,7 @@ static void members_list(const struct level *l, int64_t *first, int32_t *member)
     memory_free(at);
 }
 
-void level_make_modes(struct level *l, struct level *next)
+void multigrid_make_modes(struct multigrid_level *l, struct multigrid_level *next)
 {
     const int w = l->width, m = l->modes;
     int64_t *first = NEW("multigrid.members", l->coarse + 1, int64_t);

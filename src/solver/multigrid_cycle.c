@@ -13,7 +13,7 @@ static ALWAYS_INLINE four four_load(const float *from)
 
 /* Computes sum -= K x for row i of the finest level in 1D. The bonds act on differences of displacements, so that a
  * body in rigid motion has no forces; l->rest is the stiffness that is not from bonds. */
-static ALWAYS_INLINE void row_single_1(const struct level *l, int64_t i, const real *x, real *sum)
+static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     real force = 0;
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) force += l->single[q] * (x[l->column[q]] - x[i]);
@@ -22,14 +22,14 @@ static ALWAYS_INLINE void row_single_1(const struct level *l, int64_t i, const r
 
 /* Returns the products of the four entries of the 2 x 2 block q with the displacement of its column's node minus
  * `own`. */
-static ALWAYS_INLINE four single_2(const struct level *l, int64_t q, pair own, const real *x)
+static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(pair_load(x + (int64_t)l->column[q] * 2) - own, two);
     return four_load(l->single + q * 4) * (four){u[0], u[1], u[0], u[1]};
 }
 
 /* Computes sum -= K x as row_single_1 does, for blocks of 2 x 2. */
-static ALWAYS_INLINE void row_single_2(const struct level *l, int64_t i, const real *x, real *sum)
+static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const int64_t end = l->first[i + 1];
     const pair own = pair_load(x + i * 2);
@@ -45,7 +45,7 @@ static ALWAYS_INLINE void row_single_2(const struct level *l, int64_t i, const r
 }
 
 /* Computes sum -= K x as row_single_1 does, for blocks of 3 x 3. */
-static ALWAYS_INLINE void row_single_3(const struct level *l, int64_t i, const real *x, real *sum)
+static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const pair own = pair_load(x + i * 3);
     const real own_z = x[i * 3 + 2];
@@ -69,7 +69,7 @@ static ALWAYS_INLINE void row_single_3(const struct level *l, int64_t i, const r
 
 /* Computes sum[0 .. w - 1] -= K x for row i, w being the unknowns per node. single: finest level, with entries in
  * single precision. */
-static ALWAYS_INLINE void row_times(const struct level *l, int64_t i, const real *x, real *sum, const int w,
+static ALWAYS_INLINE void row_times(const struct multigrid_level *l, int64_t i, const real *x, real *sum, const int w,
                                     const bool single)
 {
     if (single) {
@@ -89,7 +89,7 @@ static ALWAYS_INLINE void row_times(const struct level *l, int64_t i, const real
 }
 
 /* Computes row i of t = b - K x. */
-static ALWAYS_INLINE void row_residual(const struct level *l, int64_t i, const int w, const bool single)
+static ALWAYS_INLINE void row_residual(const struct multigrid_level *l, int64_t i, const int w, const bool single)
 {
     real sum[WIDTH_MOST];
     for (int a = 0; a < w; a++) sum[a] = l->b[i * w + a];
@@ -97,9 +97,9 @@ static ALWAYS_INLINE void row_residual(const struct level *l, int64_t i, const i
     for (int a = 0; a < w; a++) l->t[i * w + a] = sum[a];
 }
 
-/* Computes row i of a relaxation step (level_relax): d = keep d + step D^-1 (b - K x), y = x + d. zero: x is 0. */
-static ALWAYS_INLINE void row_relax(const struct level *l, int64_t i, real keep, real step, bool zero, const int w,
-                                    const bool single)
+/* Computes row i of a relaxation step (multigrid_smooth): d = keep d + step D^-1 (b - K x), y = x + d. zero: x is 0. */
+static ALWAYS_INLINE void row_relax(const struct multigrid_level *l, int64_t i, real keep, real step, bool zero,
+                                    const int w, const bool single)
 {
     real sum[WIDTH_MOST];
     for (int a = 0; a < w; a++) sum[a] = l->b[i * w + a];
@@ -113,7 +113,8 @@ static ALWAYS_INLINE void row_relax(const struct level *l, int64_t i, real keep,
 }
 
 /* Computes row i of the load of the next coarser level by restriction of the residual l->t (matrix l->up). */
-static ALWAYS_INLINE void row_restrict(const struct level *l, struct level *next, int64_t i, const int w, const int m)
+static ALWAYS_INLINE void row_restrict(const struct multigrid_level *l, struct multigrid_level *next, int64_t i,
+                                       const int w, const int m)
 {
     real sum[WIDTH_MOST] = {0};
     for (int64_t q = l->up.first[i]; q < l->up.first[i + 1]; q++) {
@@ -126,7 +127,8 @@ static ALWAYS_INLINE void row_restrict(const struct level *l, struct level *next
 }
 
 /* Adds row i of the prolongation (matrix l->down) of the solution x of the next coarser level to x. */
-static ALWAYS_INLINE void row_prolong(struct level *l, const struct level *next, int64_t i, const int w, const int m)
+static ALWAYS_INLINE void row_prolong(struct multigrid_level *l, const struct multigrid_level *next, int64_t i,
+                                      const int w, const int m)
 {
     real sum[WIDTH_MOST] = {0};
     for (int64_t q = l->down.first[i]; q < l->down.first[i + 1]; q++) {
@@ -155,14 +157,20 @@ static ALWAYS_INLINE void row_prolong(struct level *l, const struct level *next,
             ROWS(N, NAME(__VA_ARGS__, 6, false));                                                                      \
     } while (0)
 
-void level_residual(struct level *l) { BY_WIDTH(l->n, row_residual, l, i); }
+void multigrid_compute_residual(struct multigrid_level *l) { BY_WIDTH(l->n, row_residual, l, i); }
 
-void level_relax(struct level *l, real keep, real step, bool zero)
+void multigrid_smooth(struct multigrid_level *l, real keep, real step, bool zero)
 {
     BY_WIDTH(l->n, row_relax, l, i, keep, step, zero);
     real *x = l->x;
     l->x = l->y, l->y = x;
 }
 
-void level_restrict(const struct level *l, struct level *next) { BY_WIDTHS(next->n, row_restrict, l, next, i); }
-void level_prolong(struct level *l, const struct level *next) { BY_WIDTHS(l->n, row_prolong, l, next, i); }
+void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *next)
+{
+    BY_WIDTHS(next->n, row_restrict, l, next, i);
+}
+void multigrid_prolong_correction(struct multigrid_level *l, const struct multigrid_level *next)
+{
+    BY_WIDTHS(l->n, row_prolong, l, next, i);
+}

@@ -14,7 +14,7 @@ static void dense_eliminate(real *u, int64_t n, int64_t j, real inverse)
     }
 }
 
-void dense_make(struct dense *d, const struct level *l)
+void dense_make(struct dense *d, const struct multigrid_level *l)
 {
     const int w = l->width;
     const int64_t n = l->n * w;
@@ -26,7 +26,7 @@ void dense_make(struct dense *d, const struct level *l)
                     l->column[q] == i ? l->diagonal[i * w * w + k] : l->block[q * w * w + k];
     for (int64_t j = 0; j < n; j++) {
         const real pivot = d->upper[j * n + j], scale = l->scale[j / w];
-        d->inverse[j] = scale <= 0 ? 0 : 1 / (pivot > pivot_least(l, j / w) * scale ? pivot : scale);
+        d->inverse[j] = scale <= 0 ? 0 : 1 / (pivot > multigrid_smallest_pivot(l, j / w) * scale ? pivot : scale);
         dense_eliminate(d->upper, n, j, d->inverse[j]);
     }
     for (int64_t j = 0; j < n; j++)

@@ -27,8 +27,8 @@ static int32_t *table_own(const struct tables *t) { return t->where + omp_get_th
 
 /* The product of matrix and prolongation for a slab of rows, with its pattern for all rows. */
 struct product {
-    const struct level *l;
-    struct level *next;
+    const struct multigrid_level *l;
+    struct multigrid_level *next;
     struct tables tables;
     struct pattern product; /* of matrix x down */
     int64_t *cursor;        /* [coarse] first entry of each row of `up` that is not yet added */
@@ -105,7 +105,7 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
  * level. */
 static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
 {
-    const struct level *l = p->l;
+    const struct multigrid_level *l = p->l;
     const struct transfer *down = &l->down;
     const struct pattern *to = &p->product;
     int32_t *where = table_own(&p->tables);
@@ -115,7 +115,7 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
         const int64_t j = l->column[q];
         real a[WIDTH_MOST * WIDTH_MOST];
-        level_entry(l, i, q, w, a);
+        multigrid_matrix_entry(l, i, q, w, a);
         for (int64_t s = down->first[j]; s < down->first[j + 1]; s++) {
             real motion[WIDTH_MOST * WIDTH_MOST];
             for (int k = 0; k < w * m; k++) motion[k] = down->block[s * w * m + k];
@@ -129,7 +129,7 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
 static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
 {
     const struct transfer *up = &p->l->up;
-    const struct level *next = p->next;
+    const struct multigrid_level *next = p->next;
     int32_t *where = table_own(&p->tables);
     int64_t q = p->cursor[c];
     if (q >= up->first[c + 1] || up->column[q] >= p->end) return;
@@ -185,7 +185,7 @@ static int64_t slab_largest(const struct product *p)
     return most;
 }
 
-void level_galerkin(const struct level *l, struct level *next)
+void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *next)
 {
     struct product p = {.l = l, .next = next};
     struct pattern coarse;

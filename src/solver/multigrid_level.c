@@ -35,7 +35,7 @@ static void block_invert(const real *a, real *inverse, int w, unsigned held, rea
         for (int k = j + 1; k < w; k++) inverse[j * w + k] = inverse[k * w + j];
 }
 
-void level_invert_blocks(struct level *l)
+void multigrid_invert_blocks(struct multigrid_level *l)
 {
     const int size = l->width * l->width;
     l->inverse = NEW("multigrid.inverse", l->n * size, real);
@@ -43,13 +43,13 @@ void level_invert_blocks(struct level *l)
     for (int64_t i = 0; i < l->n; i++)
         if (l->scale[i] > 0)
             block_invert(l->diagonal + i * size, l->inverse + i * size, l->width, l->held ? l->held[i] : 0,
-                         pivot_least(l, i), l->scale[i]);
+                         multigrid_smallest_pivot(l, i), l->scale[i]);
 }
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */
 
 /* Returns true if all components of entry q are 0. */
-static bool entry_is_zero(const struct level *l, int64_t q)
+static bool entry_is_zero(const struct multigrid_level *l, int64_t q)
 {
     const int size = l->width * l->width;
     for (int k = 0; k < size; k++)
@@ -59,7 +59,7 @@ static bool entry_is_zero(const struct level *l, int64_t q)
 
 /* Lists all nodes that are connected with node i, directly or through others, in list[0 .. n - 1] and sets seen[] for
  * them. Returns n. */
-static int64_t piece_list(const struct level *l, int64_t i, uint8_t *seen, int32_t *list)
+static int64_t piece_list(const struct multigrid_level *l, int64_t i, uint8_t *seen, int32_t *list)
 {
     int64_t n = 0;
     seen[i] = 1, list[n++] = (int32_t)i;
@@ -72,7 +72,7 @@ static int64_t piece_list(const struct level *l, int64_t i, uint8_t *seen, int32
     return n;
 }
 
-void level_unconstrained(const struct level *l, struct level *next)
+void multigrid_find_unconstrained(const struct multigrid_level *l, struct multigrid_level *next)
 {
     next->unconstrained = NEW("multigrid.unconstrained", next->n, uint8_t);
     array_fill_bytes(next->unconstrained, 1, next->n, 1);
@@ -116,7 +116,7 @@ static void three_vectors_block(const void *context, int64_t first, int64_t end,
 }
 
 /* Computes d = D^-1 t, D being the diagonal blocks, and the scalar products sum[0] = x . t and sum[1] = t . d. */
-static void lanczos_scale(struct level *l, real *sum)
+static void lanczos_scale(struct multigrid_level *l, real *sum)
 {
     const int w = l->width;
 #pragma omp parallel for schedule(static)
@@ -130,7 +130,7 @@ static void lanczos_scale(struct level *l, real *sum)
 }
 
 /* Makes the next Lanczos vector -(d + a x + b y)/length in y, and exchanges x and y, so that x is the newest one. */
-static void lanczos_turn(struct level *l, real a, real b, real length)
+static void lanczos_turn(struct multigrid_level *l, real a, real b, real length)
 {
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < l->n * l->width; k++) l->y[k] = -(l->d[k] + a * l->x[k] + b * l->y[k]) / length;
@@ -141,7 +141,7 @@ static void lanczos_turn(struct level *l, real a, real b, real length)
 /* Estimates the largest eigenvalue of D^-1 K, with the diagonal blocks D, by the Lanczos method and stores it in
  * l->largest. The Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x
  * = x . t with t = K x. */
-void level_estimate_largest(struct level *l)
+void multigrid_estimate_eigenvalue(struct multigrid_level *l)
 {
     real a[LANCZOS], b[LANCZOS + 1] = {0}, sum[2];
     int n = 0;
@@ -154,7 +154,7 @@ void level_estimate_largest(struct level *l)
     real length = sqrt(sum[1]);
     for (real along = 0; n < LANCZOS && length > 1e-6; n++) {
         lanczos_turn(l, along, n > 1 ? b[n - 2] : 0, length);
-        level_residual(l); /* t = -K x, since b is 0 */
+        multigrid_compute_residual(l); /* t = -K x, since b is 0 */
         lanczos_scale(l, sum);
         a[n] = along = -sum[0];
         b[n] = length = sqrt(real_max(0, sum[1] - square(a[n]) - (n > 0 ? square(b[n - 1]) : 0)));

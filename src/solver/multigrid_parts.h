@@ -13,7 +13,7 @@ struct transfer {
     float *block;    /* [first[rows]][rows' width][columns' width] [1] */
 };
 
-struct level {
+struct multigrid_level {
     int width, modes;     /* components of a node; rigid motions, which are the components of a coarser node */
     int64_t n, coarse;    /* number of nodes; number of nodes of the next level */
     const int64_t *first; /* [n + 1] */
@@ -44,7 +44,7 @@ struct dense {
 
 struct multigrid {
     int levels;
-    struct level level[LEVELS_MOST];
+    struct multigrid_level level[LEVELS_MOST];
     struct dense dense;
 };
 
@@ -60,7 +60,8 @@ static ALWAYS_INLINE pair pair_load(const real *from)
 
 /* Copies the matrix block of entry q in row of blocks i to `entry`, w x w values row by row [N/m]. Entry q is an index
  * in l->column; w: components of a node of this level. */
-static ALWAYS_INLINE void level_entry(const struct level *l, int64_t i, int64_t q, const int w, real *entry)
+static ALWAYS_INLINE void multigrid_matrix_entry(const struct multigrid_level *l, int64_t i, int64_t q, const int w,
+                                                 real *entry)
 {
     const bool own = l->column[q] == i;
     for (int k = 0; k < w * w; k++)
@@ -97,42 +98,42 @@ enum { ROWS_MANY = 200 };
 /* Returns the share of the mean stiffness l->scale below which a pivot of the diagonal block of node i counts as 0,
  * i.e. as a motion without stiffness [1]. The share is larger for the finest level and for unconstrained fragments, as
  * stiffnesses rounded to floats resist rotations by 6e-8 of their value. */
-static inline real pivot_least(const struct level *l, int64_t i)
+static inline real multigrid_smallest_pivot(const struct multigrid_level *l, int64_t i)
 {
     return l->unconstrained[i] || l->single ? 1e-6 : 1e-13;
 }
 
 /* Computes l->inverse, the inverse of the diagonal block of each node of a level. Pivots without stiffness
- * (pivot_least) are replaced by the mean stiffness l->scale. */
-void level_invert_blocks(struct level *l);
+ * (multigrid_smallest_pivot) are replaced by the mean stiffness l->scale. */
+void multigrid_invert_blocks(struct multigrid_level *l);
 
 /* Finds the nodes of the next coarser level that belong to fragments without constrained nodes, from those of level l,
  * and stores them in next->unconstrained. */
-void level_unconstrained(const struct level *l, struct level *next);
+void multigrid_find_unconstrained(const struct multigrid_level *l, struct multigrid_level *next);
 
 /* Estimates l->largest, the largest eigenvalue of D^-1 K with the matrix K of level l and its diagonal blocks D, from
  * below by Lanczos iterations. */
-void level_estimate_largest(struct level *l);
+void multigrid_estimate_eigenvalue(struct multigrid_level *l);
 
 /* Groups the nodes of level l with their neighbours in the matrix into aggregates, each of which becomes a node of the
  * next coarser level: sets l->aggregate and l->coarse, the number of aggregates. */
-void level_aggregate(struct level *l);
+void multigrid_aggregate_nodes(struct multigrid_level *l);
 
 /* Makes the rigid motions of the nodes of level l orthonormal within each aggregate (l->tentative), and sets number,
  * width, scale and rigid motions of the nodes of the next coarser level. */
-void level_make_modes(struct level *l, struct level *next);
+void multigrid_make_modes(struct multigrid_level *l, struct multigrid_level *next);
 
 /* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction:
  * the orthonormal rigid motions of aggregates, smoothed by one step with the matrix scaled by its diagonal. */
-void level_make_transfer(struct level *l);
+void multigrid_make_transfer(struct multigrid_level *l);
 
 /* Computes the matrix of the next coarser level by the Galerkin product: l->up times the matrix of level l times
  * l->down. */
-void level_galerkin(const struct level *l, struct level *next);
+void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *next);
 
 /* Factorises the matrix K of level l as U'DU into d. Pivots without stiffness are replaced by the mean stiffness
  * l->scale. Release with dense_free. */
-void dense_make(struct dense *d, const struct level *l);
+void dense_make(struct dense *d, const struct multigrid_level *l);
 
 /* Solves K x = b with the factorisation d of dense_make. b: d->n loads; x: receives d->n values. */
 void dense_solve(const struct dense *d, const real *b, real *x);
@@ -141,17 +142,17 @@ void dense_solve(const struct dense *d, const real *b, real *x);
 void dense_free(struct dense *d);
 
 /* Computes the residual l->t = l->b - K l->x of level l with its matrix K. */
-void level_residual(struct level *l);
+void multigrid_compute_residual(struct multigrid_level *l);
 
 /* Does one step of a polynomial smoother on level l: d = keep d + step D^-1 (b - K x) and x = x + d, with the matrix K
  * of the level and its diagonal blocks D. keep, step: coefficients of the step [1]; zero: true if x and d are 0 on
  * entry, which saves the product. */
-void level_relax(struct level *l, real keep, real step, bool zero);
+void multigrid_smooth(struct multigrid_level *l, real keep, real step, bool zero);
 
 /* Computes the load of the next coarser level from the residual of level l: next->b = l->up l->t. */
-void level_restrict(const struct level *l, struct level *next);
+void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *next);
 
 /* Adds the solution of the next coarser level to that of level l: l->x += l->down next->x. */
-void level_prolong(struct level *l, const struct level *next);
+void multigrid_prolong_correction(struct multigrid_level *l, const struct multigrid_level *next);
 
 #endif

@@ -15,7 +15,7 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
 }
 
 /* Lists the aggregates of the neighbours of node i; returns their number, at most that of its neighbours. */
-static int row_aggregates(const struct level *l, int64_t i, int32_t *list)
+static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *list)
 {
     int n = 0;
     if (l->scale[i] > 0)
@@ -25,7 +25,7 @@ static int row_aggregates(const struct level *l, int64_t i, int32_t *list)
 }
 
 /* Computes the pattern of the prolongation. */
-static void down_pattern(struct level *l)
+static void down_pattern(struct multigrid_level *l)
 {
     int32_t *list = BARE("multigrid.pattern", l->first[l->n], int32_t);
     struct transfer *p = &l->down;
@@ -46,8 +46,8 @@ enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
 /* Computes force[k][w][m], the product of matrix row i with the rigid motions (tentative prolongation) of aggregate
  * name[k], for k < n. w, m: unknowns per node of this and of the coarser level. */
-static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const int32_t *name, int n, real *force,
-                                      const int w, const int m)
+static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i, const int32_t *name, int n,
+                                      real *force, const int w, const int m)
 {
     array_fill_bytes(force, 0, n * w * m, sizeof *force);
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
@@ -56,7 +56,7 @@ static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const in
         while (k < n && name[k] != l->aggregate[j]) k++;
         if (k == n) continue;
         real entry[BLOCK_MOST];
-        level_entry(l, i, q, w, entry);
+        multigrid_matrix_entry(l, i, q, w, entry);
         const real *motion = l->tentative + j * w * m;
         for (int a = 0; a < w; a++)
             for (int c = 0; c < w; c++)
@@ -65,7 +65,7 @@ static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const in
 }
 
 /* Computes row i of the smoothed prolongation: the rigid motions of the aggregates minus step D^-1 K times them. */
-static ALWAYS_INLINE void down_row(const struct level *l, int64_t i, real step, const int w, const int m)
+static ALWAYS_INLINE void down_row(const struct multigrid_level *l, int64_t i, real step, const int w, const int m)
 {
     const struct transfer *p = &l->down;
     real force[AT_ONCE * BLOCK_MOST];
@@ -84,7 +84,7 @@ static ALWAYS_INLINE void down_row(const struct level *l, int64_t i, real step, 
 }
 
 /* Computes the transpose `up` of the prolongation p. */
-static void transfer_transpose(const struct level *l, const struct transfer *p, struct transfer *up)
+static void transfer_transpose(const struct multigrid_level *l, const struct transfer *p, struct transfer *up)
 {
     const int w = l->width, m = l->modes;
     up->first = NEW("multigrid.up", l->coarse + 1, int64_t);
@@ -108,7 +108,7 @@ static void transfer_transpose(const struct level *l, const struct transfer *p, 
     memory_free(from);
 }
 
-void level_make_transfer(struct level *l)
+void multigrid_make_transfer(struct multigrid_level *l)
 {
     const real step = 4 / (3 * l->largest);
     down_pattern(l);

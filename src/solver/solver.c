@@ -4,13 +4,13 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-void solver_bond_force(const struct static_body *body)
+void static_body_bond_forces(const struct static_body *body)
 {
     loads_update_images(body->loads, body->part);
     bond_forces(body->force, body->bonds, body->part, &bond_limit_never, NULL);
 }
 
-real solver_largest_component(const struct field *v, int dim, int64_t n)
+real field_largest_component(const struct field *v, int dim, int64_t n)
 {
     real most = 0;
     for (int d = 0; d < dim; d++) {
@@ -26,16 +26,17 @@ real solver_largest_component(const struct field *v, int dim, int64_t n)
  * second-order error of central differences is below 1e-10. */
 #define TANGENT_STRAIN 3e-6
 
-void solver_tangent(const struct static_body *body, const struct field *in, struct field *out, real strain_ratio)
+void static_body_tangent_product(const struct static_body *body, const struct field *in, struct field *out,
+                                 real strain_ratio)
 {
     struct particles *p = body->part;
-    const real most = solver_largest_component(in, p->dim, p->n);
+    const real most = field_largest_component(in, p->dim, p->n);
     const real s = most > 0 ? TANGENT_STRAIN / (strain_ratio * most) : 0;
     for (int sign = 1; sign >= -1; sign -= 2) {
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] + sign * s * in->of[d][i];
-        solver_bond_force(body);
+        static_body_bond_forces(body);
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++)
@@ -57,24 +58,24 @@ static void solver_force_block(const void *context, int64_t first, int64_t end, 
         for (int64_t i = first; i < end; i++) sum[f->held[i] >> d & 1] += square(f->part->f[d][i]);
 }
 
-void solver_force_norms(const struct solver *s, const struct particles *p, real *norm)
+void static_solver_force_norms(const struct static_solver *s, const struct particles *p, real *norm)
 {
     reproducible_sums(p->n, 2, solver_force_block, &(struct constrained_forces){p, s->held}, norm);
     norm[0] = sqrt(norm[0]), norm[1] = sqrt(norm[1]);
 }
 
-void solver_set_residual(struct solver *s, real reaction, real left)
+void static_solver_set_residual(struct static_solver *s, real reaction, real unbalanced)
 {
     s->scale = real_max(s->applied, reaction);
     /* without loads the scale is the initial residual */
-    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, left);
-    const bool rests = left == 0 || (s->scale == s->first && left <= s->noise);
-    s->residual = rests ? 0 : left / s->scale;
+    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, unbalanced);
+    const bool rests = unbalanced == 0 || (s->scale == s->first && unbalanced <= s->noise);
+    s->residual = rests ? 0 : unbalanced / s->scale;
 }
 
-void solver_compute_residual(struct solver *s, const struct particles *p)
+void static_solver_compute_residual(struct static_solver *s, const struct particles *p)
 {
     real norm[2];
-    solver_force_norms(s, p, norm);
-    solver_set_residual(s, norm[1], norm[0]);
+    static_solver_force_norms(s, p, norm);
+    static_solver_set_residual(s, norm[1], norm[0]);
 }

@@ -13,12 +13,12 @@
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
 /* Returns true if a support or a plane of symmetry constrains component d of particle i. */
-static bool is_constrained(const struct solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
+static bool is_constrained(const struct static_solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
 
 /* Adds the weighted product d . K d over free components to sum[0]. K d is in s->q. */
 static void curvature_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct solver *s = context;
+    const struct static_solver *s = context;
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = first; i < end; i++)
             if (!is_constrained(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
@@ -27,7 +27,7 @@ static void curvature_block(const void *context, int64_t first, int64_t end, rea
 /* Adds the weighted product u . K u over all components to sum[0]. K u is in s->q. */
 static void energy_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct solver *s = context;
+    const struct static_solver *s = context;
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = first; i < end; i++) sum[0] += s->weight[i] * s->u.of[d][i] * s->q.of[d][i];
 }
@@ -35,7 +35,7 @@ static void energy_block(const void *context, int64_t first, int64_t end, real *
 /* Adds the weighted product r . r/Lambda to sum[0], and r . r without weights to sum[1]. */
 static void residual_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct solver *s = context;
+    const struct static_solver *s = context;
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = first; i < end; i++) {
             const real r2 = square(s->r.of[d][i]);
@@ -57,22 +57,22 @@ static real unit_energy(const struct static_body *body)
 
 /* Computes the residual b - K u from the displacements, not by recurrence, into part.f. The reactions on constrained
  * components are measured, then set to 0. */
-static void true_residual(struct solver *s, const struct static_body *body)
+static void true_residual(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
     real energy;
-    solver_tangent(body, &s->u, &s->q, s->u_ratio);
+    static_body_tangent_product(body, &s->u, &s->q, s->u_ratio);
     reproducible_sums(s->n, 1, energy_block, s, &energy);
-    if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(body)) / solver_largest_component(&s->u, s->dim, s->n);
+    if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(body)) / field_largest_component(&s->u, s->dim, s->n);
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->f[d][i] = -s->q.of[d][i];
     loads_add_static_forces(body->loads, p);
-    solver_compute_residual(s, p);
+    static_solver_compute_residual(s, p);
     loads_collect_static_reactions(body->loads, p);
 }
 
 /* Sets r = part.f and restarts the search directions. */
-static void restart(struct solver *s, const struct particles *p)
+static void restart(struct static_solver *s, const struct particles *p)
 {
     real sum[2];
     for (int d = 0; d < s->dim; d++)
@@ -85,7 +85,7 @@ static void restart(struct solver *s, const struct particles *p)
 }
 
 /* Computes initial displacement, residual and direction. */
-static void solver_cg_start(struct solver *s, const struct static_body *body)
+static void solver_cg_start(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
     for (int d = 0; d < s->dim; d++)
@@ -97,7 +97,7 @@ static void solver_cg_start(struct solver *s, const struct static_body *body)
 }
 
 /* Computes u += alpha d and r -= alpha K d, and the next search direction d. Returns r . r. */
-static real solver_cg_advance(struct solver *s, real alpha)
+static real solver_cg_advance(struct static_solver *s, real alpha)
 {
     real sum[2];
     for (int d = 0; d < s->dim; d++) {
@@ -118,17 +118,18 @@ static real solver_cg_advance(struct solver *s, real alpha)
 }
 
 /* Sets x = X + u and computes the bond forces there, from which energies and stresses of state-based models follow. */
-static void solver_cg_displace(const struct solver *s, const struct static_body *body)
+static void solver_cg_displace(const struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->x[d][i] = p->X[d][i] + s->u.of[d][i];
-    solver_bond_force(body);
+    static_body_bond_forces(body);
 }
 
 /* Sets *done if the true residual is below the tolerance. If the recursive residual (by_recurrence [N]) differs from
  * it by round-off, the iteration is restarted; returns FAILED after STALLS_MOST restarts without progress. */
-static status check(struct solver *s, const struct static_body *body, int64_t step, real by_recurrence, bool *done)
+static status check(struct static_solver *s, const struct static_body *body, int64_t step, real by_recurrence,
+                    bool *done)
 {
     true_residual(s, body);
     *done = s->residual <= body->tolerance;
@@ -147,21 +148,21 @@ static status check(struct solver *s, const struct static_body *body, int64_t st
                       (long long)step, s->best, body->tolerance);
 }
 
-status cg_step(struct solver *s, const struct static_body *body, int64_t step, bool *done)
+status cg_step(struct static_solver *s, const struct static_body *body, int64_t step, bool *done)
 {
     real curvature;
     if (step == 0) {
         solver_cg_start(s, body);
         if (s->rz == 0) return check(s, body, step, 0, done);
     }
-    solver_tangent(body, &s->d, &s->q, s->strain_ratio);
+    static_body_tangent_product(body, &s->d, &s->q, s->strain_ratio);
     reproducible_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
         return status_set(FAILED,
                           "conjugate gradients at step %lld: a part of the body has no stiffness against a motion: "
                           "check that every part is held, or bonded to a part that is held",
                           (long long)step);
-    s->strain_ratio = sqrt(curvature / unit_energy(body)) / solver_largest_component(&s->d, s->dim, s->n);
+    s->strain_ratio = sqrt(curvature / unit_energy(body)) / field_largest_component(&s->d, s->dim, s->n);
     const real left = sqrt(solver_cg_advance(s, s->rz / curvature));
     s->residual = left / s->scale;
     const bool claimed = left <= 0.9 * body->tolerance * s->scale;

@@ -24,7 +24,7 @@ static void field_free(struct field *v)
 
 /* Context of solver_scaled_stiffness. */
 struct scaled {
-    struct solver *solver;
+    struct static_solver *solver;
     const struct static_body *body;
 };
 
@@ -32,13 +32,13 @@ struct scaled {
 static void solver_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled *scaled = context;
-    struct solver *s = scaled->solver;
+    struct static_solver *s = scaled->solver;
     struct particles *p = scaled->body->part;
     struct field out = {{p->v[0], p->v[1], p->v[2]}};
     const int64_t n = p->n;
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < n; i++) s->before.of[d][i] = x[d * n + i] / sqrt(s->diagonal[i]);
-    solver_tangent(scaled->body, &s->before, &out, 1 / scaled->body->spacing);
+    static_body_tangent_product(scaled->body, &s->before, &out, 1 / scaled->body->spacing);
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < n; i++) y[d * n + i] = out.of[d][i] / sqrt(s->diagonal[i]);
 }
@@ -48,7 +48,7 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
 /* Computes the diagonal Lambda that scales the unknowns, Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci
  * 2010), with the bonds as springs; multiplies it by the largest eigenvalue if the model is stiffer than these
  * springs. */
-static void make_diagonal(struct solver *s, const struct static_body *body)
+static void make_diagonal(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
     const struct bonds *b = body->bonds;
@@ -66,7 +66,7 @@ static void make_diagonal(struct solver *s, const struct static_body *body)
     const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, solver_scaled_stiffness, &scaled) / 4;
     for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
     for (int d = 0; d < p->dim; d++) array_copy(p->x[d], kept.of[d], p->n, sizeof(real));
-    solver_bond_force(body); /* energies of state-based models use the dilatation at X */
+    static_body_bond_forces(body); /* energies of state-based models use the dilatation at X */
     for (int d = 0; d < p->dim; d++) {
         array_fill_bytes(p->v[d], 0, p->n, sizeof(real));
         array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
@@ -76,7 +76,7 @@ static void make_diagonal(struct solver *s, const struct static_body *body)
 
 /* Sets weights and constraints of particles on planes of symmetry: they stay on the plane, and only half of each
  * belongs to the body. */
-static void make_weights(struct solver *s, const struct static_body *body)
+static void make_weights(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
     for (int64_t i = 0; i < p->n; i++) s->weight[i] = 1;
@@ -93,26 +93,26 @@ static void make_weights(struct solver *s, const struct static_body *body)
 
 /* Returns the number of steps in which supports move to their final positions. Relaxation spreads by at most one
  * spacing per step: over as many steps as the body has spacings, supports strain bonds about as much as the body. */
-static int64_t supports_ramp(const struct solver *s, const struct static_body *body)
+static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
-    const real most = solver_largest_component(&s->driven, s->dim, s->n);
+    const real most = field_largest_component(&s->driven, s->dim, s->n);
     return most > 0 ? 1 + (int64_t)(particles_longest_edge(body->part) / body->spacing) : 0;
 }
 
 /* Computes the norm of the applied forces on free components, s->applied [N]. */
-static void make_applied(struct solver *s, const struct static_body *body)
+static void make_applied(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
     real norm[2];
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
     loads_add_static_forces(body->loads, p);
-    solver_force_norms(s, p, norm);
+    static_solver_force_norms(s, p, norm);
     s->applied = norm[0];
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
 }
 
 /* Computes the norm of the forces caused by round-off of positions in a body at rest [N], times a margin of ten. */
-static void make_noise(struct solver *s, const struct particles *p)
+static void make_noise(struct static_solver *s, const struct particles *p)
 {
     real sum = 0;
     for (int64_t i = 0; i < s->n; i++)
@@ -137,7 +137,7 @@ static status force_balanced(const struct loads *loads, int d)
     real sum = 0, size = 0;
     for (int b = 0; b < loads->n; b++) {
         const struct load *l = &loads->load[b];
-        if (!boundary_is_force(l->boundary)) continue;
+        if (!boundary_applies_force(l->boundary)) continue;
         for (int64_t k = 0; k < l->n; k++) {
             sum += l->share[d][k] * l->boundary->value[d];
             size += fabs(l->share[d][k] * l->boundary->value[d]);
@@ -167,7 +167,7 @@ static status loads_balanced(const struct static_body *body)
         turning);
 }
 
-status solver_make(struct solver *s, const struct static_body *body, real ramp_time)
+status static_solver_make(struct static_solver *s, const struct static_body *body, real ramp_time)
 {
     struct particles *p = body->part;
     s->n = p->n, s->dim = p->dim;
@@ -176,13 +176,13 @@ status solver_make(struct solver *s, const struct static_body *body, real ramp_t
     s->held = NEW("solver.held", s->n, uint8_t);
     for (int d = 0; d < s->dim; d++) array_fill_bytes(p->v[d], 0, s->n, sizeof(real));
     field_make(&s->driven, s->dim, s->n);
-    loads_static_displacements(body->loads, p, s->ramp_time, s->driven.of, s->held);
+    static_displacements_compute(body->loads, p, s->ramp_time, s->driven.of, s->held);
     TRY(loads_balanced(body));
     make_applied(s, body);
     return OK;
 }
 
-void solver_iteration_make(struct solver *s, const struct static_body *body, bool conjugate_gradients)
+void static_solver_iteration_make(struct static_solver *s, const struct static_body *body, bool conjugate_gradients)
 {
     s->weight = NEW("solver.weight", s->n, real);
     s->diagonal = NEW("solver.diagonal", s->n, real);
@@ -198,7 +198,7 @@ void solver_iteration_make(struct solver *s, const struct static_body *body, boo
     field_make(&s->q, s->dim, s->n);
 }
 
-void solver_free(struct solver *s)
+void static_solver_free(struct static_solver *s)
 {
     memory_free(s->held);
     memory_free(s->weight);
@@ -209,10 +209,10 @@ void solver_free(struct solver *s)
     field_free(&s->r);
     field_free(&s->d);
     field_free(&s->q);
-    *s = (struct solver){0};
+    *s = (struct static_solver){0};
 }
 
-static status field_archive(const struct field *v, struct archive *a, const char *name, const struct solver *s)
+static status field_archive(const struct field *v, struct archive *a, const char *name, const struct static_solver *s)
 {
     for (int d = 0; d < s->dim; d++) {
         char entry[48];
@@ -222,7 +222,7 @@ static status field_archive(const struct field *v, struct archive *a, const char
     return OK;
 }
 
-status solver_archive(struct solver *s, struct archive *a)
+status static_solver_save_or_load(struct static_solver *s, struct archive *a)
 {
     if (!s->held) return OK; /* explicit runs have no solver */
     ARCHIVE_VALUE(a, "solver/residual", s->residual);

@@ -2,13 +2,13 @@
 #include "solver/solver.h"
 #include "run/part.h"
 
-static void solver_free_all(struct run *e) { solver_free(e->solver); }
+static void solver_free_all(struct run *e) { static_solver_free(e->solver); }
 
 /* Writes name, steps and residual of the solver of a body at rest. */
 static void put_solver(const struct run *e, struct json *j)
 {
     static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
-    if (!scene_at_rest(e->scene)) return;
+    if (!scene_is_single_equilibrium(e->scene)) return;
     json_open(j, "solver", '{');
     json_text(j, "name", name[e->scene->solver]);
     json_count(j, "steps", e->clock.step);
@@ -17,7 +17,7 @@ static void put_solver(const struct run *e, struct json *j)
     json_close(j, '}');
 }
 
-static status solver_state(struct run *e, struct archive *a) { return solver_archive(e->solver, a); }
+static status solver_state(struct run *e, struct archive *a) { return static_solver_save_or_load(e->solver, a); }
 
-const struct part part_solver = {PART(solver, solver), .free = solver_free_all, .summary = put_solver,
+const struct part part_solver = {PART(solver, static_solver), .free = solver_free_all, .summary = put_solver,
                                  .state = solver_state};

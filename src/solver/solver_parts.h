@@ -6,20 +6,21 @@
 
 /* Computes the bond forces at the present positions of the particles, mirror images updated first, into part.f [N]. No
  * bond breaks. */
-void solver_bond_force(const struct static_body *body);
+void static_body_bond_forces(const struct static_body *body);
 
 /* Computes out = K in, the product of the tangent stiffness K of the bonds at the reference positions with a
  * displacement [N]: the decrease of the bond forces along `in`, by central differences. in: a vector for each particle
  * [m]; strain_ratio: largest strain of `in` over its largest component [1/m]. Overwrites positions and forces of the
  * particles. */
-void solver_tangent(const struct static_body *body, const struct field *in, struct field *out, real strain_ratio);
+void static_body_tangent_product(const struct static_body *body, const struct field *in, struct field *out,
+                                 real strain_ratio);
 
 /* Computes the Euclidean norms of the forces p->f [N]: norm[0] over free components, norm[1] over constrained
  * components. */
-void solver_force_norms(const struct solver *s, const struct particles *p, real *norm);
+void static_solver_force_norms(const struct static_solver *s, const struct particles *p, real *norm);
 
-/* Computes residual and scale of a static solution (solver_set_residual) from the forces p->f: the norm over free
- * components is the residual force, over constrained components the reaction. */
-void solver_compute_residual(struct solver *s, const struct particles *p);
+/* Computes residual and scale of a static solution (static_solver_set_residual) from the forces p->f: the norm over
+ * free components is the residual force, over constrained components the reaction. */
+void static_solver_compute_residual(struct static_solver *s, const struct particles *p);
 
 #endif

@@ -6,7 +6,7 @@
 #include "solver_parts.h"
 
 /* Moves supports by one step of their ramp. */
-static void supports_move(const struct solver *s, struct particles *p, int64_t step)
+static void supports_move(const struct static_solver *s, struct particles *p, int64_t step)
 {
     if (step >= s->ramp) return;
 #pragma omp parallel for schedule(static)
@@ -17,7 +17,7 @@ static void supports_move(const struct solver *s, struct particles *p, int64_t s
 
 /* Context of damping_block. */
 struct relaxing {
-    const struct solver *solver;
+    const struct static_solver *solver;
     const struct particles *part;
 };
 
@@ -25,7 +25,7 @@ struct relaxing {
 static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct relaxing *relaxing = context;
-    const struct solver *s = relaxing->solver;
+    const struct static_solver *s = relaxing->solver;
     const struct particles *p = relaxing->part;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = first; i < end; i++) {
@@ -48,7 +48,7 @@ static real damping(const real *sum)
 }
 
 /* Computes v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c); the first half step from rest is f/(2 Lambda). */
-static void particles_move(struct solver *s, struct particles *p, int64_t step, real c)
+static void particles_move(struct static_solver *s, struct particles *p, int64_t step, real c)
 {
     const real kick = step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);
 #pragma omp parallel for schedule(static)
@@ -62,14 +62,14 @@ static void particles_move(struct solver *s, struct particles *p, int64_t step, 
         }
 }
 
-status relaxation_step(struct solver *s, const struct static_body *body, int64_t step, bool *done)
+status relaxation_step(struct static_solver *s, const struct static_body *body, int64_t step, bool *done)
 {
     struct particles *p = body->part;
     real sum[3];
     supports_move(s, p, step);
-    solver_bond_force(body);
+    static_body_bond_forces(body);
     loads_add_static_forces(body->loads, p);
-    solver_compute_residual(s, p);
+    static_solver_compute_residual(s, p);
     loads_collect_static_reactions(body->loads, p);
     reproducible_sums(p->n, 3, damping_block, &(struct relaxing){s, p}, sum);
     /* forces are also small when a body oscillates through its equilibrium: the speed must be small, too */

@@ -58,15 +58,15 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
 static void gradient_of_bonds(const struct bonds *bonds, const struct particles *part, int64_t i, real *const *H)
 {
     struct gradient_sum sum = {{{0}}, {{0}}};
-    for (struct bond_iterator it = bonds_of_row(bonds, bonds->row_of[i]); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(bonds, bonds->row_of[i]); bond_next(&it);)
         if (it.bond.w != 0) gradient_add(&sum, part, i, it.bond.nbr);
     gradient_fit(&sum, part->dim, i, H);
 }
 
 /* Computes the displacement gradient of a material point on the grid from near points of its body on its side of
  * pre-cracks. Peridynamic neighbours with broken bonds are left out: a crack may separate them. */
-static void gradient_of_points(const struct particles *p, const struct bond_source *source, const struct near *near,
-                               int64_t i, real *const *H)
+static void gradient_of_points(const struct particles *p, const struct bond_source *source,
+                               const struct neighbour_list *near, int64_t i, real *const *H)
 {
     struct gradient_sum sum = {{{0}}, {{0}}};
     for (int k = 0; k < near->n; k++) {
@@ -94,7 +94,7 @@ static void gradients_make(const struct run *e, real **H)
     if (e->frame->mesh.points > 0) mesh_points_gradient(&e->frame->mesh, H);
 #pragma omp parallel
     {
-        struct near near = {0};
+        struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             if (p->kind[i] == KIND_PD)
@@ -168,18 +168,19 @@ static uint8_t *point_levels_make(const struct reference_frame *frame, const str
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
 /* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores pointers
- * to them in *extra, from which the frame is written. asked: set of these fields, as bits ASK_... (output/output.h). */
-void frame_fields_compute(struct run *e, unsigned asked, struct frame_extra *extra)
+ * to them in *extra, from which the frame is written. requested: set of these fields, as bits ASK_...
+ * (output/output.h). */
+void frame_fields_compute(struct run *e, unsigned requested, struct frame_extra *extra)
 {
-    extra->asked = asked, extra->material = e->scene->material, extra->space = e->scene->space;
-    if (asked & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
-    if (asked & ASK_PLASTIC_WORK)
+    extra->asked = requested, extra->material = e->scene->material, extra->space = e->scene->space;
+    if (requested & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
+    if (requested & ASK_PLASTIC_WORK)
         extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds, e->scene->material);
     extra->state.plastic_strain = plastic_strain_make(&e->part, &e->bonds);
-    if (asked & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
+    if (requested & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
     if (!extra->more) return;
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->frame->shown.gradient[k];
-    if (asked & ASK_LEVEL) extra->more_state.level = point_levels_make(e->frame, e->scene);
+    if (requested & ASK_LEVEL) extra->more_state.level = point_levels_make(e->frame, e->scene);
 }
 
 void frame_fields_free(struct frame_extra *extra)

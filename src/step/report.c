@@ -50,7 +50,7 @@ int64_t report_count_frames(const struct scene *s, const struct run_clock *clock
 /* Returns the step after which frame k of the body is written: the step nearest to its time or, if the scene gives no
  * times, that of evenly spread frames. A step writes at most one frame: frames closer together than a step are moved
  * apart and keep their number. */
-int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k)
+int64_t report_step_of_frame(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
     const int64_t n = report_count_frames(s, clock);
@@ -63,7 +63,7 @@ int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, 
 bool report_sample_due(const struct scene *s, const struct run_clock *clock)
 {
     const int64_t most = clock->steps / clock->stride, n = s->samples < most ? s->samples : most;
-    if (!scene_moves(s)) return clock->step == 0; /* the start; the equilibrium is a sample of its own */
+    if (!scene_is_dynamic(s)) return clock->step == 0; /* the start; the equilibrium is a sample of its own */
     return due_step(clock, (clock->step * n + clock->steps / 2) / clock->steps, n) == clock->step;
 }
 
@@ -77,7 +77,7 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t i = 0; i < p->n; i++) {
         real sum = 0;
-        for (int k = 0; k < symmetric_count(p->dim); k++) sum += 0 * p->stress[k][i];
+        for (int k = 0; k < symmetric_component_count(p->dim); k++) sum += 0 * p->stress[k][i];
         for (int d = 0; d < p->dim; d++) sum += 0 * (p->x[d][i] + p->v[d][i]);
         if (!(sum == 0) && i < first) first = i;
     }
@@ -101,7 +101,7 @@ struct run_seconds report_seconds(const struct run_report *r, const struct timer
 /* Returns true if frame number `frames` of the body is due after `step` steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
-    return frames <= report_count_frames(s, clock) && step >= report_frame_step(s, clock, frames);
+    return frames <= report_count_frames(s, clock) && step >= report_step_of_frame(s, clock, frames);
 }
 
 /* Returns true if frame number `frames` of a region is due after `step` steps. If several frames are due in one
@@ -114,9 +114,10 @@ static bool region_frame_due(const struct run_clock *clock, real every, real dur
     return step >= (due < clock->steps ? common_step(clock, due) : clock->steps);
 }
 
-unsigned report_frames_due(const struct output *out, const struct scene *s, const struct run_clock *clock, int64_t step)
+unsigned report_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
+                                 int64_t step)
 {
-    const bool at_rest = scene_at_rest(s);
+    const bool at_rest = scene_is_single_equilibrium(s);
     unsigned due = 0;
     if (!out || (at_rest && step > 0 && step < clock->steps)) return 0;
     if (body_frame_due(s, clock, out->series[0].frames, step)) due |= 1;
@@ -133,22 +134,23 @@ static unsigned asked_of(const struct scene *scene, int k)
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* Writes a frame of each series that is due (bits of report_frames_due). Frames at t = 0 have no contact forces. */
+/* Writes a frame of each series that is due (bits of report_frame_series_due). Frames at t = 0 have no contact forces.
+ */
 static status write_frames(struct run *e, unsigned due)
 {
-    const bool parts = e->scene->method == METHOD_PD && scene_cracks(e->scene);
+    const bool parts = e->scene->method == METHOD_PD && scene_can_crack(e->scene);
     struct output *out = e->report->out;
     struct fragments fragments = {0};
     unsigned asked = 0;
     status s = OK;
-    if (e->frame->shown.part.n > 0) TRY(output_wait(out)); /* the writer may still read the points */
+    if (e->frame->shown.part.n > 0) TRY(output_wait_for_frame(out)); /* the writer may still read the points */
     run_update_particles(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
     for (int k = 0; k <= out->n_series; k++)
         if (due >> k & 1) asked |= asked_of(e->scene, k);
     struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL, .fragment = fragments.of};
-    if (frame_hollow_make_points(e->frame, &e->part, e->scene->material, asked & (ASK_STRAIN | ASK_DENSITY))) {
+    if (coarse_cell_points_make(e->frame, &e->part, e->scene->material, asked & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;
         extra.spacing = e->scene->spacing;
     }
@@ -160,7 +162,7 @@ static status write_frames(struct run *e, unsigned due)
     }
     frame_fields_free(&extra);
     fragments_free(&fragments);
-    const struct observed seen = run_observed(e);
+    const struct observed_run seen = observed_run_of(e);
     return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
 }
 
@@ -170,7 +172,7 @@ static status write_checkpoint(struct run *e)
     struct run_report *r = e->report;
     frame_update_points(e->frame, &e->part, &e->loads);
     r->last_checkpoint = wall_clock();
-    TRY(output_wait(r->out));
+    TRY(output_wait_for_frame(r->out));
     const double begun = wall_clock();
     TRY(checkpoint_write(r->out, e->scene->text, e->save, e));
     const double now = wall_clock();
@@ -183,7 +185,7 @@ static status write_checkpoint(struct run *e)
  * steps: each time), or else as rarely as CHECKPOINT_SECONDS and CHECKPOINT_SHARE require. */
 static bool checkpoint_due(const struct run_report *r, const struct scene *s)
 {
-    const bool in_steps = scene_in_steps(s);
+    const bool in_steps = scene_has_load_steps(s);
     const double now = wall_clock(), since = now - r->last_checkpoint;
     if (!isnan(s->checkpoint_interval)) return in_steps || since > s->checkpoint_interval;
     const bool cheap = r->checkpoints_spent + r->checkpoint_seconds <= CHECKPOINT_SHARE * (now - r->started);
@@ -202,7 +204,7 @@ static status say_lost(struct output *out, const struct probes *probes, struct w
 {
     char text[2 * PATH_NAME_ROOM + 300];
     int lost;
-    TRY(output_frames_check(out, &lost, text, sizeof text));
+    TRY(output_index_drop_lost_frames(out, &lost, text, sizeof text));
     if (lost > 0) warnings_add_and_print(to, text);
     profiles_check(probes, out, to);
     return OK;
@@ -215,14 +217,14 @@ status report_start(struct run *e)
     r->step_started = e->clock.step;
     /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
-    status s = sample_start(e, resumed);
+    status s = sample_open_history(e, resumed);
     if (s == OK && r->out) contact_allocate_forces(e->contact, &e->part);
     r->setup_seconds += wall_clock() - r->started;
     if (s == OK && r->out && resumed) s = say_lost(r->out, &e->probing->probes, &e->warnings);
     if (s == OK && r->out && !resumed) {
         profiles_remove(&e->probing->probes, r->out);
         /* frame 0 of the body is always written */
-        s = write_frames(e, report_frames_due(r->out, e->scene, &e->clock, 0) | 1);
+        s = write_frames(e, report_frame_series_due(r->out, e->scene, &e->clock, 0) | 1);
         if (s == OK) s = write_checkpoint(e);
         r->checkpoints_spent = 0;
     }
@@ -255,9 +257,9 @@ static void progress(struct run *e, bool last)
     double rate = (double)(e->clock.step - e->report->step_started) / real_max(now - e->report->started, 1e-9);
     char left[32];
     duration_text(left, sizeof left, rate > 0 ? (double)(e->clock.steps - e->clock.step) / rate : 0);
-    const struct tip *tip = tips_longest(&e->fracture->tips);
+    const struct crack_tip *tip = tips_longest(&e->fracture->tips);
     const char *const from = terminal ? "\r" : "";
-    if (scene_in_steps(e->scene))
+    if (scene_has_load_steps(e->scene))
         fprintf(stderr, "%sload step %lld/%lld  %s  at most %s left", from, (long long)e->clock.step,
                 (long long)e->clock.steps, e->report->note, left);
     else
@@ -272,31 +274,31 @@ static void progress(struct run *e, bool last)
 
 /* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]: peridynamic
  * particles by the bonds b, material points by the mesh. */
-real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const struct particles *p)
+real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p)
 {
-    real at_rest = inactive_share(&b->active) * (real)p->n_of[KIND_PD];
-    if (mesh->points > 0) at_rest += inactive_share(&mesh->active) * (real)mesh->points;
+    real at_rest = active_set_inactive_fraction(&b->active) * (real)p->n_of[KIND_PD];
+    if (mesh->points > 0) at_rest += active_set_inactive_fraction(&mesh->active) * (real)mesh->points;
     return at_rest / (real)p->n;
 }
 
 status report_step(struct run *e)
 {
     struct run_report *r = e->report;
-    const bool last = e->clock.step == e->clock.steps, in_steps = scene_in_steps(e->scene);
+    const bool last = e->clock.step == e->clock.steps, in_steps = scene_has_load_steps(e->scene);
     r->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
     r->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
     r->bond_visits += e->bonds.n;
-    r->inactive += report_inactive_share(&e->bonds, &e->frame->mesh, &e->part);
+    r->inactive += particles_at_rest_fraction(&e->bonds, &e->frame->mesh, &e->part);
     timer_add_elapsed(&e->timers, TIMER_SAMPLE);
     /* before the checkpoint, so that a finished run is complete */
-    if (last && !in_steps) sample_final(e);
+    if (last && !in_steps) sample_take_final(e);
     TRY(r->history_status);
     TRY(energy_check(e));
     if (last) warn_of_imbalance(e);
     if (last) warn_of_fast_tips(&e->fracture->tips, e->scene, &e->warnings);
     if (last || in_steps) warn_of_bond_yielding(r, &e->bonds, e->scene, &e->warnings);
     if (r->out) {
-        const unsigned due = report_frames_due(r->out, e->scene, &e->clock, e->clock.step);
+        const unsigned due = report_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));
         const bool late = wall_is_over(e->scene, r), stop = late || (r->stop && *r->stop);
         if (stop || checkpoint_due(r, e->scene)) TRY(write_checkpoint(e));
@@ -315,7 +317,7 @@ status report_end(struct run *e)
     struct run_report *r = e->report;
     progress(e, true);
     if (!r->out) return OK;
-    TRY(output_wait(r->out));
+    TRY(output_wait_for_frame(r->out));
     if (e->clock.step > r->step_started) TRY(write_checkpoint(e));
     return OK;
 }

@@ -59,7 +59,7 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
  * also with coarse cells, whose nodes diagnostics_angular_momentum does not read. */
 static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
-    return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
+    return s->dim > 1 && scene_is_dynamic(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
            frame->levels.n == 0;
 }
 
@@ -77,7 +77,7 @@ static int spin_columns(const struct scene *s, const struct reference_frame *fra
 static void fill_record(struct run *e)
 {
     const struct energy_balance *l = &e->diagnostics->now;
-    const struct tip *tip = tips_longest(&e->fracture->tips);
+    const struct crack_tip *tip = tips_longest(&e->fracture->tips);
     real *r = e->report->record;
     const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
     const int dim = e->part.dim;
@@ -123,7 +123,7 @@ static int own_columns(const struct run *e, struct column *column)
     return n + spin_columns(e->scene, e->frame, column ? column + n : NULL);
 }
 
-status sample_start(struct run *e, bool resume)
+status sample_open_history(struct run *e, bool resume)
 {
     struct run_report *report = e->report;
     const int columns = RECORD_FIXED + own_columns(e, NULL);
@@ -216,8 +216,8 @@ static void sample_state(struct run *e)
         diagnostics_angular_momentum(e->diagnostics, &e->part, e->frame->mesh.points > 0 ? &e->frame->mesh : NULL,
                                      e->scene->bodies);
     tips_update(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
-    struct observed o = run_observed(e);
-    probes_sample(&e->probing->probes, &o);
+    struct observed_run o = observed_run_of(e);
+    probes_sample_begin(&e->probing->probes, &o);
 }
 
 real sample_strain_energy(struct run *e)
@@ -249,9 +249,9 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
 {
     struct sampling *sampling = &e->report->sampling;
     if (wants_motion(e->scene)) frame_update_points(e->frame, &e->part, &e->loads);
-    struct observed o = run_observed(e);
+    struct observed_run o = observed_run_of(e);
     probes_sample_end(&e->probing->probes, &o, now);
-    if (scene_moves(e->scene)) {
+    if (scene_is_dynamic(e->scene)) {
         momentum_now(&e->part, e->frame, e->diagnostics->now.momentum);
         momentum_at(sampling, now, e->clock.t, e->part.dim, e->diagnostics->now.momentum);
     }
@@ -281,8 +281,8 @@ static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
     const real dt = e->grid->transfer.dt_velocity;
-    return particles_kick_energy(&e->part, grid ? e->report->sampling.before : NULL, dt) +
-           mesh_kick(&e->frame->mesh, dt) + levels_kick_energy(&e->frame->levels, dt) - e->loads.absorbing.kick;
+    return particles_leapfrog_energy_gap(&e->part, grid ? e->report->sampling.before : NULL, dt) +
+           mesh_kick(&e->frame->mesh, dt) + levels_leapfrog_energy_gap(&e->frame->levels, dt) - e->loads.absorbing.kick;
 }
 
 void sample_begin(struct run *e)
@@ -298,7 +298,7 @@ void sample_begin(struct run *e)
         sample_state(e), rigids_warn_of_overlap(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
     else if (wants_stress(e->scene))
         compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    struct observed o = run_observed(e);
+    struct observed_run o = observed_run_of(e);
     probes_store_motion(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
     sampling->t_velocity = o.t_velocity;
@@ -310,7 +310,7 @@ void sample_begin(struct run *e)
     sampling->rigid = rigids_energy(e->rigid, e->clock.dt).before;
 }
 
-void sample_energy(struct run *e)
+void sample_compute_energies(struct run *e)
 {
     if (!e->report->sampling.due) return;
     sample_energies(e);
@@ -357,7 +357,7 @@ void sample_end(struct run *e)
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
 
-void sample_equilibrium(struct run *e)
+void sample_take_in_equilibrium(struct run *e)
 {
     sample_state(e);
     sample_energies(e);
@@ -373,7 +373,7 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     real power = 0;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
-        for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) power += p->v[d][i] * p->f[d][i];
+        for (int d = 0; d < p->dim && !particle_moves_with_nodes(p, i); d++) power += p->v[d][i] * p->f[d][i];
     }
     for (int64_t I = 0; I < g->n && reference->mesh.points > 0; I++)
         for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
@@ -408,10 +408,10 @@ static void reactions_add(struct loads *l, const struct grid *g)
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
-    for (int k = 0; grid && k < grid->fields; k++) loads_add_reactions(l, &grid->field[k].grid, clock->dt);
+    for (int k = 0; grid && k < grid->fields; k++) loads_add_grid_reactions(l, &grid->field[k].grid, clock->dt);
     if (frame->mesh.points == 0) return;
     reactions_add(l, &frame->mesh.grid);
-    for (int level = 1; level <= levels_highest_due(&frame->levels, clock->step); level++)
+    for (int level = 1; level <= levels_highest_acting(&frame->levels, clock->step); level++)
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
@@ -424,12 +424,12 @@ static real power_last(struct run *e, real *held)
     const real before = e->loads.constraint_work, kick = e->loads.absorbing.kick;
     const real dt_velocity = e->clock.dt * damping_factor(e->scene->damping * e->clock.dt);
     memory_archive_make(&accounts, ARCHIVE_ACCOUNTS);
-    INVARIANT(loads_archive(&e->loads, &accounts.archive) == OK);
+    INVARIANT(loads_save_or_load(&e->loads, &accounts.archive) == OK);
     e->loads.absorbing.idle = e->loads.ended = true;
     loads_clear_forces(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(e->contact, &e->part, 0);
-    loads_complete_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
+    loads_finish_particle_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
     if (e->frame->mesh.points > 0) frame_compute_forces(e->frame, &e->part, e->clock.step);
     const real power = power_now(&e->part, e->frame) + grid_power(e, e->clock.t + 0.5 * e->clock.dt);
     const real walls = power_of_walls(e->frame);
@@ -437,7 +437,7 @@ static real power_last(struct run *e, real *held)
     const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
     reactions_at_end(&e->loads, on_grid ? e->grid : NULL, e->frame, &e->clock);
     memory_archive_rewind(&accounts);
-    INVARIANT(loads_archive(&e->loads, &accounts.archive) == OK);
+    INVARIANT(loads_save_or_load(&e->loads, &accounts.archive) == OK);
     memory_archive_free(&accounts);
     e->loads.absorbing.kick = kick;
     e->loads.absorbing.idle = e->loads.ended = false;
@@ -446,17 +446,17 @@ static real power_last(struct run *e, real *held)
 
 /* Takes the sample after the last step and writes its line. As in all samples, the kinetic energy is 1/2 m v- . v+; v+
  * is the velocity after a kick by the forces at the end, which no motion follows. */
-void sample_final(struct run *e)
+void sample_take_final(struct run *e)
 {
     real held = 0;
-    states_precompute(&e->bonds, &e->part, &e->source);
+    family_states_precompute(&e->bonds, &e->part, &e->source);
     frame_update_points(e->frame, &e->part, &e->loads); /* positions, velocities and stresses of points of the mesh */
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame);
     const real before = kinetic;
     const real decay = e->scene->damping * e->clock.dt, share = damping_factor(decay), kick = e->clock.dt * share;
-    if (scene_moves(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
+    if (scene_is_dynamic(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
     if (e->clock.step > 0) e->report->sampling.energy.damped += damping_last_loss(decay, before, kinetic);
     e->report->sampling.energy.damped += e->grid->contact.begun;
     const struct rigid_energy rigid = rigids_energy(e->rigid, e->clock.dt);
@@ -468,8 +468,8 @@ void sample_final(struct run *e)
 
 void sample_update_probes(struct run *e)
 {
-    struct observed o = run_observed(e);
-    probes_update_step(&e->probing->probes, &o);
+    struct observed_run o = observed_run_of(e);
+    probes_update_every_step(&e->probing->probes, &o);
 }
 
 /* Warns that the first bonds of driven particles break, and names the first boundary that drives such particles.
@@ -495,21 +495,21 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
     warnings_add_and_print(to, text);
 }
 
-void sample_record_breaks(struct run *e, int64_t broken)
+void sample_record_breaks(struct run *e, int64_t broken_bonds)
 {
     /* a load step breaks bonds before its end, but is recorded at its end */
-    const bool in_steps = scene_in_steps(e->scene);
+    const bool in_steps = scene_has_load_steps(e->scene);
     const real step = e->scene->duration / (real)e->scene->steps.number;
     const real t = in_steps ? step * (real)e->clock.load_step : e->clock.t;
-    struct observed o = run_observed(e);
+    struct observed_run o = observed_run_of(e);
     char when[48];
     if (in_steps)
         snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
     else
         snprintf(when, sizeof when, "at %.4g s", t);
-    if (diagnostics_record_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken, t))
+    if (diagnostics_record_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken_bonds, t))
         say_torn(&e->warnings, &e->loads, &e->part, when);
-    if (scene_moves(e->scene)) sample_update_probes(e);
+    if (scene_is_dynamic(e->scene)) sample_update_probes(e);
     o.t = t;
-    if (in_steps && broken > 0) probes_update_breaks(&e->probing->probes, &o);
+    if (in_steps && broken_bonds > 0) probes_update_broken_bonds(&e->probing->probes, &o);
 }

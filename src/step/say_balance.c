@@ -23,8 +23,8 @@
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
-    const real released = energy_released(w);
-    if (scene_at_rest(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
+    const real released = energy_released_in_excess(w);
+    if (scene_is_single_equilibrium(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
     snprintf(text, sizeof text,
              "broken bonds released %.3g J more than they had stored (energy.fracture %.3g): with model %s, particles "
              "under pressure gain energy as they lose bonds; compare with model: bond, and do not trust later results",
@@ -52,7 +52,7 @@ static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to
 /* Returns true if interface damping acts and nothing else in a moving scene damps. */
 static bool zone_damps(const struct scene *s, const struct coupling_state *coupling)
 {
-    return coupling->damping_share > 0 && coupling->zone.points > 0 && !(s->damping > 0) && scene_moves(s);
+    return coupling->damping_share > 0 && coupling->zone.points > 0 && !(s->damping > 0) && scene_is_dynamic(s);
 }
 
 /* Warns that interface damping dissipated more than high-frequency noise. share: of the largest energy [1]. */
@@ -70,12 +70,12 @@ static void say_damped(real share, struct warnings *to)
 
 /* Writes to text a warning that the first bonds broke in a collision at a speed at which the numerical fronts
  * oscillate. Returns false, without text, if no such collision was expected or no bond broke. */
-static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t room)
+static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t capacity)
 {
     const struct shock shock = fastest_collision_expected(s);
     if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM || scene_accepts(s, ACCEPT_SHOCK))
         return false;
-    snprintf(text, room,
+    snprintf(text, capacity,
              "the first bond broke at %.4g s, in a collision at %.3g m/s, %.2g times the speed at which the front of "
              "the wave breaks or yields the bodies; stress oscillates by 10 to 30 %% behind the front, so that bonds "
              "can break too early: %s; if this is meant: accept: [shock]",
@@ -83,15 +83,15 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
     return true;
 }
 
-void warn_of_fast_tips(const struct tips *t, const struct scene *s, struct warnings *to)
+void warn_of_fast_tips(const struct crack_tips *t, const struct scene *s, struct warnings *to)
 {
-    const struct tip *fastest = NULL;
+    const struct crack_tip *fastest = NULL;
     char text[500];
     real limit = 0;
     for (int m = 0; m < s->materials; m++) limit = real_max(limit, s->material[m].rayleigh_speed);
-    if (limit == 0 || !scene_moves(s) || scene_accepts(s, ACCEPT_RAYLEIGH)) return;
+    if (limit == 0 || !scene_is_dynamic(s) || scene_accepts(s, ACCEPT_RAYLEIGH)) return;
     for (int k = 0; k < t->n; k++) {
-        const struct tip *tip = &t->tip[k];
+        const struct crack_tip *tip = &t->tip[k];
         if (tip->growth < FAST_TIP * t->spacing || !(tip->speed_max > limit + t->spacing / t->window)) continue;
         if (!fastest || tip->speed_max > fastest->speed_max) fastest = tip;
     }
@@ -121,7 +121,7 @@ static const struct material *yielding_material(const struct scene *s)
 static void say_yield_gain(const struct scene *s, const struct material *m, real error, struct warnings *to)
 {
     char text[480], law[120] = "";
-    if (s->method == METHOD_MPM && scene_moves(s))
+    if (s->method == METHOD_MPM && scene_is_dynamic(s))
         snprintf(law, sizeof law, ", and material.hardening: {linear: {modulus: %.4g}} counts it more exactly",
                  m->yield_hardening);
     snprintf(
@@ -145,10 +145,10 @@ void warn_of_imbalance(struct run *e)
     if (zone_damps(e->scene, e->coupling) && !round_off) say_damped(e->damped / w->energy_scale, &e->warnings);
     if (shock_text(e->scene, w, text, sizeof text)) warnings_add_and_print(&e->warnings, text);
     const struct material *yields = yielding_material(e->scene);
-    if (!scene_moves(e->scene) || round_off) yields = NULL;
+    if (!scene_is_dynamic(e->scene) || round_off) yields = NULL;
     if (yields && error > YIELD_DOUBTFUL && error <= ENERGY_DOUBTFUL)
         say_yield_gain(e->scene, yields, error, &e->warnings);
-    if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
+    if (scene_is_single_equilibrium(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
     snprintf(
         text, sizeof text,
         "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows the time at which it began: do not "

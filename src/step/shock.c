@@ -81,7 +81,7 @@ struct shock fastest_collision_expected(const struct scene *s)
         for (int b = a + 1; b < s->bodies + s->rigids; b++)
             if (b >= s->bodies || s->contact_between != CONTACT_NONE)
                 shock.speed = real_max(shock.speed, closing_speed(s, a, b));
-    if (viscous || !scene_moves(s) || !(shock.speed > SHOCK * speed_limit(s))) return shock;
+    if (viscous || !scene_is_dynamic(s) || !(shock.speed > SHOCK * speed_limit(s))) return shock;
     shock.share = shock.speed / speed_limit(s), shock.remedy = remedy_of(s);
     return shock;
 }

@@ -40,7 +40,7 @@ static real fastest_now(const struct particles *p, const struct reference_frame 
     return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
 }
 
-void stability_make(struct stability *s, const struct particles *p)
+void stability_store_start_speed(struct stability *s, const struct particles *p)
 {
     s->start_speed = real_max(diagnostics_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
                               diagnostics_largest_speed(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
@@ -101,7 +101,7 @@ static real start_strain(const struct scene *s)
 
 /* Writes to text which load or initial state explains the motion. steps: number of steps in which the square of the
  * speed last grew tenfold. Returns false, without text, if none explains it. */
-static bool load_explanation(const struct run *e, real steps, char *text, size_t room)
+static bool load_explanation(const struct run *e, real steps, char *text, size_t capacity)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};
     static const char *const word[] = {"velocity", "traction", "body force", "", "", "pressure"};
@@ -114,7 +114,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     if (!loads_explain_motion(&e->part, e->frame, given)) return false;
     if (e->stability->start_speed >= speed) {
         snprintf(
-            text, room,
+            text, capacity,
             "a smaller time step does not help: the scene starts with %.3g m/s, %.3g times the wave speed: check the "
             "velocities of its bodies and of `initial`, and their units",
             e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
@@ -122,7 +122,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     }
     if (start_strain(e->scene) >= LARGE_STRAIN) {
         snprintf(
-            text, room,
+            text, capacity,
             "a smaller time step does not help: the scene starts with a strain of %.3g, whose energy throws the body "
             "apart: check the displacement gradients of `initial` (0.001 is a strain of 0.1 %%)",
             start_strain(e->scene));
@@ -138,7 +138,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     const real value = b->kind == BOUNDARY_PRESSURE ? fabs(b->value[0]) : size;
     char within[40] = "";
     if (b->kind != BOUNDARY_VELOCITY) snprintf(within, sizeof within, " in %.0f step%s", window, window > 1 ? "s" : "");
-    snprintf(text, room,
+    snprintf(text, capacity,
              "a smaller time step does not help: boundary %s, a %s of %.3g %s, %s %.3g m/s%s, %.3g times the wave "
              "speed, and loads have done %.3g J of work: check its value and unit",
              b->name, b->displaces ? "displacement" : word[b->kind], value,
@@ -153,9 +153,9 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
 /* ---- remedy ------------------------------------------------------------------------------------------------------ */
 
 /* Advises a smaller time step; returns the length of the text. */
-static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t room)
+static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t capacity)
 {
-    return snprintf(text, room, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
+    return snprintf(text, capacity, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
                     s->time_step > 0 ? "step" : "safety", clock->dt, clock->dt / clock->dt_critical,
                     clock->dt_critical);
 }
@@ -170,7 +170,7 @@ static bool holds_images(const struct scene *s)
 
 /* Lists alternatives for a scene that gains energy: another choice for each option that the scene can do without. */
 static void say_others(const struct scene *s, const struct reference_frame *reference, enum coupling coupling,
-                       char *text, size_t room)
+                       char *text, size_t capacity)
 {
     const char *other[8];
     int n = 0;
@@ -185,8 +185,12 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
     if (s->model != MODEL_BOND && s->method != METHOD_MPM) other[n++] = "model: bond";
     if (holds_images(s)) other[n++] = "`fixed` in place of a mirror that holds";
     if (n == 0) other[n++] = "method: adaptive";
-    for (int k = 0, used = 0; k < n && used < (int)room; k++)
-        used += snprintf(text + used, room - (size_t)used, "%s%s", k == 0 ? "" : k == n - 1 ? " or " : ", ", other[k]);
+    for (int k = 0, used = 0; k < n && used < (int)capacity; k++)
+        used += snprintf(text + used, capacity - (size_t)used, "%s%s",
+                         k == 0       ? ""
+                         : k == n - 1 ? " or "
+                                      : ", ",
+                         other[k]);
 }
 
 #define SQUEEZED 0.4 /* ratio of a bond's length to its reference length below which the bond laws are not valid */
@@ -196,7 +200,7 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
 {
     real least2 = 1;
     for (int64_t row = 0; row < b->rows; row++)
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             real length2 = 0;
             for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][it.bond.nbr] - p->x[d][b->particle[row]]);
             if (it.bond.w != 0) least2 = real_min(least2, length2 * square(it.bond.inverse_length));
@@ -206,11 +210,11 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
 
 /* Writes to text how far bonds are compressed; returns false if not so far that it explains the divergence. */
 static bool squeeze_explanation(const struct bonds *b, const struct particles *p, const struct run_clock *clock,
-                                char *text, size_t room)
+                                char *text, size_t capacity)
 {
     const real least = shortest_bond(b, p);
     if (!(least < SQUEEZED)) return false;
-    snprintf(text, room,
+    snprintf(text, capacity,
              "bonds are squeezed to %.2g of their length, beyond the validity of the bond laws: check that so much "
              "compression is meant, or use a smaller time.safety (now %.2f of the critical %.3g s), which keeps "
              "particles farther apart",
@@ -218,39 +222,40 @@ static bool squeeze_explanation(const struct bonds *b, const struct particles *p
     return true;
 }
 
-void stability_remedy(const struct run *e, const struct rise *rise, real value, char *text, size_t room)
+void stability_describe_remedy(const struct run *e, const struct growth_samples *rise, real value, char *text,
+                               size_t capacity)
 {
     real steps;
     char others[256];
-    const enum growth_rate rate = growth_rate(rise, e->clock.step, value, &steps);
-    if (scene_in_steps(e->scene)) { /* load steps have no time step */
-        snprintf(text, room,
+    const enum growth_rate rate = growth_rate_classify(rise, e->clock.step, value, &steps);
+    if (scene_has_load_steps(e->scene)) { /* load steps have no time step */
+        snprintf(text, capacity,
                  "this occurred in an equilibrium: use more load steps (steps.number) or a smaller solver_tolerance to "
                  "find its origin, and please report the scene");
         return;
     }
-    if (load_explanation(e, steps, text, room)) return;
+    if (load_explanation(e, steps, text, capacity)) return;
     const bool long_step = e->clock.dt > e->clock.dt_critical;
-    if (!long_step && squeeze_explanation(&e->bonds, &e->part, &e->clock, text, room)) return;
-    if (rate == RISE_FAST || long_step || !scene_moves(e->scene)) {
-        say_step(e->scene, &e->clock, text, room);
+    if (!long_step && squeeze_explanation(&e->bonds, &e->part, &e->clock, text, capacity)) return;
+    if (rate == RISE_FAST || long_step || !scene_is_dynamic(e->scene)) {
+        say_step(e->scene, &e->clock, text, capacity);
         return;
     }
     say_others(e->scene, e->frame, e->coupling_kind, others, sizeof others);
     if (rate == RISE_UNSURE) {
-        const int used = say_step(e->scene, &e->clock, text, room);
-        snprintf(text + used, room - (size_t)used,
+        const int used = say_step(e->scene, &e->clock, text, capacity);
+        snprintf(text + used, capacity - (size_t)used,
                  "; if the run is still unstable with it, a method of this scene gains energy: try %s", others);
         return;
     }
     if (e->diagnostics->now.balance_error < 0 && e->diagnostics->now.energy.fracture >= 0) {
-        snprintf(text, room,
+        snprintf(text, capacity,
                  "a smaller time step (now %.2f of the critical %.3g s) may not help, as the energy balance shows no "
                  "gain: loads or supports may drive the motion: check them, or try %s",
                  e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
         return;
     }
-    snprintf(text, room,
+    snprintf(text, capacity,
              "the energy error took %s%.0f steps to grow tenfold; with an unstable time step it takes fewer than %d, "
              "so that a smaller time step (now %.2f of the critical %.3g s) may not help; a method of this scene gains "
              "energy: try %s, and please report the scene",
@@ -269,8 +274,8 @@ status divergence_check(const struct run *e, bool peridynamic, bool meshed)
         diagnostics_divergence(&e->part, peridynamic, meshed, e->tables.wave_speed, e->clock.step, e->clock.t);
     if (s == OK) return OK;
     const real speed = fastest_now(&e->part, e->frame), limit = e->tables.wave_speed;
-    stability_remedy(e, &e->stability->speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
-                     sizeof remedy);
+    stability_describe_remedy(e, &e->stability->speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
+                              sizeof remedy);
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
@@ -285,7 +290,7 @@ static status inversion_check(const struct run_clock *clock, const struct partic
     const int64_t i = mesh_find_inverted_point(&reference->mesh, p);
     if (i == p->n && !levels_find_inverted_cell(&reference->levels, X)) return OK;
     if (i < p->n) {
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
     }
     return status_set(FAILED,
@@ -343,7 +348,7 @@ bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed
 /* Returns the energy that breaking bonds released beyond what they had stored [J], i.e. a negative fracture energy.
  * State-based models can do so: when a bond breaks, the dilatation of the particle changes, and its other bonds may
  * store more. */
-real energy_released(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
+real energy_released_in_excess(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
 
 /* Returns true if the body has more energy than a stable run can gain. The first steps are left out, in which half a
  * step of a load is a large share of all energy, unless the step is above the critical one. */
@@ -351,7 +356,7 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
     return (counts && w->now.balance_error > ENERGY_FROM_NOWHERE) ||
-           energy_released(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
+           energy_released_in_excess(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
 }
 
 /* Returns true if the time step is above the critical one and velocities change sign in every step. */
@@ -398,7 +403,7 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, real x
  * there is one. t: present time [s]. */
 static bool say_stretched(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
-    const int n = symmetric_count(p->dim);
+    const int n = symmetric_component_count(p->dim);
     for (int64_t i = 0; i < p->n && p->n_free > 0 && !scene_accepts(s, ACCEPT_STRAIN); i++) {
         const struct material *m = &s->material[p->material[i]];
         real stress[SYM_MAX], sum = 0;
@@ -406,7 +411,7 @@ static bool say_stretched(const struct particles *p, const struct scene *s, real
         for (int c = 0; c < n; c++) stress[c] = p->stress[c][i], sum += square(stress[c]);
         /* cheap bound: the sum is at least half the squared principal stress */
         if (2 * sum < square(STRETCH_MOST * m->young)) continue;
-        const real strain = stress_principal(stress, p->dim) / m->young;
+        const real strain = stress_largest_principal(stress, p->dim) / m->young;
         if (!(strain > STRETCH_MOST)) continue;
         warn_of_stretched(s, strain, t, p->x[0][i], to);
         return true;
@@ -447,8 +452,8 @@ status energy_check(struct run *e)
                           "supports and initial state (`cleave check`)",
                           (long long)e->clock.step, e->clock.t);
     const struct diagnostics *w = e->diagnostics;
-    const real excess = w->now.balance_error * w->energy_scale + energy_released(w);
-    const bool last = e->clock.step == e->clock.steps && !scene_at_rest(e->scene);
+    const real excess = w->now.balance_error * w->energy_scale + energy_released_in_excess(w);
+    const bool last = e->clock.step == e->clock.steps && !scene_is_single_equilibrium(e->scene);
     char what[96], remedy[REMEDY_LENGTH];
     if (!e->report->sampling.due && !last) return OK;
     growth_rate_add_sample(&e->stability->excess, e->clock.step, excess);
@@ -463,6 +468,6 @@ status energy_check(struct run *e)
     if (!gains(&e->clock, w)) return OK;
     snprintf(what, sizeof what, "with %.0f %% of its energy gained without work of loads",
              100 * excess / w->energy_scale);
-    stability_remedy(e, &e->stability->excess, excess, remedy, sizeof remedy);
+    stability_describe_remedy(e, &e->stability->excess, excess, remedy, sizeof remedy);
     return unstable(&e->part, &e->clock, what, remedy);
 }

@@ -41,15 +41,16 @@ static void conversion(struct run *e, struct step *now)
 {
     const bool marked = conversion_prepare(e);
     sample_record_breaks(e, now->broken);
-    now->converted = conversion_apply(e, now->broken, marked, cracks_fade_bonds(e->fracture));
+    now->converted = conversion_apply(e, now->broken, marked, cracks_have_fading_bonds(e->fracture));
     timer_add_elapsed(&e->timers, TIMER_CONVERT);
 }
 
 /* Updates the pairs that may be in contact, and sets how peridynamic particles move in this step. */
 static void motion_begin(struct run *e, struct step *now)
 {
-    contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                   e->diagnostics->bonds_broken, e->coupling->conversion.converted + e->coupling->conversion.reverted);
+    contact_update_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                        e->diagnostics->bonds_broken,
+                        e->coupling->conversion.converted + e->coupling->conversion.reverted);
     now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
     e->grid->transfer.bonded = e->coupling->bonded; /* reversion may have reallocated the list */
     timer_add_elapsed(&e->timers, TIMER_CONVERT);
@@ -68,7 +69,7 @@ static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
     if (!now->damps) return;
-    e->damped += interface_damp_begin(&e->coupling->zone, &e->part, e->coupling->damping_share);
+    e->damped += interface_zone_damp_velocities(&e->coupling->zone, &e->part, e->coupling->damping_share);
     loads_update_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
 }
 
@@ -107,7 +108,7 @@ static void push_bonds(struct run *e, struct step *now)
 static void push_contact(struct run *e)
 {
     e->contact->recorded =
-        e->contact->push[0] && report_frames_due(e->report->out, e->scene, &e->clock, e->clock.step + 1) != 0;
+        e->contact->push[0] && report_frame_series_due(e->report->out, e->scene, &e->clock, e->clock.step + 1) != 0;
     contact_force(e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
     contact_update_times(e->contact, e->clock.t);
 }
@@ -127,15 +128,15 @@ static void move_peridynamic(struct run *e, struct pd_motion *motion)
 static void move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
-    viscosity_to_stress(e->viscosity, &e->part, true);
+    viscosity_apply_to_stress(e->viscosity, &e->part, true);
     grid_map_points(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
-    viscosity_to_stress(e->viscosity, &e->part, false);
-    if (e->clock.step == 0) residual_store(e->probing, e->scene, &e->part, e->grid);
+    viscosity_apply_to_stress(e->viscosity, &e->part, false);
+    if (e->clock.step == 0) patch_residual_store(e->probing, e->scene, &e->part, e->grid);
     grid_step(e, now->middle); /* 3, 4, 6, 7 */
     if (any && e->part.end_strain)
         bonded_points_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
     if (any) timer_add_elapsed(&e->timers, TIMER_GATHER);
-    if (now->damps) e->damped += interface_damp_end(&e->coupling->zone, &e->part);
+    if (now->damps) e->damped += interface_damped_second_half(&e->coupling->zone, &e->part);
 }
 
 /* Moves the nodes of bodies in the reference frame. */
@@ -144,14 +145,15 @@ static void move_frame(struct run *e, const struct step *now)
     if (e->frame->mesh.points == 0) return;
     frame_compute_forces(e->frame, &e->part, e->clock.step);
     viscosity_add_nodal_forces(e);
-    if (e->clock.step == 0) residual_store_mesh(e->probing, e->scene, &e->frame->mesh);
+    if (e->clock.step == 0) patch_residual_store_mesh(e->probing, e->scene, &e->frame->mesh);
     frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
 /* Adds the reactions of walls of the grids to supports, and sets the velocities of driven particles. */
 static void step_hold(struct run *e, const struct step *now)
 {
-    for (int k = 0; k < e->grid->fields; k++) loads_add_reactions(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
+    for (int k = 0; k < e->grid->fields; k++)
+        loads_add_grid_reactions(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
     if (loads_impose_motion(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = true;
     loads_update_images(&e->loads, &e->part);
     timer_add_elapsed(&e->timers, TIMER_GRID);
@@ -171,9 +173,9 @@ static void finish(struct run *e, const struct step *now)
     timer_add_elapsed(&e->timers, TIMER_SAMPLE);
 }
 
-bool step_convert(struct run *e, int64_t broken)
+bool step_convert(struct run *e, int64_t broken_bonds)
 {
-    struct step now = {.broken = broken};
+    struct step now = {.broken = broken_bonds};
     if (e->frame->mesh.points > 0 && e->scene->method == METHOD_ADAPTIVE)
         mesh_points_mark(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
     conversion(e, &now);
@@ -208,10 +210,10 @@ status step(struct run *e)
     viscosity_add_forces(e);
     push_contact(e);
     rigids_add_impulse(e->rigid, now.dt_velocity, e->loads.impulse);
-    loads_complete_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
+    loads_finish_particle_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
     timer_add_elapsed(&e->timers, TIMER_BONDS);
-    sample_energy(e);
-    now.broken += cracks_grow(e);
+    sample_compute_energies(e);
+    now.broken += cracks_grow_one_step(e);
     timer_add_elapsed(&e->timers, TIMER_SAMPLE);
 
     move_peridynamic(e, &now.motion); /* 4 */

@@ -48,7 +48,7 @@ static void put_figure(void *context, const char *probe, const char *quantity, r
     json_real(sink->json, quantity, value);
 }
 
-static void put_probes(struct json *j, const struct probes *s, const struct observed *o)
+static void put_probes(struct json *j, const struct probes *s, const struct observed_run *o)
 {
     struct probe_sink sink = {.json = j};
     json_open(j, "probes", '{');
@@ -69,7 +69,7 @@ static void put_error_bars(struct json *j, const struct run_report *r)
 
 static void put_figures(const struct run *e, struct json *j)
 {
-    const struct observed o = run_observed(e);
+    const struct observed_run o = observed_run_of(e);
     put_probes(j, &e->probing->probes, &o);
     put_error_bars(j, e->report);
 }
@@ -85,7 +85,7 @@ static status report_state(struct run *e, struct archive *a)
     struct run_seconds seconds = a->saving ? report_seconds(r, &e->timers) : (struct run_seconds){0};
     ARCHIVE_VALUE(a, "engine/seconds", seconds);
     if (!a->saving) r->before = seconds;
-    return output_archive(r->out, a);
+    return output_save_or_load(r->out, a);
 }
 
 static status stability_state(struct run *e, struct archive *a)

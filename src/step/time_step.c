@@ -84,7 +84,7 @@ static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
-    if (coupling_unified(coupling)) return moved_by_grid[two][s->dim];
+    if (coupling_has_one_grid(coupling)) return moved_by_grid[two][s->dim];
     return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
@@ -102,7 +102,7 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
     real step = INFINITY, longest[DIM_MAX], low, high;
     *bound = INFINITY;
     for (int d = 0; d < p->dim; d++) {
-        particles_extent(p, p->n, d, &low, &high);
+        particles_coordinate_range(p, p->n, d, &low, &high);
         longest[d] = high - low;
     }
     for (int m = 0; m < all->materials; m++) {
@@ -167,7 +167,7 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
  * above 1, contact within a body does not limit the step. */
 static real contact_safety(const struct scene *s)
 {
-    if (!scene_bodies_meet(s)) return s->safety > 1 ? INFINITY : 0.7;
+    if (!scene_bodies_can_meet(s)) return s->safety > 1 ? INFINITY : 0.7;
     return real_min(s->safety, s->dim == 1 ? 0.35 : 0.5);
 }
 
@@ -179,7 +179,7 @@ static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / 
  * [1]. */
 static real core_stiffness(const struct scene *scene, const struct run_clock *clock)
 {
-    if (!scene_moves(scene)) return CORE_STIFFNESS;
+    if (!scene_is_dynamic(scene)) return CORE_STIFFNESS;
     return real_max(0, real_min(CORE_STIFFNESS, square(clock->dt_critical / clock->dt) - 1));
 }
 
@@ -197,7 +197,7 @@ static real lightest_share(const struct scene *s, const struct particles *p)
 /* Computes the critical time step and the time step of a run, with the number of steps. The limits of all methods of
  * the scene count, whichever particles exist at the start, since particles convert. Returns REFUSED if the prescribed
  * step is too large for coarse cells, or steps are too many. */
-status time_step_make(struct run *e)
+status time_step_choose(struct run *e)
 {
     const struct scene *s = e->scene;
     const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
@@ -206,7 +206,7 @@ status time_step_make(struct run *e)
         points = critical_of_points(s, &e->tables, e->grid->field[0].grid.h,
                                     fastest_driven(s, &e->loads, &e->part, e->stability->start_speed));
     e->clock.dt_critical =
-        real_min(real_min(critical_of_bonds(e), points), frame_critical_step(e->frame, s, e->coupling_kind)) *
+        real_min(real_min(critical_of_bonds(e), points), reference_frame_critical_step(e->frame, s, e->coupling_kind)) *
         sqrt(lightest_share(s, &e->part)) * viscosity_step_factor(s, &e->loads, &e->part, e->stability->start_speed);
     const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
     const int levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical).levels;
@@ -221,13 +221,13 @@ status time_step_make(struct run *e)
                           "to %.4g s (%.2f of the critical step)",
                           dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
     e->clock.dt_bears = dt;
-    if (scene_in_steps(s))
+    if (scene_has_load_steps(s))
         e->clock.steps = s->steps.number, e->clock.dt = s->duration / s->steps.number;
-    else if (scene_moves(s))
+    else if (scene_is_dynamic(s))
         TRY(make_steps(e->scene, &e->clock, dt));
     else
         e->clock.steps = s->solver_steps, e->clock.dt = dt;
-    e->source.limit.dt = scene_in_steps(s) ? dt : e->clock.dt;
+    e->source.limit.dt = scene_has_load_steps(s) ? dt : e->clock.dt;
     e->source.core = e->bonds.core = core_stiffness(e->scene, &e->clock);
     return OK;
 }

@@ -73,7 +73,7 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         real f[DIM_MAX] = {0};
-        for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
+        for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
             if (it.bond.w != 0) bond_push(v->material, p, i, &it.bond, b->stiffness, f);
         v->work[i] = 0;
         for (int d = 0; d < p->dim; d++) {
@@ -100,7 +100,7 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
         if (!on_grid || volume == 0) continue;
         const real growth = p->volume[i] - volume, rate = growth / (0.5 * (p->volume[i] + volume) * dt);
         v->pressure[i] = viscous_pressure(&v->material[p->material[i]], v->cell, rate);
-        v->work[i] = -0.5 * point_mpm_share(partial, p->dim, i) * (before + v->pressure[i]) * growth;
+        v->work[i] = -0.5 * point_mpm_fraction(partial, p->dim, i) * (before + v->pressure[i]) * growth;
     }
     v->taken += reproducible_sum(p->n, taken_by, v->work);
 }
@@ -116,13 +116,13 @@ void viscosity_add_forces(struct run *e)
     points_pressure(e->viscosity, &e->part, &e->coupling->partial, e->clock.dt);
 }
 
-void viscosity_to_stress(struct viscosity *v, const struct particles *p, bool on)
+void viscosity_apply_to_stress(struct viscosity *v, const struct particles *p, bool subtract)
 {
     for (int d = 0; d < p->dim && v->work; d++) {
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < p->n_free; k++) {
             const int32_t i = p->list_free[k];
-            if (on)
+            if (subtract)
                 v->stress[d][i] = p->stress[d][i], p->stress[d][i] -= v->pressure[i];
             else
                 p->stress[d][i] = v->stress[d][i];
@@ -167,7 +167,7 @@ static void viscous_stress(const struct viscosity *v, const struct particles *p,
     const real J = invert_gradient(F, dim, inverse);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) rate += G[a * dim + b][i] * inverse[b * dim + a];
-    const real q = viscous_pressure(&v->material[p->material[i]], v->cell, rate) * point_mpm_share(partial, dim, i);
+    const real q = viscous_pressure(&v->material[p->material[i]], v->cell, rate) * point_mpm_fraction(partial, dim, i);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
 }
@@ -179,10 +179,10 @@ static void cell_push(const struct mesh *mesh, int64_t I, real *const *P, real *
     for (int slot = 0; slot < 1 << dim; slot++) {
         const int32_t i = mesh->point[(I << dim) + slot];
         for (int c = 0; c < 1 << dim && i >= 0; c++) {
-            const int64_t node = mesh_node(mesh, I, c);
+            const int64_t node = mesh_cell_corner_node(mesh, I, c);
             for (int a = 0; a < dim; a++)
                 for (int b = 0; b < dim; b++)
-                    f[a][node] += P[a * dim + b][i] * mesh_slope(dim, c, slot, b) / mesh->grid.h;
+                    f[a][node] += P[a * dim + b][i] * mesh_shape_function_slope(dim, c, slot, b) / mesh->grid.h;
         }
     }
 }

@@ -18,7 +18,7 @@ static struct path convergence_picture(const char *folder, const char *name)
     return path_join(path_join(folder, "pictures").text, name);
 }
 
-status figures_check_replaceable(const char *folder)
+status scalar_results_check_replaceable(const char *folder)
 {
     static const char *const begin[] = {"figure,unit,"};
     if (study_folder_check(folder) != OK) return OK; /* study_lock_folder reports the fault */
@@ -31,9 +31,9 @@ status figures_check_replaceable(const char *folder)
 
 /* Sends data blocks: $r: every run; $m: means with their errors; $e: extrapolated value with its interval, at spacing
  * 0. */
-static void send_figure(FILE *to, const struct convergence_study *s, const struct figure_study *f, int panel)
+static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
-    const int at = study_find_figure(&s->table, f->name);
+    const int at = study_find_result(&s->table, f->name);
     fprintf(to, "$r%d << EOD\n", panel);
     for (int k = 0; k < s->study.n; k++)
         if (s->point[k].level >= 0 && isfinite(s->table.value[at][k]))
@@ -45,7 +45,7 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
             f->c.uncertainty[0]);
 }
 
-static void plot_figure(FILE *to, const struct figure_study *f, int panel)
+static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel)
 {
     const struct convergence *c = &f->c;
     const bool seen = (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) && isfinite(c->order_likely);
@@ -74,7 +74,7 @@ static double tics_apart(double most)
     return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
-static status draw_figures(const struct convergence_study *s, const struct figure_study *figure, int figures)
+static status draw_figures(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     const int shown = figures < SHOWN_MOST ? figures : SHOWN_MOST, wide = shown < SHOWN_WIDE ? shown : SHOWN_WIDE;
     const int rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE;
@@ -160,7 +160,7 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k, struct
 {
     struct history h;
     struct longest l;
-    const struct path folder = study_folder(&s->study, &s->study.at[k]);
+    const struct path folder = study_case_folder(&s->study, &s->study.at[k]);
     if (!path_is_file(path_join(folder.text, "history.csv").text) || history_read(&h, folder.text) != OK) return false;
     longest_find(&l, &h, s->point[k].spacing);
     fprintf(to, "$w%d << EOD\n", k);
@@ -226,9 +226,9 @@ static status draw_paths(const struct convergence_study *s)
     return gnuplot_close(&g);
 }
 
-status figures_draw(const struct convergence_study *s, const struct figure_study *figure, int figures)
+status scalar_results_draw(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     TRY(folder_make(path_join(s->study.folder, "pictures").text));
     TRY(draw_figures(s, figure, figures));
-    return s->scene.dim > 1 && study_find_figure(&s->table, "crack.length_end") >= 0 ? draw_paths(s) : OK;
+    return s->scene.dim > 1 && study_find_result(&s->table, "crack.length_end") >= 0 ? draw_paths(s) : OK;
 }

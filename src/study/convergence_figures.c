@@ -27,7 +27,7 @@ enum { PRINTED_MOST = 24 };
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
-    if (!scene_moves(&s->scene)) return NAN;
+    if (!scene_is_dynamic(&s->scene)) return NAN;
     for (int k = 0; k < s->study.n; k++) {
         const struct study_point *p = &s->point[k];
         if (p->level < 0 || !isfinite(value[k]) || c->level[p->level].runs < 2) continue;
@@ -57,7 +57,7 @@ static double horizon_moves(const struct convergence_study *s, const double *val
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
-    const int length = study_find_figure(&s->table, "crack.length_end");
+    const int length = study_find_result(&s->table, "crack.length_end");
     const bool tip = !strncmp(name, "crack.", 6) || !strncmp(name, "probes.tip", 10);
     const bool is_angle = !strcmp(own, "angle_deg") && length >= 0;
     const bool is_place = !strcmp(own, "length_end") || !strcmp(own, "x") || !strcmp(own, "y") || !strcmp(own, "z");
@@ -74,12 +74,12 @@ static bool resolution_find(double *resolution, const struct convergence_study *
 
 /* Evaluates the convergence of figure number `at` of the table and its sensitivity to time step, spacing and horizon.
  * Returns false if there are too few values. */
-static bool figure_make(struct figure_study *f, const struct convergence_study *s, int at)
+static bool figure_make(struct scalar_result_study *f, const struct convergence_study *s, int at)
 {
     double *spacing = NEW("study.spacing", s->study.n, double);
     int *level = NEW("study.level", s->study.n, int);
     for (int k = 0; k < s->study.n; k++) spacing[k] = s->point[k].spacing, level[k] = s->point[k].level;
-    *f = (struct figure_study){.name = s->table.figure[at]};
+    *f = (struct scalar_result_study){.name = s->table.figure[at]};
     double resolution[LEVELS_MOST];
     const bool steps = resolution_find(resolution, s, f->name);
     const bool known = convergence_find(&f->c, spacing, s->table.value[at], level, s->study.n, s->spacings.levels,
@@ -98,7 +98,7 @@ static bool figure_make(struct figure_study *f, const struct convergence_study *
 }
 
 /* Returns true if the figure differs between runs; energies that the scene does not have do not. */
-static bool figure_moves(const struct figure_study *f)
+static bool figure_moves(const struct scalar_result_study *f)
 {
     bool moves = false;
     for (int k = 0; k < f->c.levels; k++)
@@ -114,7 +114,7 @@ static bool is_of_interest(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
     if (s->scene.dim == 1 && dot && !strcmp(dot, ".angle_deg")) return false;
-    return !study_figure_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
+    return !study_result_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
 }
 
 /* Returns true if the figure is a coordinate of an event that a run finds at several positions at once. Other runs
@@ -125,7 +125,7 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     char tied[NAME_MAX_LENGTH * 2];
     if (!dot || (strcmp(dot, ".x") && strcmp(dot, ".y") && strcmp(dot, ".z"))) return false;
     snprintf(tied, sizeof tied, "%.*s.tied", (int)(dot - name), name);
-    const int count = study_find_figure(&s->table, tied);
+    const int count = study_find_result(&s->table, tied);
     for (int k = 0; k < s->study.n && count >= 0; k++)
         if (s->table.value[count][k] > 1) return true;
     return false;
@@ -143,23 +143,23 @@ static bool is_wanted(const struct convergence_study *s, const char *name, const
     return false;
 }
 
-static void figures_units(const struct convergence_study *s, struct figure_study *figure, int figures)
+static void figures_units(const struct convergence_study *s, struct scalar_result_study *figure, int figures)
 {
     char header[HEADER_ROOM];
     study_read_history_header(header, sizeof header, &s->study);
-    for (int f = 0; f < figures; f++) study_figure_unit(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
+    for (int f = 0; f < figures; f++) study_result_unit(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
 }
 
-status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
-                    struct figure_study **figure, int *figures)
+status scalar_results_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
+                           struct scalar_result_study **figure, int *figures)
 {
     for (int k = 0; k < wanteds; k++)
-        if (study_find_figure(&s->table, wanted[k]) < 0)
+        if (study_find_result(&s->table, wanted[k]) < 0)
             return status_set(REFUSED,
                               "%s: summary.json has no such figure; names in it are joined by points, as "
                               "in crack.angle_deg",
                               wanted[k]);
-    *figure = NEW("study.figures", s->table.figures, struct figure_study);
+    *figure = NEW("study.figures", s->table.figures, struct scalar_result_study);
     *figures = 0;
     for (int f = 0; f < s->table.figures && wanteds == 0; f++)
         if (is_of_interest(s, s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
@@ -194,7 +194,8 @@ static void print_cell(FILE *to, double value)
         putc(',', to);
 }
 
-static void figures_table(FILE *to, const struct convergence_study *s, const struct figure_study *figure, int figures)
+static void figures_table(FILE *to, const struct convergence_study *s, const struct scalar_result_study *figure,
+                          int figures)
 {
     fputs("figure,unit,value,uncertainty,scatter,discretisation,deviation_of_a_run,verdict,order,order_likely,"
           "order_error,grid_convergence_index,extrapolated,step_moves,spacing_moves,horizon_moves",
@@ -222,7 +223,7 @@ static void figures_table(FILE *to, const struct convergence_study *s, const str
     }
 }
 
-status figures_write(const struct convergence_study *s, const struct figure_study *figure, int figures)
+status scalar_results_write(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     char *text = NULL;
     size_t length = 0;
@@ -234,8 +235,9 @@ status figures_write(const struct convergence_study *s, const struct figure_stud
 
 /* ---- printed summary --------------------------------------------------------------------------------------------- */
 
-/* Writes a value with the digits that its uncertainty justifies: two uncertain digits. text: capacity `room` [byte]. */
-static void certain_digits(char *text, size_t room, double value, double uncertainty)
+/* Writes a value with the digits that its uncertainty justifies: two uncertain digits. text: capacity `capacity`
+ * [byte]. */
+static void certain_digits(char *text, size_t capacity, double value, double uncertainty)
 {
     const double size = fabs(value);
     const double least = uncertainty > 0 ? uncertainty : 1e-4 * fmax(size, 1e-300);
@@ -243,14 +245,14 @@ static void certain_digits(char *text, size_t room, double value, double uncerta
     const int leading = size > 0 ? (int)floor(log10(size)) : 0;
     if (leading >= 6 || leading < -3) {
         const int digits = leading - uncertain;
-        snprintf(text, room, "%.*e", digits < 0 ? 0 : digits > 9 ? 9 : digits, value);
+        snprintf(text, capacity, "%.*e", digits < 0 ? 0 : digits > 9 ? 9 : digits, value);
     } else
-        snprintf(text, room, "%.*f", uncertain > 0 ? 0 : uncertain < -9 ? 9 : -uncertain, value);
+        snprintf(text, capacity, "%.*f", uncertain > 0 ? 0 : uncertain < -9 ? 9 : -uncertain, value);
 }
 
 /* Names the parameter that changes the figure most: the time step (10 % longer), the spacing (factor sqrt(2)) or the
  * horizon (one spacing longer). */
-static const char *mover(const struct figure_study *f)
+static const char *mover(const struct scalar_result_study *f)
 {
     const double step = fabs(f->step_moves), spacing = fabs(f->spacing_moves), horizon = fabs(f->horizon_moves);
     const double most = fmax(spacing, fmax(isfinite(step) ? step : 0, isfinite(horizon) ? horizon : 0));
@@ -258,7 +260,7 @@ static const char *mover(const struct figure_study *f)
 }
 
 /* Returns true if the limit of a crack length or an energy is negative although its means are positive. */
-static bool limit_is_impossible(const struct figure_study *f)
+static bool limit_is_impossible(const struct scalar_result_study *f)
 {
     const char *dot = strrchr(f->name, '.');
     const bool positive = !strncmp(f->name, "energy.", 7) || (dot && !strcmp(dot, ".length_end"));
@@ -268,7 +270,7 @@ static bool limit_is_impossible(const struct figure_study *f)
 }
 
 /* Prints the orders of convergence and the limit of a figure, unless its means do not converge. */
-static void order_print(const struct figure_study *f)
+static void order_print(const struct scalar_result_study *f)
 {
     const struct convergence *c = &f->c;
     char text[40];
@@ -283,7 +285,7 @@ static void order_print(const struct figure_study *f)
     printf(", %s%s", limit_is_impossible(f) ? "no limit, which would be negative: " : "limit ", text);
 }
 
-static void figure_print(const struct figure_study *f, int own)
+static void figure_print(const struct scalar_result_study *f, int own)
 {
     const struct convergence *c = &f->c;
     char text[40];
@@ -309,7 +311,7 @@ static void figure_print(const struct figure_study *f, int own)
     printf("; most sensitive to: %s\n", mover(f));
 }
 
-void figures_print(const struct convergence_study *s, const struct figure_study *figure, int figures)
+void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
     int lost = 0;

@@ -128,12 +128,12 @@ static double normal_half_width(double share)
     return high;
 }
 
-double convergence_half_width(const struct convergence *c, double about, double share)
+double convergence_half_width(const struct convergence *c, double centre, double probability)
 {
     struct mixture m;
-    const double scale = range_scale(c), rest = c->bias > 0 ? c->bias * normal_half_width(share) : 0;
+    const double scale = range_scale(c), rest = c->bias > 0 ? c->bias * normal_half_width(probability) : 0;
     if (!mixture_make(&m, c, scale)) return rest;
-    return hypot(scale * mixture_half_width(&m, (about - c->level[0].mean) / scale, share), rest);
+    return hypot(scale * mixture_half_width(&m, (centre - c->level[0].mean) / scale, probability), rest);
 }
 
 void convergence_intervals(struct convergence *c)

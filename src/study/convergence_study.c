@@ -67,7 +67,7 @@ static void point_add(struct convergence_study *s, struct study_point p)
     if (has_bonds(scene) && p.horizon != scene->horizon) value_put(own, &n, value, "particles.horizon", p.horizon);
     if (scene->time_step > 0)
         value_put(own, &n, value, "time.step", scene->time_step * p.step * p.spacing / scene->spacing);
-    else if (scene_moves(scene))
+    else if (scene_is_dynamic(scene))
         value_put(own, &n, value, "time.safety", scene->safety * p.step);
     if (scene->irregularity > 0) value_put(own, &n, value, "particles.seed", (double)scene->seed + p.run);
     if (scene->times.n == 0 && scene->every == 0) value_put(own, &n, value, "output.frames", 0);
@@ -119,7 +119,7 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
  * or varied time steps it is at most the number of spacings of the level, since further runs would be equal. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
-    const bool steps = scene_moves(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
+    const bool steps = scene_is_dynamic(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
     const bool differ = steps || s->scene.irregularity > 0;
     for (int level = 0; level < s->spacings.levels; level++) {
         const int wanted = level == 0 ? finest : runs, most = differ ? wanted : s->spacings.n[level];
@@ -173,14 +173,14 @@ static status first_run(struct convergence_study *s, const struct convergence_re
                           s->budget, 1e3 * s->point[s->first].spacing);
     if (run->state == CASE_FAILED)
         return status_set(FAILED, "the coarsest run has failed: the reason is in %s/logs", s->study.folder);
-    return summary_number(study_folder(&s->study, run).text, "wall_seconds", &s->spent);
+    return summary_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
 /* Warns about requested figures that the first run lacks, because their names may be wrong; cracks and tips may still
  * appear at finer spacings. */
 static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
 {
-    const struct path folder = study_folder(&s->study, &s->study.at[s->first]);
+    const struct path folder = study_case_folder(&s->study, &s->study.at[s->first]);
     double value;
     for (int k = 0; k < w->wanteds; k++)
         if (summary_number(folder.text, w->wanted[k], &value) != OK)
@@ -318,7 +318,7 @@ status convergence_study_run(struct convergence_study *s, const struct convergen
     TRY(scene_read(&s->scene, w->scene, w->override, w->overrides));
     const char *refusal = study_refusal(&s->scene, w);
     status done = refusal ? status_set(REFUSED, "%s: %s", w->scene, refusal) : OK;
-    for (int k = 0; k < w->wanteds && done == OK; k++) done = figure_name_check(&s->scene, w->wanted[k]);
+    for (int k = 0; k < w->wanteds && done == OK; k++) done = result_name_check(&s->scene, w->wanted[k]);
     if (done == OK) done = study_go(s, w);
     if (done != OK) convergence_study_free(s);
     return done;

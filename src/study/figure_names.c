@@ -11,10 +11,10 @@
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
 /* Returns true if runs of the scene have results on contact. */
-static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_meet(s); }
+static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_can_meet(s); }
 
 /* Returns true if runs of the scene have results on fragments. */
-static bool of_fragments(const struct scene *s) { return scene_moves(s) && scene_cracks(s); }
+static bool of_fragments(const struct scene *s) { return scene_is_dynamic(s) && scene_can_crack(s); }
 
 /* Figures of a group, separated by blanks; group "": of the whole run. `#` in a group stands for a number. had: returns
  * true if the scene can have the figures; NULL: always. needs: requirement on the scene, for messages. */
@@ -29,10 +29,10 @@ static const struct figure_group {
      "output_seconds memory_peak_bytes ns_per_particle_step ns_per_bond_step inactive_share",
      NULL, NULL},
     {"levels", "changes", NULL, NULL},
-    {"solver", "steps residual bonds_past_limit", scene_at_rest, "`solver: relaxation` or `cg`"},
+    {"solver", "steps residual bonds_past_limit", scene_is_single_equilibrium, "`solver: relaxation` or `cg`"},
     {"load_steps",
      "steps load_time equilibria search_directions stretch_ratio bonds_broken released crack_area release_rate",
-     scene_in_steps, "`solver: static`"},
+     scene_has_load_steps, "`solver: static`"},
     {"energy", "kinetic strain plastic fracture contact damped absorbed external_work balance_error", NULL, NULL},
     {"contact", "began ended nodes_max pairs_max friction_work overlap_max", of_contact, "bodies that meet"},
     {"rigid.#", "x y z velocity_x velocity_y velocity_z force_max patch", NULL, NULL},
@@ -40,11 +40,11 @@ static const struct figure_group {
     {"crack",
      "start_time start_step driven_start_time driven_start_step driven_bonds tip_start_time tip_start_step "
      "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean",
-     scene_cracks, "cracks or bonds that break"},
+     scene_can_crack, "cracks or bonds that break"},
     {"crack.tips.#",
      "body origin_x origin_y origin_z x y z growth angle_deg start_time start_step arrest_time "
      "arrest_step speed_max speed_mean",
-     scene_cracks, "cracks or bonds that break"},
+     scene_can_crack, "cracks or bonds that break"},
     {"conversion",
      "first_time x y z pd_share_start pd_share_end pd_share_max converted reverted reversions_most "
      "reversion_energy",
@@ -105,11 +105,11 @@ static bool leaf_is_known(const char *leaves, const char *group, const char *lea
     return known;
 }
 
-/* Copies a name with `#` in place of whole numbers between points. to: capacity `room` [byte]. */
-static void numbers_hidden(char *to, size_t room, const char *name)
+/* Copies a name with `#` in place of whole numbers between points. to: capacity `capacity` [byte]. */
+static void numbers_hidden(char *to, size_t capacity, const char *name)
 {
     size_t n = 0;
-    for (const char *c = name; *c && n + 1 < room; c++) {
+    for (const char *c = name; *c && n + 1 < capacity; c++) {
         const bool number = isdigit((unsigned char)*c) && (c == name || c[-1] == '.');
         const size_t digits = number ? strspn(c, "0123456789") : 0;
         to[n++] = digits > 0 && c[digits] == '.' ? '#' : *c;
@@ -155,8 +155,8 @@ static const char *clock_lacks(const struct scene *s, const char *leaf)
 {
     const char *end = strrchr(leaf, '_');
     const bool step = end && !strcmp(end, "_step"), time = end && !strcmp(end, "_time"), speed = strstr(leaf, "speed_");
-    if (step && !scene_in_steps(s)) return "`solver: static`";
-    return (time || speed) && scene_in_steps(s) ? "a solver in time: load steps have no speed" : NULL;
+    if (step && !scene_has_load_steps(s)) return "`solver: static`";
+    return (time || speed) && scene_has_load_steps(s) ? "a solver in time: load steps have no speed" : NULL;
 }
 
 /* Returns what the scene does not have but a figure of a known name needs, as a phrase for a message; NULL if the
@@ -173,9 +173,9 @@ static const char *figure_lacks(const struct scene *s, const char *group, const 
     return lacks || !body ? lacks : axes_lack(s, leaf);
 }
 
-status figure_name_check(const struct scene *s, const char *name)
+status result_name_check(const struct scene *s, const char *name)
 {
-    const char *now = result_present_name(name);
+    const char *now = result_current_name(name);
     if (now) fprintf(stderr, "warning: the figure %s is now called %s\n", name, now), name = now;
     char hidden[NAME_ROOM], group[NAME_ROOM];
     struct nearest n = {.to = name, .distance = 1000};

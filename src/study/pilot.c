@@ -103,7 +103,7 @@ static status search_first(struct pilot_search *p)
         /* Rings of probes and notches refuse spacings that are too coarse for them. */
         for (int finer = 0; finer <= REFUSED_MOST && done == FAILED; finer++) {
             const double share = PILOT_FIRST_SHARE * time_left(p) / (p->n - k);
-            if (finer > 0) spacing = spacing_fit(&p->wish.provisional, spacing / FINER_LEAST, true);
+            if (finer > 0) spacing = spacing_that_fits_lattice(&p->wish.provisional, spacing / FINER_LEAST, true);
             done = candidate_study(p, &p->at[k], spacing, share, !(fixed > 0));
             if (fixed > 0) break;
         }
@@ -121,7 +121,7 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
     const double left = time_left(p), wanted = c->finest / c->spacing;
     const double bearable = pow(left / (PILOT_RUNS_FIRST * c->finest_seconds), 1.0 / (p->wish.provisional.dim + 1));
     const double finer = fmin(fmax(wanted, FINER_LEAST), fmin(bearable, FINER_MOST));
-    const double next = spacing_fit(&p->wish.provisional, c->finest / finer, true);
+    const double next = spacing_that_fits_lattice(&p->wish.provisional, c->finest / finer, true);
     struct pilot_candidate again = *c;
     if (finer < FINER_LEAST) return false;
     *done = candidate_study(p, &again, next, left, false);
@@ -208,12 +208,12 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 {
     TRY(folder_make(p->folder));
     TRY(study_folder_claim(p->folder));
-    TRY(figures_check_replaceable(p->folder));
+    TRY(scalar_results_check_replaceable(p->folder));
     if (!p->options.quiet)
         fprintf(stderr,
                 "pilot          pilot runs at coarse spacings choose the method and the spacing for an error of %s "
                 "within %.3g %%; they take at most %.3g s (accuracy.budget), and their results are in %s\n",
-                pilot_figure(p), 100 * p->wish.within, p->wish.budget, printable_name(p->folder).text);
+                pilot_result_name(p), 100 * p->wish.within, p->wish.budget, printable_name(p->folder).text);
     if (!p->options.quiet && p->wish.at_rest)
         fprintf(stderr, "pilot          the solver of this scene finds one equilibrium, in which no bond breaks; a "
                         "crack that grows under "

@@ -11,9 +11,9 @@
 
 /* Returns the figure that decides if the scene requests none: the first figure of a probe that is larger than its
  * uncertainty, else the start time of cracks, else the largest energy; NULL if there is none. */
-static const struct figure_study *figure_usual(const struct figure_study *figure, int figures)
+static const struct scalar_result_study *figure_usual(const struct scalar_result_study *figure, int figures)
 {
-    const struct figure_study *start = NULL, *energy = NULL;
+    const struct scalar_result_study *start = NULL, *energy = NULL;
     for (int f = 0; f < figures; f++) {
         const struct convergence *c = &figure[f].c;
         const double size = fabs(c->level[0].mean);
@@ -39,7 +39,7 @@ static int level_run(const struct convergence_study *s, int level)
 
 static double pilot_run_figure(const struct convergence_study *s, const char *name, int run)
 {
-    const int figure = study_find_figure(&s->table, name);
+    const int figure = study_find_result(&s->table, name);
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
@@ -47,7 +47,7 @@ static double pilot_run_figure(const struct convergence_study *s, const char *na
  * is none, extrapolates the required spacing from the finest level, with the smallest order of convergence that the
  * means allow. */
 static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s,
-                         const struct figure_study *f)
+                         const struct scalar_result_study *f)
 {
     const double size = fabs(f->c.extrapolated);
     for (int level = f->c.levels - 1; level >= 0; level--) {
@@ -73,7 +73,7 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     if (!(within > 0)) return;
     const double likely = isfinite(f->c.order_likely) ? f->c.order_likely - f->c.order_error : 0.5;
     const double finer = pow(sqrt(square(c->reached) - square(bias)) / within, 1 / fmax(likely, 0.5));
-    c->spacing = spacing_fit(&p->wish.provisional, c->finest / finer, false);
+    c->spacing = spacing_that_fits_lattice(&p->wish.provisional, c->finest / finer, false);
     const double loop = pilot_run_figure(s, "loop_seconds", level_run(s, 0)); /* the rest of wall_seconds is mostly the
                                                                                * start of the process */
     const double growth = pow(c->finest / c->spacing, s->scene.dim + 1);
@@ -83,11 +83,11 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
 
 status pilot_judge(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s)
 {
-    struct figure_study *figure = NULL;
+    struct scalar_result_study *figure = NULL;
     int figures = 0;
     const char *wanted = p->wish.figure[0] ? p->wish.figure : p->figure;
-    TRY(figures_find(s, &wanted, *wanted ? 1 : 0, &figure, &figures));
-    const struct figure_study *f = *wanted ? figure : figure_usual(figure, figures);
+    TRY(scalar_results_find(s, &wanted, *wanted ? 1 : 0, &figure, &figures));
+    const struct scalar_result_study *f = *wanted ? figure : figure_usual(figure, figures);
     status done = OK;
     if (f && !(fabs(f->c.extrapolated) > 1e-9 * f->c.uncertainty[0]))
         done = status_set(REFUSED, "accuracy.of: %s is zero, so that no relative error is defined; name another figure",
@@ -100,7 +100,7 @@ status pilot_judge(struct pilot_search *p, struct pilot_candidate *c, const stru
         snprintf(p->figure, sizeof p->figure, "%s", f->name);
         spacing_find(p, c, s, f);
     }
-    if (done == OK) done = figures_write(s, f, 1);
+    if (done == OK) done = scalar_results_write(s, f, 1);
     memory_free(figure);
     return done;
 }

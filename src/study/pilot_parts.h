@@ -49,7 +49,7 @@ status pilot_plan(struct pilot_search *p);
 
 /* Returns the name of the figure (scalar result) whose accuracy the scene requests; if it names none, a description of
  * the default figure. The text belongs to *p or is static. */
-const char *pilot_figure(const struct pilot_search *p);
+const char *pilot_result_name(const struct pilot_search *p);
 
 /* Allocates to->override and fills it with the overrides override[overrides] of the user, followed by n chosen keys
  * and values from to->key and to->value (pilot_keep.c). An earlier array is freed. */

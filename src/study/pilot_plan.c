@@ -13,11 +13,14 @@ static bool bonds_fit(const struct scene *s)
 {
     bool fit = true;
     for (int m = 0; m < s->materials; m++)
-        fit &= s->dim == 1 || fabs(s->material[m].poisson - material_bond_poisson(s->space)) < 1e-6;
+        fit &= s->dim == 1 || fabs(s->material[m].poisson - bond_based_poisson_ratio(s->space)) < 1e-6;
     return fit;
 }
 
-static bool needs_bonds(const struct scene *s) { return scene_cracks(s) || s->has_pd_region || scene_watches_bonds(s); }
+static bool needs_bonds(const struct scene *s)
+{
+    return scene_can_crack(s) || s->has_pd_region || scene_probes_broken_bonds(s);
+}
 
 static void candidate_add(struct pilot_search *p, const char *name, const char *method, const char *model)
 {
@@ -86,7 +89,7 @@ status pilot_plan(struct pilot_search *p)
                           "%s: method: auto judges results, and nothing moves or loads the bodies: no boundary with a "
                           "value, gravity, initial or velocity is given",
                           p->scene);
-    if (p->wish.figure[0]) TRY(figure_name_check(s, p->wish.figure));
+    if (p->wish.figure[0]) TRY(result_name_check(s, p->wish.figure));
     candidates_find(p);
     return p->n > 0 ? OK
                     : status_set(REFUSED,
@@ -95,7 +98,7 @@ status pilot_plan(struct pilot_search *p)
                                  p->scene);
 }
 
-const char *pilot_figure(const struct pilot_search *p)
+const char *pilot_result_name(const struct pilot_search *p)
 {
     if (p->wish.figure[0]) return p->wish.figure;
     if (p->wish.provisional.probes > 0) return "the first figure of its probes that is not zero";
@@ -112,7 +115,7 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
     fprintf(out, "%s can be read\n", printable_name(scene).text);
     fprintf(out, "auto           cleave run chooses method and spacing by pilot runs; check can read the scene.yaml "
                  "that the run writes\n");
-    fprintf(out, "auto           pilot runs estimate the error of %s; %.3g %% is allowed\n", pilot_figure(&p),
+    fprintf(out, "auto           pilot runs estimate the error of %s; %.3g %% is allowed\n", pilot_result_name(&p),
             100 * w->within);
     fprintf(out, "auto           pilot runs vary the method (");
     for (int k = 0; k < p.n; k++) fprintf(out, "%s%s", k > 0 ? ", " : "", p.at[k].name);

@@ -15,18 +15,18 @@
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Writes the path of the default folder of a study, results/NAME_KIND. to: capacity `room` [byte]. */
-void study_folder_default(char *to, size_t room, const struct scene *scene, const char *kind)
+/* Writes the path of the default folder of a study, results/NAME_KIND. to: capacity `capacity` [byte]. */
+void study_folder_default(char *to, size_t capacity, const struct scene *scene, const char *kind)
 {
-    snprintf(to, room, "results/%s_%s", scene->name, kind);
+    snprintf(to, capacity, "results/%s_%s", scene->name, kind);
 }
 
-/* Determines the folder results/NAME_KIND from the file of a scene. to: capacity `room` [byte]. */
-static status place_read(char *to, size_t room, const char *path, const char *kind)
+/* Determines the folder results/NAME_KIND from the file of a scene. to: capacity `capacity` [byte]. */
+static status place_read(char *to, size_t capacity, const char *path, const char *kind)
 {
     struct scene scene;
     TRY(scene_read(&scene, path, NULL, 0));
-    study_folder_default(to, room, &scene, kind);
+    study_folder_default(to, capacity, &scene, kind);
     scene_free(&scene);
     return OK;
 }
@@ -63,8 +63,8 @@ static status scene_unread(char **text, const char *path, const struct scene_ove
     return OK;
 }
 
-status study_make_of(struct study *s, const char *scene, const char *folder, const char *kind,
-                     const struct varied_key *key, int keys)
+status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *kind,
+                            const struct varied_key *key, int keys)
 {
     struct scene_override *first = NEW("study.first", keys, struct scene_override);
     struct scene_override *fixed = NEW("study.fixed", keys, struct scene_override);
@@ -127,7 +127,7 @@ static bool is_scene_of_study(const char *path, const char *scene_text)
 bool study_has_scene(const char *folder, const char *text)
 {
     char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
-    const bool same = own && scene_text_same(own, text);
+    const bool same = own && scene_texts_are_equal(own, text);
     memory_free(own);
     return same;
 }
@@ -174,7 +174,7 @@ status study_folder_claim(const char *folder)
 status study_folder_check_scene(const char *folder, const char *text)
 {
     char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
-    const bool fits = !own || !*own || scene_text_same(own, text);
+    const bool fits = !own || !*own || scene_texts_are_equal(own, text);
     memory_free(own);
     if (fits) return study_folder_check(folder);
     return status_set(REFUSED,
@@ -201,14 +201,14 @@ void study_free(struct study *s)
     *s = (struct study){.lock.fd = -1};
 }
 
-const struct study_case *study_representative(const struct study *s, const struct study_case *c)
+const struct study_case *study_case_with_results(const struct study *s, const struct study_case *c)
 {
     return c->state == CASE_SAME ? &s->at[c->same] : c;
 }
 
-struct path study_folder(const struct study *s, const struct study_case *c)
+struct path study_case_folder(const struct study *s, const struct study_case *c)
 {
-    return path_join(s->folder, study_representative(s, c)->name);
+    return path_join(s->folder, study_case_with_results(s, c)->name);
 }
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */
@@ -226,7 +226,7 @@ static struct scene_override override_copy(struct scene_override o)
 struct study_case *study_add(struct study *s, const char *name, const struct scene_override *override, int overrides)
 {
     GROW("study.cases", s->at, s->n + 1);
-    study_names_grow(s);
+    study_grow_name_table(s);
     struct study_case *c = &s->at[s->n];
     study_name_choose(s, c->name, name, override, overrides);
     c->override = NEW("study.overrides", overrides, struct scene_override);
@@ -243,7 +243,7 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
     if (all > CASES_MOST)
         return status_set(REFUSED, "%.0f runs: more than %d; fewer values of a key are expected", all, CASES_MOST);
     int *at = NEW("study.at", keys, int), *order = NEW("study.order", keys, int);
-    const int varied = study_names_order(order, key, keys);
+    const int varied = study_order_name_keys(order, key, keys);
     struct scene_override *override = NEW("study.override", keys, struct scene_override);
     for (int left = (int)all; left > 0; left--) {
         char name[CASE_NAME_ROOM];
@@ -260,12 +260,13 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 
 /* ---- finished runs ----------------------------------------------------------------------------------------------- */
 
-/* Reads how the run in a folder ended, such as "done" or "failed", from its summary into ended[room]. Stores "" if
+/* Reads how the run in a folder ended, such as "done" or "failed", from its summary into ended[capacity]. Stores "" if
  * there is no finished run or it has another scene. */
-static void ended_as(char *ended, size_t room, const char *folder, const char *scene_text)
+static void ended_as(char *ended, size_t capacity, const char *folder, const char *scene_text)
 {
-    if (!path_is_file(path_join(folder, "summary.json").text) || summary_string(folder, "status", ended, room) != OK ||
-        !scene_file_same(path_join(folder, "scene.yaml").text, scene_text))
+    if (!path_is_file(path_join(folder, "summary.json").text) ||
+        summary_string(folder, "status", ended, capacity) != OK ||
+        !scene_file_has_text(path_join(folder, "scene.yaml").text, scene_text))
         ended[0] = '\0';
 }
 
@@ -280,7 +281,7 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
 {
     struct scene scene;
     TRY(scene_read(&scene, s->scene, other->override, other->overrides));
-    *same = scene_text_same(scene.text, text);
+    *same = scene_texts_are_equal(scene.text, text);
     scene_free(&scene);
     return OK;
 }
@@ -317,7 +318,7 @@ static status case_check(struct study *s, int number, bool collect, struct scene
     TRY(scene_read(&scene, s->scene, c->override, c->overrides));
     const status looked = scene_seen(seen, s, number, scene.text);
     if (looked == OK && c->state != CASE_SAME && c->state != CASE_DONE) {
-        ended_as(ended, sizeof ended, study_folder(s, c).text, scene.text);
+        ended_as(ended, sizeof ended, study_case_folder(s, c).text, scene.text);
         if (strcmp(ended, "done") == 0)
             c->state = CASE_DONE_BEFORE;
         else if (collect && strcmp(ended, "failed") == 0)

@@ -72,13 +72,13 @@ static void panels_choose(struct study_picture *p)
     static const char *const first[] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
                                         "crack.tip_speed_mean"};
     const struct study_table *t = p->table;
-    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(p, study_find_figure(t, first[k]));
+    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(p, study_find_result(t, first[k]));
     if (p->panels == PANELS_MOST) return;
     for (int f = 0; f < t->figures && p->panels < PANELS_MOST - 1; f++)
         if (strncmp(t->figure[f], "probes.", 7) == 0) panel_add(p, f);
     for (int f = 0; f < t->figures && p->panels < PANELS_MOST - 1; f++)
-        if (strncmp(t->figure[f], "energy.", 7) == 0 && !study_figure_is_technical(t->figure[f])) panel_add(p, f);
-    panel_add(p, study_find_figure(t, "loop_seconds"));
+        if (strncmp(t->figure[f], "energy.", 7) == 0 && !study_result_is_technical(t->figure[f])) panel_add(p, f);
+    panel_add(p, study_find_result(t, "loop_seconds"));
 }
 
 /* Returns true if all values of the key are numbers with the same unit. */
@@ -86,7 +86,7 @@ static bool key_is_number(const struct varied_key *key, const char **unit)
 {
     for (int v = 0; v < key->values; v++) {
         const char *own;
-        if (isnan(value_number(key->value[v], &own)) || (v > 0 && strcmp(own, *unit) != 0)) return false;
+        if (isnan(value_read_number(key->value[v], &own)) || (v > 0 && strcmp(own, *unit) != 0)) return false;
         *unit = own;
     }
     return true;
@@ -180,8 +180,8 @@ static struct point_of *means_find(const struct study_picture *p, int figure)
 
 /* ---- text around the panels -------------------------------------------------------------------------------------- */
 
-/* Composes the title of a line from the values of its keys: `60GPa, 1mm`. text: capacity `room` [byte]. */
-static void line_title(char *text, size_t room, const struct study_picture *p, int line)
+/* Composes the title of a line from the values of its keys: `60GPa, 1mm`. text: capacity `capacity` [byte]. */
+static void line_title(char *text, size_t capacity, const struct study_picture *p, int line)
 {
     size_t used = 0;
     int rest = p->lines;
@@ -190,23 +190,24 @@ static void line_title(char *text, size_t room, const struct study_picture *p, i
         char value[LABEL_ROOM];
         if (p->role[k] != ROLE_LINES) continue;
         rest /= p->key[k].values;
-        study_value_shown(value, &p->key[k], line / rest % p->key[k].values);
-        if (used < room) used += (size_t)snprintf(text + used, room - used, "%s%s", used > 0 ? ", " : "", value);
+        study_value_label(value, &p->key[k], line / rest % p->key[k].values);
+        if (used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, "%s%s", used > 0 ? ", " : "", value);
     }
 }
 
-/* Lists the keys with a role: `material.young, load`. text: capacity `room` [byte]. with_value: append the held
+/* Lists the keys with a role: `material.young, load`. text: capacity `capacity` [byte]. with_value: append the held
  * value. */
-static void keys_text(char *text, size_t room, const struct study_picture *p, enum key_role role, bool with_value)
+static void keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value)
 {
     size_t used = 0;
     *text = '\0';
     for (int k = 0; k < p->keys; k++) {
         char value[LABEL_ROOM];
         if (p->role[k] != role) continue;
-        study_value_shown(value, &p->key[k], 0);
-        if (used < room)
-            used += (size_t)snprintf(text + used, room - used, "%s%s%s%s", used > 0 ? ", " : "", p->key[k].key,
+        study_value_label(value, &p->key[k], 0);
+        if (used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, "%s%s%s%s", used > 0 ? ", " : "", p->key[k].key,
                                      with_value ? " = " : "", with_value ? value : "");
     }
 }
@@ -239,7 +240,7 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
     fprintf(to, "set %stics %s (", axis, rotated ? "rotate by 40 right" : "norotate");
     for (int v = 0; v < key->values; v += each) {
         char text[LABEL_ROOM];
-        study_value_shown(text, key, v);
+        study_value_label(text, key, v);
         if (v > 0) putc(',', to);
         gnuplot_quote(to, text);
         fprintf(to, " %d", v);
@@ -252,7 +253,7 @@ static int tics_shown(const struct varied_key *key) { return key->values < TICS_
 /* Returns true if the values of a key, written along an axis, would overlap. */
 static bool words_touch(const struct varied_key *key)
 {
-    return tics_shown(key) * (study_values_longest(key) + 2) * CHARACTER > WIDE;
+    return tics_shown(key) * (study_longest_label(key) + 2) * CHARACTER > WIDE;
 }
 
 /* ---- layout ------------------------------------------------------------------------------------------------------ */
@@ -267,9 +268,9 @@ static void room_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
     const struct varied_key *across = &p->key[p->across];
-    const int along = study_values_longest(across) * CHARACTER;
+    const int along = study_longest_label(across) * CHARACTER;
     const bool words = up || !p->numbers;
-    p->left = up ? (study_values_longest(up) + 7) * CHARACTER : NUMBERS;
+    p->left = up ? (study_longest_label(up) + 7) * CHARACTER : NUMBERS;
     p->right = up ? COLOURS : words ? 2 * CHARACTER + along / 2 : 3 * CHARACTER;
     p->below = BELOW;
     if (words && words_touch(across)) {
@@ -320,7 +321,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
             (double)(x + WIDE) / p->width);
     fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
             (double)(y - HIGH) / p->height);
-    study_figure_unit(unit, sizeof unit, p->header, figure);
+    study_result_unit(unit, sizeof unit, p->header, figure);
     snprintf(text, sizeof text, *unit ? "%s [%s]" : "%s%s", figure, unit);
     fputs("set title ", to);
     gnuplot_quote(to, text);
@@ -342,7 +343,7 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
         fprintf(to, "$p%d_%d << EOD\n", panel, l);
         for (int v = 0; v < across->values; v++) {
             const struct point_of *at = &point[l * across->values + v];
-            const double x = p->numbers ? value_number(across->value[v], &unit) : v;
+            const double x = p->numbers ? value_read_number(across->value[v], &unit) : v;
             if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean, at->scatter);
         }
         fputs("NaN NaN NaN\nEOD\n", to); /* gnuplot refuses a block without points */
@@ -377,11 +378,11 @@ static void send_number_tics(FILE *to, const struct varied_key *key)
     double low = INFINITY, high = -INFINITY;
     const char *unit;
     for (int v = 0; v < key->values; v++) {
-        low = fmin(low, value_number(key->value[v], &unit));
-        high = fmax(high, value_number(key->value[v], &unit));
+        low = fmin(low, value_read_number(key->value[v], &unit));
+        high = fmax(high, value_read_number(key->value[v], &unit));
     }
     if (high > low)
-        fprintf(to, "set xtics norotate %.10g\n", study_tics_apart(high - low, STEPS_MOST));
+        fprintf(to, "set xtics norotate %.10g\n", axis_tick_distance(high - low, STEPS_MOST));
     else
         fputs("set xtics norotate autofreq\n", to);
 }

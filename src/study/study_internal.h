@@ -12,7 +12,7 @@
 uint64_t study_hash(uint64_t hash, const char *text);
 
 /* Enlarges the hash table of the names of runs if it has no room for one more name. */
-void study_names_grow(struct study *s);
+void study_grow_name_table(struct study *s);
 
 /* Chooses a name that no run of s has and writes it to name[CASE_NAME_ROOM]: the text `wanted`, restricted to
  * characters that every file system accepts, or if it is too long, reserved or taken, case-HASH with a hash of the
@@ -24,7 +24,7 @@ void study_name_register(struct study *s, int number);
 
 /* Stores the indices of those of the keys key[keys] that have several values in order[], sorted as the keys appear in
  * names of runs; order[] has room for `keys` entries. Returns their number. */
-int study_names_order(int *order, const struct varied_key *key, int keys);
+int study_order_name_keys(int *order, const struct varied_key *key, int keys);
 
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
  * name[CASE_NAME_ROOM]. key[keys]: all keys of the study; order[n]: indices of those in the name, in order of
@@ -38,10 +38,10 @@ enum { LABEL_ROOM = 40 };
 
 /* Writes the label of the value with index `value` of a key to text[LABEL_ROOM]. If the values are long, the beginning
  * and end that all of them share are left out. */
-void study_value_shown(char *text, const struct varied_key *key, int value);
+void study_value_label(char *text, const struct varied_key *key, int value);
 
 /* Returns the number of characters of the longest label of the values of a key. */
-int study_values_longest(const struct varied_key *key);
+int study_longest_label(const struct varied_key *key);
 
 /* Capacity of the name of a picture [byte]. */
 enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
@@ -50,7 +50,7 @@ enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
 void study_picture_name(char *name, const char *key);
 
 /* Returns a round distance between tics (1, 2 or 5 times a power of ten) that divides an axis of length `range` > 0
- * into at most `most` intervals. */
-double study_tics_apart(double range, int most);
+ * into at most `max_intervals` intervals. */
+double axis_tick_distance(double range, int max_intervals);
 
 #endif

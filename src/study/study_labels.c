@@ -39,7 +39,7 @@ static void common_keep(size_t *begin, size_t *end, size_t longest)
     *end -= *end < spare - before ? *end : spare - before;
 }
 
-void study_value_shown(char *text, const struct varied_key *key, int v)
+void study_value_label(char *text, const struct varied_key *key, int v)
 {
     size_t longest = 0, begin, end;
     for (int k = 0; k < key->values; k++) longest = strlen(key->value[k]) > longest ? strlen(key->value[k]) : longest;
@@ -59,23 +59,23 @@ void study_value_shown(char *text, const struct varied_key *key, int v)
         snprintf(text, LABEL_ROOM, "%d: %.*s..", v + 1, CUT_SHOWN, key->value[v] + begin);
 }
 
-int study_values_longest(const struct varied_key *key)
+int study_longest_label(const struct varied_key *key)
 {
     int longest = 0;
     for (int v = 0; v < key->values; v++) {
         char text[LABEL_ROOM];
-        study_value_shown(text, key, v);
+        study_value_label(text, key, v);
         longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
     }
     return longest;
 }
 
-double study_tics_apart(double range, int most)
+double axis_tick_distance(double range, int max_intervals)
 {
     static const double lead[] = {1, 2, 5, 10};
-    const double decade = pow(10, floor(log10(range / most)));
+    const double decade = pow(10, floor(log10(range / max_intervals)));
     size_t k = 0;
-    while (k + 1 < COUNT_OF(lead) && range / (lead[k] * decade) > most) k++;
+    while (k + 1 < COUNT_OF(lead) && range / (lead[k] * decade) > max_intervals) k++;
     return lead[k] * decade;
 }
 

@@ -39,7 +39,7 @@ static bool name_taken(const struct study *s, const char *name) { return s->slot
 
 void study_name_register(struct study *s, int number) { s->slot[name_slot(s, s->at[number].name)] = number + 1; }
 
-void study_names_grow(struct study *s)
+void study_grow_name_table(struct study *s)
 {
     if (2 * (s->n + 1) <= s->slots) return;
     memory_free(s->slot);
@@ -102,7 +102,7 @@ static int label_order(const void *a, const void *b)
     return order != 0 ? order : strcmp(x->key, y->key);
 }
 
-int study_names_order(int *order, const struct varied_key *key, int keys)
+int study_order_name_keys(int *order, const struct varied_key *key, int keys)
 {
     struct labelled *l = NEW("study.labels", keys, struct labelled);
     int n = 0;

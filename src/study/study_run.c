@@ -134,7 +134,7 @@ static const char log_mark[] = "# log by cleave of a run of a study\n";
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
-    const struct path folder = study_folder(s, c), log = log_path(s, c);
+    const struct path folder = study_case_folder(s, c), log = log_path(s, c);
     if (path_is_link(folder.text))
         return status_set(REFUSED, "%s is a symbolic link, and results would be written elsewhere; choose another -o",
                           folder.text);
@@ -165,13 +165,13 @@ static _Noreturn void become_run(char **word, int log)
 static status case_start(struct runner *r, struct study_case *c, int slot)
 {
     char threads[16], *pairs;
-    struct path folder = study_folder(r->study, c), log = log_path(r->study, c);
+    struct path folder = study_case_folder(r->study, c), log = log_path(r->study, c);
     const bool there = path_exists(path_join(folder.text, "scene.yaml").text);
     snprintf(threads, sizeof threads, "%d", r->how.threads);
     TRY(case_guard(r->study, c));
     unlink(log.text); /* a link of this name is not followed */
     const int fd = open(log.text, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (fd < 0) return file_fault(log.text, errno);
+    if (fd < 0) return file_report_write_failure(log.text, errno);
     if (write(fd, log_mark, sizeof log_mark - 1) < 0) errno = 0; /* the study continues without its logs */
     char **word = command_words(r->study->scene, c, threads, folder.text,
                                 r->how.overwrite ? "--overwrite"
@@ -195,16 +195,16 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     return OK;
 }
 
-/* Reads the last line that a run has printed. line: capacity `room` [byte]. */
-static void last_line(const char *path, char *line, size_t room)
+/* Reads the last line that a run has printed. line: capacity `capacity` [byte]. */
+static void last_line(const char *path, char *line, size_t capacity)
 {
     char *text;
     size_t length;
-    snprintf(line, room, "it gave no reason");
+    snprintf(line, capacity, "it gave no reason");
     if (file_read_whole(path, &text, &length) != OK) return;
     while (length > 0 && text[length - 1] == '\n') text[--length] = '\0';
     const char *last = strrchr(text, '\n');
-    if (last) snprintf(line, room, "%s", last + 1);
+    if (last) snprintf(line, capacity, "%s", last + 1);
     text_replace_controls(line);
     memory_free(text);
 }

@@ -38,7 +38,7 @@ static void number_take(void *context, const char *key, double value)
 {
     struct filled *f = context;
     int at = f->next < f->table->figures && !strcmp(f->table->figure[f->next], key) ? f->next
-                                                                                    : study_find_figure(f->table, key);
+                                                                                    : study_find_result(f->table, key);
     if (at < 0) at = figure_add(f->table, key);
     f->table->value[at][f->row] = value;
     f->next = at + 1;
@@ -48,7 +48,7 @@ status study_table_read(struct study_table *t, const struct study *s)
 {
     *t = (struct study_table){.cases = s->n};
     for (int k = 0; k < s->n; k++) {
-        const struct path folder = study_folder(s, &s->at[k]);
+        const struct path folder = study_case_folder(s, &s->at[k]);
         struct filled f = {.table = t, .row = k};
         /* A stopped run also has a summary, but with figures of a part of the scene. */
         if (s->at[k].state != CASE_DONE && s->at[k].state != CASE_DONE_BEFORE) continue;
@@ -72,15 +72,15 @@ void study_table_free(struct study_table *t)
     *t = (struct study_table){0};
 }
 
-int study_find_figure(const struct study_table *t, const char *name)
+int study_find_result(const struct study_table *t, const char *name)
 {
     for (int f = 0; f < t->figures; f++)
         if (strcmp(t->figure[f], name) == 0) return f;
-    const char *now = result_present_name(name);
-    return now ? study_find_figure(t, now) : -1;
+    const char *now = result_current_name(name);
+    return now ? study_find_result(t, now) : -1;
 }
 
-bool study_figure_is_technical(const char *name)
+bool study_result_is_technical(const char *name)
 {
     static const char *const begin[] = {"steps",          "time_step",      "time_end",
                                         "particles",      "bonds_",         "levels.",
@@ -112,12 +112,12 @@ static void cell_print(FILE *to, const char *text)
     putc('"', to);
 }
 
-static const char *state_of(const struct study *s, const struct study_case *c, char *text, size_t room)
+static const char *state_of(const struct study *s, const struct study_case *c, char *text, size_t capacity)
 {
-    const struct path folder = study_folder(s, c);
+    const struct path folder = study_case_folder(s, c);
     if (!path_is_file(path_join(folder.text, "summary.json").text))
-        return study_representative(s, c)->state == CASE_FAILED ? "failed" : "missing";
-    return summary_string(folder.text, "status", text, room) == OK ? text : "unknown";
+        return study_case_with_results(s, c)->state == CASE_FAILED ? "failed" : "missing";
+    return summary_string(folder.text, "status", text, capacity) == OK ? text : "unknown";
 }
 
 static void table_print(FILE *to, const struct study_table *t, const struct study *s, const struct varied_key *key,
@@ -130,7 +130,7 @@ static void table_print(FILE *to, const struct study_table *t, const struct stud
     putc('\n', to);
     for (int c = 0; c < s->n; c++) {
         char state[NAME_MAX_LENGTH];
-        cell_print(to, study_representative(s, &s->at[c])->name);
+        cell_print(to, study_case_with_results(s, &s->at[c])->name);
         putc(',', to);
         cell_print(to, state_of(s, &s->at[c], state, sizeof state));
         for (int k = 0; k < keys; k++)

@@ -25,7 +25,7 @@ static bool name_fits(const char *name, const char *begin, const char *end)
 }
 
 /* Finds the unit of a column in the header of a history. Returns false if there is no such column. */
-static bool unit_in_header(char *unit, size_t room, const char *header, const char *column)
+static bool unit_in_header(char *unit, size_t capacity, const char *header, const char *column)
 {
     const size_t length = strlen(column);
     for (const char *cell = header; cell; cell = strchr(cell, ',')) {
@@ -37,36 +37,36 @@ static bool unit_in_header(char *unit, size_t room, const char *header, const ch
             return true;
         }
         if (strncmp(cell + length, " [", 2) != 0) continue;
-        snprintf(unit, room, "%.*s", (int)(own - length - 3), cell + length + 2);
+        snprintf(unit, capacity, "%.*s", (int)(own - length - 3), cell + length + 2);
         return true;
     }
     return false;
 }
 
-void study_read_history_header(char *header, size_t room, const struct study *s)
+void study_read_history_header(char *header, size_t capacity, const struct study *s)
 {
     *header = '\0';
     for (int k = 0; k < s->n && !*header; k++) {
-        const struct path history = path_join(study_folder(s, &s->at[k]).text, "history.csv");
+        const struct path history = path_join(study_case_folder(s, &s->at[k]).text, "history.csv");
         FILE *from = path_is_file(history.text) ? fopen(history.text, "r") : NULL;
         if (!from) continue;
-        if (!fgets(header, (int)room, from)) *header = '\0';
+        if (!fgets(header, (int)capacity, from)) *header = '\0';
         fclose(from);
     }
 }
 
-void study_figure_unit(char *unit, size_t room, const char *header, const char *figure)
+void study_result_unit(char *unit, size_t capacity, const char *header, const char *figure)
 {
     const char *dot = strrchr(figure, '.'), *own = dot ? dot + 1 : figure;
     const bool probe = !strncmp(figure, "probes.", 7), energy = !strncmp(figure, "energy.", 7);
     *unit = '\0';
-    if ((probe || energy) && unit_in_header(unit, room, header, figure + 7)) return;
-    if (!probe && unit_in_header(unit, room, header, figure)) return;
+    if ((probe || energy) && unit_in_header(unit, capacity, header, figure + 7)) return;
+    if (!probe && unit_in_header(unit, capacity, header, figure)) return;
     const bool place = (*own == 'x' || *own == 'y' || *own == 'z') && !own[1];
-    if (place) snprintf(unit, room, "m");
+    if (place) snprintf(unit, capacity, "m");
     for (size_t k = 0; k < COUNT_OF(unit_of_name) && !place; k++)
         if (name_fits(own, unit_of_name[k].begin, unit_of_name[k].end)) {
-            snprintf(unit, room, "%s", unit_of_name[k].unit);
+            snprintf(unit, capacity, "%s", unit_of_name[k].unit);
             return;
         }
 }

@@ -10,7 +10,7 @@
 
 enum { VALUES_MOST = 10000, VALUE_LONGEST = 1000 };
 
-double value_number(const char *value, const char **unit)
+double value_read_number(const char *value, const char **unit)
 {
     char *end;
     const double number = strtod(value, &end);
@@ -92,7 +92,7 @@ static bool row_read(struct row *r, const struct varied_key *k, const char *text
         const char *end = value_end(at, ':'), *unit;
         if ((*end == '\0') != (part == 2)) return false;
         char *piece = trimmed(at, end);
-        r->number[part] = value_number(piece, &unit);
+        r->number[part] = value_read_number(piece, &unit);
         const bool fits = !isnan(r->number[part]) && strlen(unit) < sizeof r->unit;
         const bool other = fits && *unit && *r->unit && strcmp(unit, r->unit) != 0;
         if (fits && *unit && !other) strcpy(r->unit, unit);

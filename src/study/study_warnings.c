@@ -49,7 +49,7 @@ void study_print_warnings(const struct study *s, FILE *out)
     struct warning_kind *kind = NEW("study.warnings", KINDS_MOST, struct warning_kind);
     int kinds = 0, runs = 0;
     for (int k = 0; k < s->n; k++) {
-        const struct path folder = study_folder(s, &s->at[k]);
+        const struct path folder = study_case_folder(s, &s->at[k]);
         char key[32] = "warnings.0", text[WARNING_ROOM];
         if (s->at[k].state == CASE_SAME || !path_is_file(path_join(folder.text, "summary.json").text)) continue;
         runs++;

@@ -87,7 +87,7 @@ static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *l
     return true;
 }
 
-int error_bars_read(struct error_bar *bar, int most, const struct scene *s, const char *folder)
+int error_bars_read(struct error_bar *bar, int capacity, const struct scene *s, const char *folder)
 {
     struct path study = study_beside(folder, s->name);
     struct bar_columns columns;
@@ -101,7 +101,8 @@ int error_bars_read(struct error_bar *bar, int most, const struct scene *s, cons
     if (file_read_whole(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
     char *line = strtok_r(text, "\n", &rest);
     if (line) columns_find(&columns, line);
-    while (line && n < most && (line = strtok_r(NULL, "\n", &rest))) n += bar_read(&bar[n], &columns, line, s->spacing);
+    while (line && n < capacity && (line = strtok_r(NULL, "\n", &rest)))
+        n += bar_read(&bar[n], &columns, line, s->spacing);
     memory_free(text);
     return n;
 }

@@ -42,7 +42,7 @@ static struct band band_of(const char *spacing, const char *method)
     struct run e = {0};
     if (scene_read(&s, SCENE, override, COUNT_OF(override)) != OK) fail_msg("%s", status_message());
     if (engine_make(&e, &s, NULL) != OK || engine_run(&e) != OK) fail_msg("%s", status_message());
-    const struct tip *tip = tips_longest(&e.fracture->tips);
+    const struct crack_tip *tip = tips_longest(&e.fracture->tips);
     assert_non_null(tip);
     struct band b = {band_width(&e, tip->growth), tip->growth, e.diagnostics->now.energy.fracture};
     engine_free(&e);

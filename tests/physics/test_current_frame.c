@@ -85,7 +85,7 @@ static void at_rest(struct held_run *r, const struct places *was)
         for (int64_t i = 0; i < p->n; i++) p->x[d][i] = was->x[d][i], p->v[d][i] = 0;
     for (int d = 0; d < p->dim && p->stretch[d]; d++)
         for (int64_t i = 0; i < p->n; i++) p->stretch[d][i] = 1;
-    for (int c = 0; c < symmetric_count(p->dim); c++)
+    for (int c = 0; c < symmetric_component_count(p->dim); c++)
         for (int64_t i = 0; i < p->n; i++) p->stress[c][i] = 0;
     r->e.grid->sort_needed = true;
 }

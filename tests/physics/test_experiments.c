@@ -84,7 +84,7 @@ static void test_branching(void **state)
     (void)state;
     enum { COLUMNS = 400, ROWS = 160 };
     const double spacing = 0.25e-3;
-    struct frame f = {.n = (int64_t)COLUMNS * ROWS, .dim = 2};
+    struct output_frame f = {.n = (int64_t)COLUMNS * ROWS, .dim = 2};
     for (int d = 0; d < 2; d++) f.X[d] = calloc((size_t)f.n, sizeof(float));
     f.damage = calloc((size_t)f.n, sizeof(float));
     for (int64_t i = 0; i < f.n; i++) {

@@ -108,7 +108,7 @@ static real across_of(const struct material *m)
     return m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)) * TRACE;
 }
 
-static bool inside(const struct frame *f, int64_t i)
+static bool inside(const struct output_frame *f, int64_t i)
 {
     const double centre = f->body[i] == 0 ? -0.05 : 0.05;
     return fabs(f->X[0][i] - centre) < INSIDE && fabs(f->X[1][i]) < INSIDE;
@@ -118,7 +118,7 @@ static bool inside(const struct frame *f, int64_t i)
  * stress of the frame. */
 static void frame_holds(const struct ran *r, const char *name, bool exact, int64_t *kinds)
 {
-    struct frame f;
+    struct output_frame f;
     assert_ok(frame_read(&f, name));
     for (int64_t i = 0; i < f.n; i++) {
         const struct material *m = &r->s.material[f.material[i]];
@@ -160,7 +160,7 @@ static void plane_stress_has_none(void **state)
 {
     (void)state;
     struct ran r;
-    struct frame f;
+    struct output_frame f;
     run(&r, BLOCKS("plane stress"), NULL);
     assert_ok(frame_read(&f, FOLDER "/frames/000001.hdf"));
     for (int64_t i = 0; i < f.n; i++) assert_true(f.stress[3][i] == 0);
@@ -185,7 +185,7 @@ static void plane_stress_has_none(void **state)
 static void flow(void **state)
 {
     struct ran r;
-    struct frame f;
+    struct output_frame f;
     run(&r, FLOWS, (struct scene_override[]){{"method", *state}, {0}});
     const real G = 9e4, K = 200e9 / 1.5, yield = 400e6;
     const real wanted = K * log1p(G * 0.2e-6) - yield / 3;
@@ -210,7 +210,7 @@ static char folder[] = "/tmp/cleave_plane_strain_XXXXXX";
 static int enter(void **state)
 {
     (void)state;
-    output_start();
+    output_configure_hdf5();
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 

@@ -107,7 +107,7 @@ static void only_takes(void **state)
         "/ m * x)]}]\n";
     struct solution a;
     solution_make(&a, block, *state, "mpm.levels=0", NULL), solution_done(&a);
-    assert_ok(sample_start(&a.e, false));
+    assert_ok(sample_open_history(&a.e, false));
     real before = INFINITY, taken = 0;
     const real start = particles_kinetic_energy(&a.e.part) + frame_kinetic_energy(a.e.frame);
     for (int k = 0; k < 240; k++) {

@@ -67,7 +67,7 @@ void fuzz_checkpoint(const uint8_t *bytes, size_t n)
     begin(&e);
     put_checkpoint(bytes, n);
     status_set(OK, "%s", "");
-    status s = checkpoint_read(&out, scene.text, engine_restore, &e);
+    status s = checkpoint_read(&out, scene.text, engine_load_checkpoint, &e);
     if (s == OK) {
         e.report->out = NULL;
         if (e.clock.steps > e.clock.step && e.clock.step >= 0)

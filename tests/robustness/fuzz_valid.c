@@ -161,7 +161,7 @@ static void judge(const struct run *e, const char *when)
         for (int d = 0; d < p->dim; d++)
             if (!isfinite(p->x[d][i]) || !isfinite(p->v[d][i]))
                 fuzz_fail("a place or a velocity that is no number", when);
-        for (int k = 0; k < symmetric_count(p->dim); k++)
+        for (int k = 0; k < symmetric_component_count(p->dim); k++)
             if (!isfinite(p->stress[k][i])) fuzz_fail("a stress that is no number", when);
         if (!(p->damage[i] >= -1e-9 && p->damage[i] <= 1 + 1e-9)) fuzz_fail("damage is not within 0 and 1", when);
     }

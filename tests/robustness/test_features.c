@@ -93,7 +93,7 @@ static void word_seen(const struct key *k, const char *word)
         seen[k - keys][1 + all] = true;
 }
 
-static void group_walk(const struct node *n, const char *group);
+static void group_walk(const struct yaml_node *n, const char *group);
 
 /* Returns the group to which the keys below key k belong. */
 static const char *group_below(const struct key *k)
@@ -103,30 +103,30 @@ static const char *group_below(const struct key *k)
     return strcmp(k->path, "parts") == 0 ? "bodies.parts" : k->path;
 }
 
-static void key_walk(const struct key *k, const struct node *n)
+static void key_walk(const struct key *k, const struct yaml_node *n)
 {
     seen[k - keys][0] = here[k - keys] = true;
     if (n->kind == NODE_SCALAR) word_seen(k, n->text);
-    for (const struct node *item = n->first; item; item = item->next)
+    for (const struct yaml_node *item = n->first; item; item = item->next)
         if (n->kind == NODE_LIST && item->kind == NODE_SCALAR) word_seen(k, item->text);
     const struct key *form = key_find(k->path, "form"); /* exact: step bar */
     if (form && n->kind == NODE_SCALAR) word_seen(form, n->text), seen[form - keys][0] = true;
     if (k->words && strncmp(k->words, "mapping of names to solids", 26) == 0)
-        for (const struct node *named = n->first; named; named = named->next) group_walk(named, "solid");
+        for (const struct yaml_node *named = n->first; named; named = named->next) group_walk(named, "solid");
     else
         group_walk(n, group_below(k));
 }
 
 /* Records the keys of a group in a node; a word in a list stands for a kind, as for probes. */
-static void group_walk(const struct node *n, const char *group)
+static void group_walk(const struct yaml_node *n, const char *group)
 {
     if (n->kind == NODE_LIST)
-        for (const struct node *item = n->first; item; item = item->next) group_walk(item, group);
+        for (const struct yaml_node *item = n->first; item; item = item->next) group_walk(item, group);
     else if (n->kind == NODE_SCALAR) {
         const struct key *kind = key_find(group, n->text);
         if (kind && kind->type == KEY_PART) seen[kind - keys][0] = here[kind - keys] = true;
     } else
-        for (const struct node *child = n->first; child; child = child->next) {
+        for (const struct yaml_node *child = n->first; child; child = child->next) {
             const struct key *k = key_find(group, child->key);
             if (k) key_walk(k, child);
         }
@@ -150,16 +150,16 @@ static void scene_note(const struct small_scene *small)
 {
     char *text = NULL;
     size_t length = 0;
-    struct node *root = NULL, *plain = NULL;
+    struct yaml_node *root = NULL, *plain = NULL;
     struct scene s = {0};
     struct reader r = {
         .name = small->file, .override = small->setting, .overrides = small->n, .scene = &s, .files = true};
     memset(here, 0, sizeof here);
     if (file_bytes(small->file, &text, &length) != OK || tree_read(&r, text, length, -1, &plain) != OK ||
-        scene_tree(&r, text, length, &root) != OK)
+        scene_parse_tree(&r, text, length, &root) != OK)
         fail_msg("%s: %s", small->name, status_message());
     const struct key *include = key_find("", "include");
-    if (node_find(plain, "include")) seen[include - keys][0] = true;
+    if (yaml_node_find(plain, "include")) seen[include - keys][0] = true;
     group_walk(root, "");
     for (int k = 0; k < keys_count; k++)
         if (!here[k] && group_is_here(&keys[k])) word_seen(&keys[k], keys[k].fallback);

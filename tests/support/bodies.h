@@ -106,7 +106,7 @@ static inline void store_free(struct store *s)
 
 /* Creates a plate of 40 x 20 particles with a pre-crack along a row of particles, from the left edge to (10, 10.5), and
  * its tips. window: of the crack speed [s]. */
-static inline void notched_make(struct body *b, struct tips *t, real window)
+static inline void notched_make(struct body *b, struct crack_tips *t, real window)
 {
     body_make(b, 2, (const int[]){40, 20});
     for (real x = 0.5; x < 9; x++) hurt(b, x, 10.5, 0), hurt(b, x, 9.5, 0);
@@ -115,7 +115,7 @@ static inline void notched_make(struct body *b, struct tips *t, real window)
     tips_make(t, &b->p, &b->c, &crack, 1, 1, window);
 }
 
-static inline void notched_free(struct body *b, struct tips *t)
+static inline void notched_free(struct body *b, struct crack_tips *t)
 {
     tips_free(t);
     body_free(b);

@@ -29,7 +29,7 @@ struct cloud_plan {
 };
 
 /* A body; its arrays are owned. */
-struct cloud {
+struct plotted_particles {
     struct particles p;
     struct material material[CLOUD_MATERIALS];
     real limit[CLOUD_MATERIALS * CLOUD_MATERIALS];
@@ -57,21 +57,21 @@ static inline real cloud_between(uint64_t *seed, real low, real high)
     return low + (high - low) * cloud_random(seed);
 }
 
-static inline void cloud_materials(struct cloud *c, enum space space)
+static inline void cloud_materials(struct plotted_particles *c, enum space space)
 {
     static const real young[] = {200e9, 70e9}, density[] = {8000, 2700};
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         struct material *k = &c->material[m];
         *k = (struct material){
             .young = young[m], .density = density[m], .energy_release_rate = NAN, .critical_stretch = INFINITY};
-        k->poisson = space == SPACE_LINE ? 0 : material_bond_poisson(space);
+        k->poisson = space == SPACE_LINE ? 0 : bond_based_poisson_ratio(space);
         material_compute_constants(k, space);
     }
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
 }
 
 /* Creates the particles: peridynamic, one body, material 0, at rest in the reference position. */
-static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
+static inline void plotted_particles_make(struct plotted_particles *c, const struct cloud_plan *plan)
 {
     static const real section[DIM_MAX + 1] = {0, 4e-6, 2e-3, 1};
     memset(c, 0, sizeof *c);
@@ -107,7 +107,7 @@ static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
 }
 
 /* Rounds the positions of a regular lattice to exact multiples of half a spacing, as fill.c does. */
-static inline void cloud_exact(struct cloud *c)
+static inline void cloud_exact(struct plotted_particles *c)
 {
     const real half = nearbyint(0.5 * CLOUD_SPACING * 0x1p50) * 0x1p-50;
     for (int d = 0; d < c->p.dim; d++)
@@ -122,7 +122,7 @@ static inline void cloud_unfold(struct bonds *b)
 }
 
 /* Sets the source of bonds. Call after kinds, bodies and materials are set. */
-static inline void cloud_source(struct cloud *c)
+static inline void cloud_source(struct plotted_particles *c)
 {
     struct bond_source *s = &c->source;
     particles_update_lists(&c->p);
@@ -136,19 +136,19 @@ static inline void cloud_source(struct cloud *c)
         s->surface = &c->surface;
     if (s->family.surface != SURFACE_VOLUME) return;
     c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);
-    bonds_neighbour_volume(c->neighbour_volume, &c->p, s);
+    bonds_compute_neighbour_volume(c->neighbour_volume, &c->p, s);
     s->neighbour_volume = c->neighbour_volume;
 }
 
 /* Creates the bonds. */
-static inline void cloud_bonds(struct cloud *c)
+static inline void cloud_bonds(struct plotted_particles *c)
 {
     cloud_source(c);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
 /* Sets x = X + strain X. */
-static inline void cloud_strain(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
+static inline void cloud_strain(struct plotted_particles *c, const real strain[DIM_MAX][DIM_MAX])
 {
     struct particles *p = &c->p;
     for (int64_t i = 0; i < p->n; i++)
@@ -158,7 +158,7 @@ static inline void cloud_strain(struct cloud *c, const real strain[DIM_MAX][DIM_
         }
 }
 
-static inline void cloud_free(struct cloud *c)
+static inline void plotted_particles_free(struct plotted_particles *c)
 {
     if (c->bonds.column) bonds_free(&c->bonds);
     if (c->cells.start) cells_free(&c->cells);

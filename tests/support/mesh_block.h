@@ -14,7 +14,7 @@ static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID}
 
 /* A block of points with a hole in one corner, so that it has complete and partial cells. */
 struct block {
-    struct cloud c;
+    struct plotted_particles c;
     struct mesh mesh;
     struct elastic elastic[CLOUD_MATERIALS];
     struct law law[CLOUD_MATERIALS]; /* of materials with a flow law */
@@ -30,7 +30,7 @@ static void block_make_with(struct block *b, enum space space, bool hole, bool c
     struct grid like = {.dim = dim, .h = 2 * CLOUD_SPACING};
     memset(b, 0, sizeof *b);
     memcpy(plan.count, size[dim], sizeof plan.count);
-    cloud_make(&b->c, &plan);
+    plotted_particles_make(&b->c, &plan);
     struct particles *p = &b->c.p;
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *k = &b->c.material[m];
@@ -69,7 +69,7 @@ static inline void block_average(struct block *b, bool mixed)
 static void block_free(struct block *b)
 {
     mesh_free(&b->mesh);
-    cloud_free(&b->c);
+    plotted_particles_free(&b->c);
 }
 
 /* Sets random displacements of at most `by` spacings at every node with mass. */
@@ -82,7 +82,7 @@ static void shake(struct block *b, real by, uint64_t seed)
 
 static real node_place(const struct mesh *mesh, int64_t I, int d)
 {
-    return grid_position(&mesh->grid, d, mesh_base(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
+    return grid_position(&mesh->grid, d, mesh_regular_node_of(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
 /* Sets u = (R - 1) X, with R a rotation by `angle` about z after an extension along x by `stretch`. */
@@ -119,8 +119,8 @@ static void point_strain(const struct block *b, int64_t i, bool finite, real *e)
                     slope *= d == k ? sign : c >> d & 1 ? xi : 1 - xi;
                     flat *= d == k ? sign : 0.5;
                 }
-                F[a * dim + k] += slope / mesh->grid.h * mesh->displacement[a][mesh_node(mesh, I, c)];
-                mean[a * dim + k] += flat / mesh->grid.h * mesh->displacement[a][mesh_node(mesh, I, c)];
+                F[a * dim + k] += slope / mesh->grid.h * mesh->displacement[a][mesh_cell_corner_node(mesh, I, c)];
+                mean[a * dim + k] += flat / mesh->grid.h * mesh->displacement[a][mesh_cell_corner_node(mesh, I, c)];
             }
         }
     for (int a = 0; a < dim * dim; a++) R[a] = a % (dim + 1) == 0;
@@ -192,7 +192,7 @@ static real largest_force(const struct block *b)
 static inline void partial_of(struct partial_stress *partial, const struct particles *p,
                               const struct material *material, real most)
 {
-    const int n = symmetric_count(p->dim);
+    const int n = symmetric_component_count(p->dim);
     uint64_t seed = 17;
     real compliance[SYM_MAX * SYM_MAX];
     memset(partial, 0, sizeof *partial);

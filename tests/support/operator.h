@@ -56,7 +56,7 @@ static inline uint8_t *operator_held(struct run *e, bool node)
     uint8_t *held = NEW("test.held", n + 1, uint8_t);
     if (node) {
         const struct grid *g = &e->frame->mesh.grid;
-        loads_set_mesh_walls(&e->loads, &e->frame->mesh, 0, e->clock.dt);
+        loads_prescribe_mesh_velocities(&e->loads, &e->frame->mesh, 0, e->clock.dt);
         for (int64_t k = 0; k < g->walls; k++) held[g->wall[k].node] |= (uint8_t)(1 << g->wall[k].component);
         for (int64_t k = 0; k < g->mirror_nodes; k++) held[g->mirror_node[k].node] = 7;
         return held;

@@ -12,7 +12,7 @@ static inline const struct simd_set *sets_next(const struct simd_set *set)
     for (; set < simd_sets + simd_set_count; set++) {
         if (set->runs()) {
             printf("kernels: %s\n", set->name);
-            simd_set_kernels(set);
+            simd_use_kernels(set);
             return set;
         }
         printf("kernels: %s skipped, this processor lacks %s\n", set->name, set->meaning);

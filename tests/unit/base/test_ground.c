@@ -400,7 +400,7 @@ static void compliance_inverts_stiffness(void **state)
     const enum space space[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
     for (size_t k = 0; k < COUNT_OF(space); k++) {
         struct material m = {.young = 7e10, .poisson = 0.2, .density = 1};
-        int dim = space_dim(space[k]), n = symmetric_count(dim);
+        int dim = space_dim(space[k]), n = symmetric_component_count(dim);
         real C[SYM_MAX * SYM_MAX], S[SYM_MAX * SYM_MAX];
         material_compute_constants(&m, space[k]);
         material_stiffness(&m, dim, C);
@@ -432,12 +432,12 @@ static void bond_constants_agree_with_closed_forms(void **state)
         material_compute_constants(&m, want[k].space);
         assert_close(material_micro_modulus_continuum(&m, want[k].space, d, want[k].section), want[k].c, 1e-13);
         assert_close(material_critical_stretch(&m, want[k].space, d, STRETCH_BOND), want[k].s, 1e-13);
-        if (want[k].space != SPACE_LINE) assert_exact(material_bond_poisson(want[k].space), want[k].poisson);
+        if (want[k].space != SPACE_LINE) assert_exact(bond_based_poisson_ratio(want[k].space), want[k].poisson);
         /* The continuum value is the discrete formula with the integral of r over the horizon. */
         real integral[] = {0, A * d * d, 2 * pi * h * d * d * d / 3, pi * d * d * d * d};
         assert_close(material_micro_modulus(&m, want[k].space, integral[space_dim(want[k].space)]), want[k].c, 1e-13);
     }
-    assert_true(isnan(material_bond_poisson(SPACE_LINE)));
+    assert_true(isnan(bond_based_poisson_ratio(SPACE_LINE)));
 }
 
 int main(void)

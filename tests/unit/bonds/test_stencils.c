@@ -12,11 +12,12 @@
 #include "kernels/kernels.h"
 
 /* Creates a lattice with exact positions, as fill.c does. */
-static void exact_cloud(struct cloud *c, int dim, enum surface_rule surface, const struct state_modulus *modulus)
+static void exact_cloud(struct plotted_particles *c, int dim, enum surface_rule surface,
+                        const struct state_modulus *modulus)
 {
     static const enum space space[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
-    cloud_make(c,
-               &(struct cloud_plan){.space = space[dim], .count = {32, 14, 11}, .horizon = 3.015, .surface = surface});
+    plotted_particles_make(
+        c, &(struct cloud_plan){.space = space[dim], .count = {32, 14, 11}, .horizon = 3.015, .surface = surface});
     cloud_exact(c);
     c->source.modulus = modulus, c->source.rotates = true, c->source.local = true;
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = 0.02;
@@ -25,7 +26,7 @@ static void exact_cloud(struct cloud *c, int dim, enum surface_rule surface, con
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
-static void shake(struct cloud *c, real most)
+static void shake(struct plotted_particles *c, real most)
 {
     uint64_t seed = 7;
     for (int64_t i = 0; i < c->p.n; i++)
@@ -55,7 +56,7 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
 
 /* Returns true if the row block is at an end of the body: eight neighbours in a row may begin before the first particle
  * or end after the last, and such row blocks are stored. */
-static bool at_an_end(const struct cloud *c, int64_t row_block)
+static bool at_an_end(const struct plotted_particles *c, int64_t row_block)
 {
     return fmin(apart(&c->p, 0, row_block * LANES), apart(&c->p, c->p.n - 1, row_block * LANES + 7)) <
            c->source.family.cutoff;
@@ -67,7 +68,7 @@ static void test_who_follows(void **state)
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
-            struct cloud c;
+            struct plotted_particles c;
             int64_t whole = 0;
             exact_cloud(&c, dim, surface, NULL);
             for (int64_t g = 0; g < c.bonds.row_blocks; g++) {
@@ -77,7 +78,7 @@ static void test_who_follows(void **state)
             }
             if (surface == SURFACE_NONE) assert_int_equal(whole, c.bonds.row_blocks / 2);
             assert_true(whole > 0 && (dim == 1 || count_folded(&c.bonds) > whole));
-            cloud_free(&c);
+            plotted_particles_free(&c);
         }
 }
 
@@ -85,14 +86,14 @@ static void test_who_follows(void **state)
 static void test_what_is_stored(void **state)
 {
     (void)state;
-    struct cloud c;
+    struct plotted_particles c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     const struct particles *p = &c.p;
     const struct bonds *b = &c.bonds;
     const int64_t implicit = count_folded(b);
     assert_true(implicit > 0);
     for (int64_t row = 0; row < b->rows; row++) {
-        struct bond_iterator it = bonds_of_row(b, row);
+        struct bond_iterator it = bond_iterator_of_row(b, row);
         for (int64_t j = 0; j < p->n; j++) {
             const int32_t i = b->particle[row];
             const real r = apart(p, i, j);
@@ -107,13 +108,13 @@ static void test_what_is_stored(void **state)
     assert_int_equal(count_folded(b), implicit);
     cloud_unfold(&c.bonds);
     assert_int_equal(count_folded(b), 0);
-    cloud_free(&c);
+    plotted_particles_free(&c);
 }
 
-static void make_again(struct cloud *c)
+static void make_again(struct plotted_particles *c)
 {
     bonds_free(&c->bonds);
-    if (c->neighbour_volume) bonds_neighbour_volume(c->neighbour_volume, &c->p, &c->source);
+    if (c->neighbour_volume) bonds_compute_neighbour_volume(c->neighbour_volume, &c->p, &c->source);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
@@ -124,7 +125,7 @@ static void test_twins(void **state)
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
-            struct cloud alike, alone;
+            struct plotted_particles alike, alone;
             exact_cloud(&alike, dim, surface, NULL), exact_cloud(&alone, dim, surface, NULL);
             alone.p.mass[0] *= 2;
             make_again(&alike), make_again(&alone);
@@ -139,7 +140,7 @@ static void test_twins(void **state)
             assert_memory_equal(a->nbr, b->nbr, (size_t)(b->columns * LANES) * sizeof *b->nbr);
             assert_memory_equal(a->inverse_length, b->inverse_length, (size_t)(b->columns * LANES) * sizeof(real));
             assert_memory_equal(a->w, b->w, (size_t)(b->columns * LANES) * sizeof(real));
-            cloud_free(&alike), cloud_free(&alone);
+            plotted_particles_free(&alike), plotted_particles_free(&alone);
         }
 }
 
@@ -155,7 +156,7 @@ static void made_add(struct made *m, const real *from, int64_t n)
     m->n += n;
 }
 
-static struct made make_all(struct cloud *c, enum pd_model model)
+static struct made make_all(struct plotted_particles *c, enum pd_model model)
 {
     struct kernels k;
     struct made m = {NEW("test.made", 2 * (DIM_MAX + SYM_MAX) * c->p.n + 4, real), 0};
@@ -167,7 +168,7 @@ static struct made make_all(struct cloud *c, enum pd_model model)
         made_add(&m, &broken, 1);
         made_add(&m, &energy, 1);
         for (int d = 0; d < c->p.dim; d++) made_add(&m, c->p.f[d], c->p.n);
-        for (int s = 0; s < symmetric_count(c->p.dim); s++) made_add(&m, c->p.stress[s], c->p.n);
+        for (int s = 0; s < symmetric_component_count(c->p.dim); s++) made_add(&m, c->p.stress[s], c->p.n);
     }
     return m;
 }
@@ -187,7 +188,7 @@ static void test_same_bits(void **state)
     const struct state_modulus modulus[CLOUD_MATERIALS] = {{3e11, 4e11}, {3e11, 4e11}};
     for (int dim = 2; dim <= DIM_MAX; dim++)
         for (size_t k = 0; k < COUNT_OF(models); k++) {
-            struct cloud implicit, open;
+            struct plotted_particles implicit, open;
             const bool weighed = k == 0, states = models[k] != PD_BOND;
             exact_cloud(&implicit, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
             exact_cloud(&open, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
@@ -202,7 +203,7 @@ static void test_same_bits(void **state)
             assert_int_equal(a.n, b.n);
             assert_memory_equal(a.value, b.value, (size_t)a.n * sizeof *a.value);
             memory_free(a.value), memory_free(b.value);
-            cloud_free(&implicit), cloud_free(&open);
+            plotted_particles_free(&implicit), plotted_particles_free(&open);
         }
 }
 
@@ -210,11 +211,11 @@ static void test_same_bits(void **state)
 static void test_fault(void **state)
 {
     (void)state;
-    struct cloud c;
+    struct plotted_particles c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     struct bonds *b = &c.bonds;
     assert_null(bonds_find_violation(b));
-    const int64_t q = bond_to_write(b, b->row_blocks / 2, 3, 4), column = q / LANES;
+    const int64_t q = bond_index_for_writing(b, b->row_blocks / 2, 3, 4), column = q / LANES;
     assert_null(bonds_find_violation(b)); /* stored explicitly, it still follows its stencil */
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
     assert_null(bonds_find_violation(b));
@@ -234,36 +235,37 @@ static void test_fault(void **state)
     assert_string_equal(bonds_find_violation(b), "a bond leads farther than reach");
     b->row_of[b->particle[9]] = 3;
     assert_string_equal(bonds_find_violation(b), "row_of does not lead back to the row of a particle");
-    cloud_free(&c);
+    plotted_particles_free(&c);
 }
 
 /* A bond that changes makes its row block explicit, and no other. */
 static void test_who_leaves(void **state)
 {
     (void)state;
-    struct cloud c;
+    struct plotted_particles c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     const int64_t implicit = count_folded(&c.bonds), row_block = c.bonds.row_blocks / 2,
-                  q = bond_to_write(&c.bonds, row_block, 3, 4);
+                  q = bond_index_for_writing(&c.bonds, row_block, 3, 4);
     bond_fade(&c.bonds, &c.p, row_block * LANES + 4, q, 0);
     for (int64_t g = 0; g < c.bonds.row_blocks; g++)
         assert_true(c.bonds.stencil[g] ? g != row_block : g == row_block || at_an_end(&c, g));
     assert_int_equal(count_folded(&c.bonds), implicit - 1);
-    cloud_free(&c);
+    plotted_particles_free(&c);
 }
 
 /* The row block stays explicit when rows around it are rebuilt, with weights that no stencil has. */
 static void test_who_stays_out(void **state)
 {
     (void)state;
-    struct cloud c;
+    struct plotted_particles c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     bonds_free(&c.bonds);
     const int32_t point = (int32_t)c.p.n / 2 + 3;
     c.p.kind[point] = KIND_MPM;
     particles_update_lists(&c.p);
     bonds_make(&c.bonds, NULL, &c.p, &c.source);
-    const int64_t row = c.bonds.row_of[point] + 1, q = bond_to_write(&c.bonds, row / LANES, 5, (int)(row % LANES));
+    const int64_t row = c.bonds.row_of[point] + 1,
+                  q = bond_index_for_writing(&c.bonds, row / LANES, 5, (int)(row % LANES));
     const int32_t j = c.bonds.nbr[q];
     bond_fade(&c.bonds, &c.p, row, q, 0.5);
     c.p.kind[point] = KIND_PD;
@@ -273,13 +275,13 @@ static void test_who_stays_out(void **state)
     bonds_free(&old);
     int found = 0;
     for (int64_t k = 0; k < c.bonds.column_count[row / LANES]; k++) {
-        const int64_t at = bond_to_write(&c.bonds, row / LANES, k, (int)(row % LANES));
+        const int64_t at = bond_index_for_writing(&c.bonds, row / LANES, k, (int)(row % LANES));
         if (c.bonds.nbr[at] == j && c.bonds.w[at] == 0.5) found++;
     }
     assert_int_equal(found, 1);
     assert_true(c.bonds.changed[row / LANES]);
     assert_null(c.bonds.stencil[row / LANES]);
-    cloud_free(&c);
+    plotted_particles_free(&c);
 }
 
 /* Lists the bonds of a row, lane by lane, without padding. Returns their number. */
@@ -311,7 +313,7 @@ static void assert_rows_equal(const struct bonds *a, const struct bonds *b)
 }
 
 /* Converts a tube of material points to peridynamic particles; its radius grows. */
-static void convert_tube(struct cloud *c, real radius)
+static void convert_tube(struct plotted_particles *c, real radius)
 {
     const struct particles *p = &c->p;
     for (int64_t i = 0; i < p->n; i++) {
@@ -327,7 +329,7 @@ static void test_beside_points(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++) {
-        struct cloud c;
+        struct plotted_particles c;
         struct bonds searched;
         exact_cloud(&c, dim, SURFACE_VOLUME, NULL);
         bonds_free(&c.bonds);
@@ -345,7 +347,7 @@ static void test_beside_points(void **state)
             bonds_free(&searched);
         }
         assert_true(dim == 1 || count_folded(&c.bonds) > 0);
-        cloud_free(&c);
+        plotted_particles_free(&c);
     }
 }
 

@@ -18,9 +18,9 @@ enum { STRAINS = 6 };
 
 /* A body, the requirements of its faces, and a factor for each particle and offset. */
 struct plain {
-    struct cloud cloud;
+    struct plotted_particles cloud;
     struct near_faces body;
-    struct face_targets faces;
+    struct surface_fit_targets faces;
     real *factor, alpha, prior, full[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX];
     real strain[STRAINS][DIM_MAX][DIM_MAX];
     int dim, strains;
@@ -95,7 +95,7 @@ static void add_bond(const struct plain *s, int k, real factor, real (*fourth)[D
 
 static bool may_change(const struct plain *s, int64_t t, int k)
 {
-    const int32_t j = neighbour_of(&s->body, t, k);
+    const int32_t j = near_face_neighbour_of(&s->body, t, k);
     return j >= 0 && !(s->body.whole[s->body.particle[t]] && s->body.whole[j]);
 }
 
@@ -106,7 +106,7 @@ static real objective(const struct plain *s)
     for (int64_t t = 0; t < near->n; t++) {
         real fourth[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX] = {{{{0}}}}, third[DIM_MAX][DIM_MAX][DIM_MAX] = {{{0}}};
         for (int k = 0; k < near->offset.n; k++) {
-            if (neighbour_of(near, t, k) < 0) continue;
+            if (near_face_neighbour_of(near, t, k) < 0) continue;
             const real f = s->factor[t * near->offset.n + k];
             add_bond(s, k, f, fourth, third);
             if (may_change(s, t, k)) sum += 0.5 * s->prior * square(f - 1);
@@ -121,12 +121,12 @@ static real objective(const struct plain *s)
 static void plain_make(struct plain *s, const struct cloud_plan *plan)
 {
     *s = (struct plain){.dim = space_dim(plan->space)};
-    cloud_make(&s->cloud, plan);
+    plotted_particles_make(&s->cloud, plan);
     cloud_exact(&s->cloud);
     cloud_source(&s->cloud);
     int64_t apart[2];
     assert_int_equal(near_faces_make(&s->body, &s->cloud.p, &s->cloud.source, apart), OK);
-    face_targets_make(&s->faces, &s->body, false);
+    surface_fit_targets_make(&s->faces, &s->body, false);
     const struct offsets *o = &s->body.offset;
     real third[DIM_MAX][DIM_MAX][DIM_MAX] = {{{0}}}, bonds = 0, squared = 0;
     for (int k = 0; k < o->n; k++) add_bond(s, k, 1, s->full, third);
@@ -154,16 +154,16 @@ static void plain_make(struct plain *s, const struct cloud_plan *plan)
         for (int k = 0; k < o->n; k++) {
             real xi[DIM_MAX];
             for (int d = 0; d < DIM_MAX; d++) xi[d] = o->at[k][d] * CLOUD_SPACING;
-            s->factor[t * o->n + k] = surface_factor(&s->cloud.surface, s->body.particle[t], xi);
+            s->factor[t * o->n + k] = surface_weight_factor(&s->cloud.surface, s->body.particle[t], xi);
         }
 }
 
 static void plain_free(struct plain *s)
 {
-    face_targets_free(&s->faces);
+    surface_fit_targets_free(&s->faces);
     near_faces_free(&s->body);
     memory_free(s->factor);
-    cloud_free(&s->cloud);
+    plotted_particles_free(&s->cloud);
 }
 
 /* Returns the derivative of the functional by the factor of one bond, at both of its ends. */
@@ -171,7 +171,7 @@ static real slope(struct plain *s, int64_t t, int k)
 {
     const int n = s->body.offset.n;
     real *one = &s->factor[t * n + k];
-    real *other = &s->factor[s->body.place[neighbour_of(&s->body, t, k)] * n + n - 1 - k];
+    real *other = &s->factor[s->body.place[near_face_neighbour_of(&s->body, t, k)] * n + n - 1 - k];
     const real was = *one, step = 1e-4;
     assert_true(*one == *other);
     *one = *other = was + step;
@@ -263,12 +263,12 @@ static real bending_energy(enum space space, enum surface_rule surface, int leng
                               .horizon = 3.015,
                               .surface = surface,
                               .shells = SHELLS_ISOTROPIC};
-    struct cloud c;
-    cloud_make(&c, &plan);
+    struct plotted_particles c;
+    plotted_particles_make(&c, &plan);
     cloud_exact(&c);
     cloud_bonds(&c);
     struct particles *p = &c.p;
-    const real nu = material_bond_poisson(space);
+    const real nu = bond_based_poisson_ratio(space);
     for (int64_t i = 0; i < p->n; i++) {
         const real x = p->X[0][i] - 0.5 * length * CLOUD_SPACING, y = p->X[1][i] - 0.5 * layers * CLOUD_SPACING;
         const real z = p->dim > 2 ? p->X[2][i] - 0.5 * layers * CLOUD_SPACING : 0;
@@ -279,7 +279,7 @@ static real bending_energy(enum space space, enum surface_rule surface, int leng
     const real width = p->dim > 2 ? layers * CLOUD_SPACING : c.source.family.section;
     const real inertia = width * pow(layers * CLOUD_SPACING, 3) / 12;
     const real unit = 0.5 * c.material[0].young * inertia * square(curvature);
-    cloud_free(&c);
+    plotted_particles_free(&c);
     return energy / unit;
 }
 
@@ -315,12 +315,12 @@ static void half_is_as_the_whole(void **state)
     (void)state;
     struct cloud_plan plan = {
         .space = SPACE_PLANE_STRESS, .count = {14, 9}, .horizon = 3.015, .surface = SURFACE_MOMENTS};
-    struct cloud whole, half;
+    struct plotted_particles whole, half;
     struct loads loads = {0};
-    cloud_make(&whole, &plan);
+    plotted_particles_make(&whole, &plan);
     for (int64_t i = 0; i < whole.p.n; i++) whole.p.X[0][i] -= 7 * CLOUD_SPACING;
     plan.count[0] = 7;
-    cloud_make(&half, &plan);
+    plotted_particles_make(&half, &plan);
     assert_int_equal(loads_make(&loads, mirror, 1, &half.p, CLOUD_SPACING, half.source.family.cutoff, 0), OK);
     loads_update_images(&loads, &half.p);
     half.source.image = loads.image;
@@ -330,13 +330,13 @@ static void half_is_as_the_whole(void **state)
         for (int x = -3; x <= 3; x++)
             for (int y = -3; y <= 3; y++) {
                 const real xi[DIM_MAX] = {x * CLOUD_SPACING, y * CLOUD_SPACING, 0};
-                const real one = surface_factor(&half.surface, i, xi);
-                const real other = surface_factor(&whole.surface, i / 7 * 14 + 7 + i % 7, xi);
+                const real one = surface_weight_factor(&half.surface, i, xi);
+                const real other = surface_weight_factor(&whole.surface, i / 7 * 14 + 7 + i % 7, xi);
                 if (!(fabs(one - other) <= 1e-7)) fail_msg("particle %d, %d %d: %g, %g", (int)i, x, y, one, other);
             }
     loads_free(&loads);
-    cloud_free(&whole);
-    cloud_free(&half);
+    plotted_particles_free(&whole);
+    plotted_particles_free(&half);
 }
 
 /* The residual of the solver tells whether it gave up: not with the products that it may use, but with three. */

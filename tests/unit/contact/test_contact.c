@@ -67,7 +67,7 @@ static void contact_end(struct run *e, struct scene *s)
 
 static bool has_bond(const struct run *e, int64_t i, int64_t j)
 {
-    for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
         if (it.bond.w != 0 && it.bond.nbr == j) return true;
     return false;
 }
@@ -388,11 +388,11 @@ static void test_account(void **state)
     static const int gaps[] = {4, 6};
     const real K = 7.3;
     for (int k = 0; k < 2; k++) {
-        struct contact_balance b = contact_balance_begin(NULL, gap[k][0]);
+        struct contact_balance b = contact_energy_correction_begin(NULL, gap[k][0]);
         real work = 0;
         for (int n = 1; n < gaps[k]; n++) {
             if (gap[k][n] < 0) work += 0.5 * K * gap[k][n] * 0.5 * (gap[k][n + 1] - gap[k][n - 1]);
-            assert_true(contact_balance_force(&b, K, gap[k][n], true) == 0); /* the account is negative meanwhile */
+            assert_true(contact_energy_correction(&b, K, gap[k][n], true) == 0); /* the account is negative meanwhile */
         }
         assert_near(b.account, -work, 1e-14);
     }
@@ -465,7 +465,7 @@ static void test_beside_a_ball(void **state)
             const real r = 9e-3 + (0.5 - depth[k - 1]) * h, angle = 0.2 + 0.4 * i;
             p.x[0][i] = r * cos(angle), p.x[1][i] = r * sin(angle);
         }
-        contact_rigid_find(&c[k], &c[k - 1], &p, 0.3 * h);
+        contact_rigid_list_particles(&c[k], &c[k - 1], &p, 0.3 * h);
         assert_int_equal(c[k].near[0].n, 3);
         for (int q = 0; q < 3; q++) assert_near(c[k].near[0].zero[q], -zero[k - 1] * h, 1e-12 * h);
     }

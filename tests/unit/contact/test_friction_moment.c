@@ -69,7 +69,7 @@ static struct run *pressed_begin(struct scene *s, const char *text)
     assert_ok(engine_make(e, s, NULL));
     e->report->quiet = true;
     assert_ok(report_start(e));
-    contact_update(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    contact_update_list(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
     for (int64_t i = 0; i < p->n; i++)
         if (p->body[i] == 1) p->x[p->dim - 1][i] -= 0.12e-3;
     body_rotate(p, 1, (const real[]){7e-3, 6e-3, 4e-3}, axis_of(p->dim), 0.013);
@@ -88,7 +88,7 @@ static void pressed_end(struct run *e, struct scene *s)
 static void forces_after(struct run *e, real dt)
 {
     struct particles *p = &e->part;
-    contact_update(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    contact_update_list(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
     for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
     contact_force(e->contact, p, dt);
 }

@@ -8,13 +8,13 @@
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
 /* Creates a body whose left half is peridynamic, with random displacements. */
-static void half_make(struct cloud *c, struct interface_zone *r, enum space space, real shake)
+static void half_make(struct plotted_particles *c, struct interface_zone *r, enum space space, real shake)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {40, 0, 0}, {20, 14, 0}, {14, 8, 8}};
     struct cloud_plan plan = {.space = space, .horizon = 3, .shake = shake, .seed = 7};
     const int dim = space_dim(space);
     memcpy(plan.count, size[dim], sizeof plan.count);
-    cloud_make(c, &plan);
+    plotted_particles_make(c, &plan);
     for (int64_t i = 0; i < c->p.n; i++)
         c->p.kind[i] = c->p.X[0][i] < 0.5 * size[dim][0] * CLOUD_SPACING ? KIND_PD : KIND_MPM;
     cloud_source(c);
@@ -22,10 +22,10 @@ static void half_make(struct cloud *c, struct interface_zone *r, enum space spac
     assert_true(r->points > 0 && r->n > r->points);
 }
 
-static void half_free(struct cloud *c, struct interface_zone *r)
+static void half_free(struct plotted_particles *c, struct interface_zone *r)
 {
     interface_zone_free(r);
-    cloud_free(c);
+    plotted_particles_free(c);
 }
 
 /* Sums of momentum, angular momentum x_a p_b - x_b p_a, and twice the kinetic energy; scale: sums of the magnitudes of
@@ -51,7 +51,7 @@ static void test_kept(void **state)
 {
     (void)state;
     for (size_t k = 0; k < COUNT_OF(spaces); k++) {
-        struct cloud c;
+        struct plotted_particles c;
         struct interface_zone r = {0};
         real before[SUMS], after[SUMS], scale[SUMS];
         uint64_t seed = 11;
@@ -62,7 +62,8 @@ static void test_kept(void **state)
         for (int step = 0; step < 20; step++) {
             real energy[SUMS];
             sums_of(&c.p, energy, scale);
-            const real lost = interface_damp_begin(&r, &c.p, 1.0 / 16) + interface_damp_end(&r, &c.p);
+            const real lost =
+                interface_zone_damp_velocities(&r, &c.p, 1.0 / 16) + interface_damped_second_half(&r, &c.p);
             sums_of(&c.p, after, scale);
             assert_true(after[6] < energy[6]);
             assert_near(lost, 0.5 * (energy[6] - after[6]), 1e-13 * energy[6]);
@@ -77,7 +78,7 @@ static void test_rigid(void **state)
 {
     (void)state;
     for (size_t k = 0; k < COUNT_OF(spaces); k++) {
-        struct cloud c;
+        struct plotted_particles c;
         struct interface_zone r = {0};
         half_make(&c, &r, spaces[k], 0.2);
         const int dim = c.p.dim;
@@ -89,7 +90,7 @@ static void test_rigid(void **state)
         }
         struct particles was;
         cloud_copy(&was, &c.p, 0);
-        for (int step = 0; step < 10; step++) interface_damp_begin(&r, &c.p, 1.0 / 16);
+        for (int step = 0; step < 10; step++) interface_zone_damp_velocities(&r, &c.p, 1.0 / 16);
         for (int d = 0; d < dim; d++) assert_true(cloud_difference(c.p.v[d], was.v[d], c.p.n) < 1e-13);
         particles_free(&was);
         half_free(&c, &r);
@@ -104,14 +105,14 @@ static void test_waves(void **state)
     const real pi = 3.14159265358979323846;
     const real wave_number[] = {3.14159265358979323846, 1.0, 0.2};
     for (size_t k = 0; k < COUNT_OF(wave_number); k++) {
-        struct cloud c;
+        struct plotted_particles c;
         struct interface_zone r = {0};
         half_make(&c, &r, SPACE_LINE, 0);
         const int32_t middle = 21; /* the zone is points 20 .. 23; its inner points have complete neighbourhoods */
         const real q = wave_number[k], phase = q < pi ? -q * middle + 0.5 * pi : 0.5 * pi - pi * middle;
         assert_int_equal(r.points, 4);
         for (int64_t i = 0; i < c.p.n; i++) c.p.v[0][i] = sin(q * (real)i + phase);
-        interface_damp_begin(&r, &c.p, 1.0 / 16);
+        interface_zone_damp_velocities(&r, &c.p, 1.0 / 16);
         assert_near(c.p.v[0][middle], 1 - square(2 - 2 * cos(q)) / 16, 1e-12);
         assert_exact(c.p.v[0][30], sin(q * 30 + phase));
         half_free(&c, &r);
@@ -126,7 +127,7 @@ static void test_parted(void **state)
     real corner[2][DIM_MAX] = {{-CLOUD_SPACING, 6 * CLOUD_SPACING}, {21 * CLOUD_SPACING, 6 * CLOUD_SPACING}};
     const struct crack crack = {.n = 2, .corner = corner};
     for (int parted = 0; parted < 3; parted++) {
-        struct cloud c;
+        struct plotted_particles c;
         struct interface_zone r = {0};
         real change = 0;
         half_make(&c, &r, SPACE_PLANE_STRESS, 0);
@@ -137,7 +138,7 @@ static void test_parted(void **state)
             c.p.v[0][i] = above ? 0.4 : -0.3, c.p.v[1][i] = above ? 0.7 : -1.3;
         }
         interface_zone_make(&r, &c.p, &c.source);
-        interface_damp_begin(&r, &c.p, 1.0 / 16);
+        interface_zone_damp_velocities(&r, &c.p, 1.0 / 16);
         for (int64_t i = 0; i < c.p.n; i++)
             change = real_max(change, fabs(c.p.v[1][i] - (c.p.X[1][i] > 6 * CLOUD_SPACING ? 0.7 : -1.3)));
         assert_true(parted ? change < 1e-15 : change > 0.1);

@@ -11,7 +11,7 @@
 #define STRAIN 1e-6 /* bonds stretch with finite deformation: deviations from linear theory of this order */
 
 struct setting {
-    struct cloud c;
+    struct plotted_particles c;
     struct elastic elastic[CLOUD_MATERIALS];
     struct reversion_rule rule;
 };
@@ -19,7 +19,7 @@ struct setting {
 static void setting_make(struct setting *s, const struct cloud_plan *plan)
 {
     memset(s, 0, sizeof *s);
-    cloud_make(&s->c, plan);
+    plotted_particles_make(&s->c, plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *k = &s->c.material[m];
         s->elastic[m] =
@@ -34,10 +34,10 @@ static void know_stress(struct setting *s) { bond_stress_table[s->c.p.dim][PD_BO
 static int64_t choose(struct setting *s, int32_t **list)
 {
     know_stress(s);
-    assert_int_equal(reversion_choose(&s->rule, &s->c.p, &s->c.bonds, 1, list), 0);
+    assert_int_equal(reversion_select_particles(&s->rule, &s->c.p, &s->c.bonds, 1, list), 0);
     assert_null(*list);
-    assert_int_equal(reversion_choose(&s->rule, &s->c.p, &s->c.bonds, 1.999, list), 0);
-    return reversion_choose(&s->rule, &s->c.p, &s->c.bonds, 2, list);
+    assert_int_equal(reversion_select_particles(&s->rule, &s->c.p, &s->c.bonds, 1.999, list), 0);
+    return reversion_select_particles(&s->rule, &s->c.p, &s->c.bonds, 2, list);
 }
 
 static void setting_never(struct setting *s)
@@ -51,14 +51,14 @@ static void setting_never(struct setting *s)
 static real energy_of(const struct setting *s, const struct partial_stress *partial)
 {
     const struct particles *p = &s->c.p;
-    const int n = symmetric_count(p->dim);
+    const int n = symmetric_component_count(p->dim);
     real sum = s->c.bonds.rows > 0 ? bond_energy_table[p->dim][PD_BOND](&s->c.bonds, p) : 0,
          compliance[SYM_MAX * SYM_MAX];
     material_compliance(&s->c.material[0], p->dim, compliance);
     for (int64_t i = 0; i < p->n; i++) {
         real given[SYM_MAX];
         if (p->kind[i] != KIND_MPM) continue;
-        stress_given(p, partial, i, given, p->dim);
+        point_stress_on_grid(p, partial, i, given, p->dim);
         for (int a = 0; a < n; a++)
             for (int c = 0; c < n; c++)
                 sum += 0.5 * p->volume0[i] * given[a] * (a < p->dim ? 1 : 2) * compliance[a * n + c] * p->stress[c][i];
@@ -110,7 +110,7 @@ static void test_bar(void **state)
     memory_free(list);
     particles_free(&before);
     partial_stress_free(&partial);
-    cloud_free(&s.c);
+    plotted_particles_free(&s.c);
 }
 
 /* A whole bar reverts during a standing wave of stress E e exp(-(4 X/width)^2): energy is lost by the smoothing of
@@ -140,7 +140,7 @@ static void test_wave(void **state)
         reversion_apply(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
         assert_near(0.5 * (energy_of(&s, &partial) / before - 1), row[k].change, row[k].within);
         memory_free(list);
-        cloud_free(&s.c);
+        plotted_particles_free(&s.c);
     }
 }
 
@@ -165,7 +165,7 @@ static void test_surfaces(void **state)
         setting_never(&s);
         assert_int_equal(choose(&s, &list), p->n);
         real middle[SYM_MAX], most = 0;
-        const int n = symmetric_count(p->dim);
+        const int n = symmetric_component_count(p->dim);
         for (int64_t i = 0; i < p->n; i++) /* a complete family has its plain virial stress */
             if (s.c.bonds.family_volume[i] > 0.999 * s.c.source.family.full)
                 for (int c = 0; c < n; c++) middle[c] = p->stress[c][i], most = real_max(most, fabs(middle[c]));
@@ -177,7 +177,7 @@ static void test_surfaces(void **state)
             if (p->stretch[0]) assert_near(p->stretch[1][i], 1 + strain[1][1], 1e-11);
         }
         memory_free(list);
-        cloud_free(&s.c);
+        plotted_particles_free(&s.c);
     }
 }
 
@@ -216,8 +216,8 @@ static void test_who_stays(void **state)
         if (reason == REASON_REGION) s.rule.kept = &region;
         know_stress(&s);
         if (reason == REASON_STRESS) p->stress[1][one] = 0.51 * s.elastic[0].trigger;
-        assert_int_equal(reversion_choose(&s.rule, p, &s.c.bonds, 1, &list), 0);
-        const int64_t n = reversion_choose(&s.rule, p, &s.c.bonds, 2, &list);
+        assert_int_equal(reversion_select_particles(&s.rule, p, &s.c.bonds, 1, &list), 0);
+        const int64_t n = reversion_select_particles(&s.rule, p, &s.c.bonds, 2, &list);
         int64_t k = 0, stay = 0;
         for (int64_t i = 0; i < p->n; i++) {
             const bool stays = distance(p, i, one) <= reach[reason];
@@ -230,7 +230,7 @@ static void test_who_stays(void **state)
         }
         assert_true(k == n && stay == p->n - n && stay > 20);
         memory_free(list);
-        cloud_free(&s.c);
+        plotted_particles_free(&s.c);
     }
 }
 
@@ -249,7 +249,7 @@ static void test_dwell_and_gap(void **state)
     know_stress(&s);
     for (int t = 0; t < 5; t++) { /* unstressed except for 0.5 < share at times 0, 1, 2 */
         p->stress[0][30] = t < 3 ? 0.51 * s.elastic[0].trigger : 0.49 * s.elastic[0].trigger;
-        const int64_t n = reversion_choose(&s.rule, p, &s.c.bonds, t, &list);
+        const int64_t n = reversion_select_particles(&s.rule, p, &s.c.bonds, t, &list);
         assert_int_equal(n, t == 0 ? 0 : t < 4 ? 53 : 60); /* three on either side also stay */
         memory_free(list);
     }
@@ -258,7 +258,7 @@ static void test_dwell_and_gap(void **state)
     for (int k = 0; k < 2; k++) {
         p->stress[0][30] = 0, p->stress[0][0] = (k ? 0.24 : 0.3) * s.elastic[0].trigger;
         for (int t = 6; t < 8; t++) {
-            const int64_t n = reversion_choose(&s.rule, p, &s.c.bonds, t + 2 * k, &list);
+            const int64_t n = reversion_select_particles(&s.rule, p, &s.c.bonds, t + 2 * k, &list);
             assert_int_equal(n, t == 6 ? (k ? 56 : 0) : k ? 60 : 56);
             memory_free(list);
         }
@@ -270,15 +270,15 @@ static void test_dwell_and_gap(void **state)
         setting_never(&s);
         p->stress[0][30] = 0;
         p->stress[0][20] = p->stress[0][20 + gap + 1] = s.elastic[0].trigger;
-        assert_int_equal(reversion_choose(&s.rule, p, &s.c.bonds, 10, &list), 0);
-        const int64_t n = reversion_choose(&s.rule, p, &s.c.bonds, 20, &list);
+        assert_int_equal(reversion_select_particles(&s.rule, p, &s.c.bonds, 10, &list), 0);
+        const int64_t n = reversion_select_particles(&s.rule, p, &s.c.bonds, 20, &list);
         int64_t inside = 0;
         for (int64_t k = 0; k < n; k++) inside += list[k] > 20 && list[k] < 20 + gap + 1;
         assert_int_equal(inside, gap == 13 ? 7 : 0);
         p->stress[0][20] = p->stress[0][20 + gap + 1] = 0;
         memory_free(list);
     }
-    cloud_free(&s.c);
+    plotted_particles_free(&s.c);
 }
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
@@ -334,7 +334,7 @@ static void test_mesh(void **state)
     assert_near((mesh_kinetic(&mesh) + lost) / kinetic, 1, 1e-13);
     assert_true(lost > 0); /* velocities of nodes are random: averaging dissipates */
     mesh_free(&mesh);
-    cloud_free(&s.c);
+    plotted_particles_free(&s.c);
 }
 
 int main(void)

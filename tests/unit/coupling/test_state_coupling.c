@@ -28,10 +28,10 @@ struct both {
 static void both_make(struct both *b, const struct partners *k)
 {
     memset(b, 0, sizeof *b);
-    struct cloud *c = &b->s.c;
+    struct plotted_particles *c = &b->s.c;
     struct cloud_plan plan = k->plan;
     plan.optional = WITH_ENDS | (k->model == PD_MOSPD ? WITH_ROTATIONS : 0);
-    cloud_make(c, &plan);
+    plotted_particles_make(c, &plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         c->material[m].poisson = k->poisson;
         material_compute_constants(&c->material[m], k->plan.space);
@@ -41,10 +41,10 @@ static void both_make(struct both *b, const struct partners *k)
 }
 
 /* Sets the stress of Hooke's law in the material points. */
-static void stress_set(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
+static void stress_set(struct plotted_particles *c, const real strain[DIM_MAX][DIM_MAX])
 {
     real vector[SYM_MAX] = {0}, stiffness[SYM_MAX * SYM_MAX];
-    const int dim = c->p.dim, n = symmetric_count(dim);
+    const int dim = c->p.dim, n = symmetric_component_count(dim);
     for (int a = 0; a < dim; a++) vector[a] = strain[a][a];
     if (dim == 2) vector[2] = strain[0][1];
     if (dim == 3) vector[3] = strain[0][1], vector[4] = strain[1][2], vector[5] = strain[0][2];
@@ -60,7 +60,7 @@ static void stress_set(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
 /* Computes the forces of bonds after the points at their ends have been evaluated. */
 static void forces(struct both *b, enum pd_model model)
 {
-    struct cloud *c = &b->s.c;
+    struct plotted_particles *c = &b->s.c;
     partial_stress_make(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
     bonded_points_strain_from_stress(&b->s.partial, &c->p, c->material);
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
@@ -82,7 +82,7 @@ static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MA
     patch_map(&b.s, SHAPE_LINEAR);
     for (int d = 0; d < p->dim; d++) from[d] = reach, to[d] = k->plan.count[d] - reach;
     from[0] = 0, to[0] = k->plan.count[0] - 4;
-    for (int s = 0; s < symmetric_count(p->dim); s++) stress = real_max(stress, fabs(p->stress[s][p->n - 1]));
+    for (int s = 0; s < symmetric_component_count(p->dim); s++) stress = real_max(stress, fabs(p->stress[s][p->n - 1]));
     real force = patch_residual(&b.s, from, to) / (pow(b.s.g.h, p->dim - 1) * b.s.c.source.family.section * stress);
     patch_free(&b.s);
     return force;
@@ -170,14 +170,14 @@ static void test_torque(void **state)
 /* Returns the energy of bonds, plus 1/2 sigma_given : C^-1 sigma of the points [J]. */
 static real energy_of(const struct both *b, enum pd_model model)
 {
-    const struct cloud *c = &b->s.c;
-    const int dim = c->p.dim, n = symmetric_count(dim);
+    const struct plotted_particles *c = &b->s.c;
+    const int dim = c->p.dim, n = symmetric_component_count(dim);
     real sum = c->bonds.rows > 0 ? state_energy_table[dim][model](&c->bonds, &c->p) : 0, compliance[SYM_MAX * SYM_MAX];
     material_compliance(&c->material[0], dim, compliance);
     for (int64_t i = 0; i < c->p.n; i++) {
         real given[SYM_MAX];
         if (c->p.kind[i] != KIND_MPM) continue;
-        stress_given(&c->p, &b->s.partial, i, given, dim);
+        point_stress_on_grid(&c->p, &b->s.partial, i, given, dim);
         for (int s = 0; s < n; s++)
             for (int t = 0; t < n; t++)
                 sum += 0.5 * (s < dim ? 1 : 2) * c->p.volume0[i] * given[s] * compliance[s * n + t] * c->p.stress[t][i];
@@ -198,7 +198,7 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     for (int d = 0; d < 2; d++)
         box.from[d] = (16 - edge / 2) * CLOUD_SPACING, box.to[d] = (16 + edge / 2) * CLOUD_SPACING;
     both_make(&b, &k);
-    struct cloud *c = &b.s.c;
+    struct plotted_particles *c = &b.s.c;
     for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = KIND_MPM;
     cloud_source(c);
     cloud_strain(c, strain);
@@ -242,13 +242,13 @@ static void test_response(void **state)
         .plan = {.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 2.015}, .model = PD_MOSPD, .poisson = 0.2};
     struct both b;
     both_make(&b, &k);
-    struct cloud *c = &b.s.c;
+    struct plotted_particles *c = &b.s.c;
     for (int64_t i = 0; i < c->p.n; i++) c->p.material[i] = i % 2;
     cloud_bonds(c);
     int64_t tried = 0;
     const real full = c->source.family.cell_volume / c->source.family.weighted;
     for (int64_t r = 0; r < c->bonds.rows; r++)
-        for (struct bond_iterator it = bonds_of_row(&c->bonds, r); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(&c->bonds, r); bond_next(&it);) {
             const int32_t i = c->bonds.particle[r], j = it.bond.nbr;
             const struct bond back = {it.bond.entry, i, it.bond.inverse_length, it.bond.w};
             const struct response one = bond_response_of(&c->p, &c->bonds, &c->source, i, &it.bond);
@@ -266,7 +266,7 @@ static void test_response(void **state)
     is_near("half", particle_half_edge(&c->p, &c->source, 3), 0.5 * CLOUD_SPACING, 1e-12);
     c->p.volume0[3] *= 4;
     is_near("half", particle_half_edge(&c->p, &c->source, 3), CLOUD_SPACING, 1e-12);
-    cloud_free(c);
+    plotted_particles_free(c);
 }
 
 /* The energies of rows add up to the total, including those of points at the ends of bonds, which rotate with their
@@ -303,7 +303,7 @@ static void test_positive(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
-        const int n = symmetric_count(dim);
+        const int n = symmetric_component_count(dim);
         const struct partners k = {.plan = {.space = dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID,
                                             .count = {5, 4, dim == 3 ? 3 : 1},
                                             .horizon = 2.015},
@@ -338,7 +338,7 @@ static void test_positive(void **state)
                 for (int e = 0; e < n; e++) product += rest[a * n + e] * taken[e * n + c];
                 assert_true(fabs(product) < 1e-9 * square(V * m->c11));
             }
-        cloud_free(&b.s.c);
+        plotted_particles_free(&b.s.c);
     }
 }
 

@@ -54,7 +54,7 @@ static void shake(struct run *e)
     uint64_t seed = 5;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0};
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) p->x[d][i] = X[d] + shaken(e, X, d, &seed);
     }
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
@@ -142,7 +142,7 @@ static void check_point(const struct run *e, int64_t row)
     const struct bonds *b = &e->bonds;
     const struct particles *p = &e->part;
     const int32_t i = b->particle[row];
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim, n = symmetric_component_count(dim);
     const struct state_modulus *m = &b->state.modulus[0];
     const real share = p->volume0[i] / b->state.weighted[row],
                *local = e->coupling->partial.local + e->coupling->partial.index[i] * n;
@@ -172,13 +172,14 @@ static void check_points(const char *text)
     engine_from(&e, &s, whole);
     shake(&e);
     for (int64_t i = 0; i < e.part.n; i++)
-        for (int c = 0; c < symmetric_count(e.part.dim); c++) e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
-    bonded_points_update(&e.coupling->partial, e.frame, &e.part, e.scene->material);
-    states_precompute(&e.bonds, &e.part, &e.source);
+        for (int c = 0; c < symmetric_component_count(e.part.dim); c++)
+            e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
+    bonded_points_update_strain(&e.coupling->partial, e.frame, &e.part, e.scene->material);
+    family_states_precompute(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];
         if (e.part.kind[i] != KIND_MPM || e.coupling->partial.index[i] < 0 ||
-            !partial_end(&e.coupling->partial, i, e.part.dim))
+            !point_has_state_bonds(&e.coupling->partial, i, e.part.dim))
             continue;
         check_point(&e, row);
         points++;
@@ -200,7 +201,7 @@ static void test_points(void **state)
 /* Asserts that the partial stress of points from the site map and from searches is bitwise equal. */
 static void same_partials(const struct partial_stress *a, const struct partial_stress *b, int64_t n, int dim)
 {
-    const int symmetric = symmetric_count(dim), size = symmetric * symmetric;
+    const int symmetric = symmetric_component_count(dim), size = symmetric * symmetric;
     int64_t points = 0;
     for (int64_t i = 0; i < n; i++) {
         assert_int_equal(a->index[i] >= 0, b->index[i] >= 0);

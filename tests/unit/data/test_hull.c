@@ -103,7 +103,7 @@ static void turned_and_open(void **state)
     g.faces -= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 4);
-    assert_true(hull_ambiguous_share(&s) < 0.01);
+    assert_true(hull_ambiguous_fraction(&s) < 0.01);
     assert_true(hull_winding_number(&s, (real[]){0, 0, 0}) > 0.98);
     hull_free(&s);
     /* Half a ball is not closed. */
@@ -111,7 +111,7 @@ static void turned_and_open(void **state)
     g.faces /= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 24);
-    assert_true(hull_ambiguous_share(&s) > 0.1);
+    assert_true(hull_ambiguous_fraction(&s) > 0.1);
     hull_free(&s);
 }
 

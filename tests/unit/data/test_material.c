@@ -78,7 +78,7 @@ static void micro_modulus(void **state)
     for (int k = 0; k < SPACES; k++) {
         const int dim = space_dim(spaces[k]);
         const real section = dim == 1 ? 4e-5 : 0.37, s = 1.3e-4;
-        const struct material m = made(spaces[k], dim == 1 ? 0 : material_bond_poisson(spaces[k]));
+        const struct material m = made(spaces[k], dim == 1 ? 0 : bond_based_poisson_ratio(spaces[k]));
         const real c = material_micro_modulus_continuum(&m, spaces[k], HORIZON, section);
         real energy = 0, sigma = 0;
         for (int p = 0; p < PIECES; p++) {
@@ -98,7 +98,7 @@ static void critical_stretch(void **state)
     for (int k = 0; k < SPACES; k++) {
         const int dim = space_dim(spaces[k]);
         const real section = dim == 1 ? 4e-5 : 0.37;
-        const struct material m = made(spaces[k], dim == 1 ? 0 : material_bond_poisson(spaces[k]));
+        const struct material m = made(spaces[k], dim == 1 ? 0 : bond_based_poisson_ratio(spaces[k]));
         const real s = material_critical_stretch(&m, spaces[k], HORIZON, STRETCH_BOND);
         const real c = material_micro_modulus_continuum(&m, spaces[k], HORIZON, section);
         real energy = 0;

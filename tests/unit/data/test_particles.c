@@ -105,19 +105,19 @@ static void extent_and_sites(void **state)
     for (int i = 0; i < N; i++) p.X[0][i] = (i * 7919 % N) - 100, p.X[1][i] = 0.001 * i;
     particles_add_images(&p, 1, 0);
     p.X[0][N] = -1e6;
-    particles_extent(&p, p.n, 0, &low, &high);
+    particles_coordinate_range(&p, p.n, 0, &low, &high);
     assert_exact(low, -100);
     assert_exact(high, N - 101);
-    particles_extent(&p, p.n_all, 0, &low, &high);
+    particles_coordinate_range(&p, p.n_all, 0, &low, &high);
     assert_exact(low, -1e6);
     assert_exact(particles_longest_edge(&p), N - 1);
-    particles_extent(&p, 0, 1, &low, &high);
+    particles_coordinate_range(&p, 0, 1, &low, &high);
     assert_true(isinf(low) && isinf(high) && high < low);
     particles_free(&p);
     for (int k = -1000; k <= 1000; k++) { /* positions as a scene computes them: round-off is ignored */
-        assert_true(lattice_site(0.3 + k * 1e-3, 0.3, 1e-3, &site));
+        assert_true(lattice_contains_coordinate(0.3 + k * 1e-3, 0.3, 1e-3, &site));
         assert_exact(site, k);
-        assert_false(lattice_site(0.3 + (k + 1e-7) * 1e-3, 0.3, 1e-3, &site));
+        assert_false(lattice_contains_coordinate(0.3 + (k + 1e-7) * 1e-3, 0.3, 1e-3, &site));
     }
 }
 

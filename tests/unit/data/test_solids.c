@@ -110,7 +110,7 @@ static void check_bounds(const struct solid *s, int dim)
         for (int k = 0; k < 3000; k++) {
             for (int a = 0; a < dim; a++) X[a] = from[a] + random_next(&seed) * (to[a] - from[a]);
             X[d] = side % 2 ? to[d] + 1e-9 : from[d] - 1e-9;
-            const real level = solid_level(s, X, dim);
+            const real level = solid_level_set_value(s, X, dim);
             assert_true(level > 0);
             nearest = real_min(nearest, level);
         }
@@ -126,7 +126,7 @@ static void check_distance(const struct solid *s, int dim)
     for (int k = 0; k < 2000; k++) {
         real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0}, normal[DIM_MAX] = {0}, other[DIM_MAX] = {0};
         for (int d = 0; d < dim; d++) X[d] = 9 * random_next(&seed) - 4.5;
-        const real distance = solid_distance(s, X, dim, normal), level = solid_level(s, X, dim);
+        const real distance = solid_distance(s, X, dim, normal), level = solid_level_set_value(s, X, dim);
         assert_float_equal(dot(normal, normal, dim), 1, 1e-12);
         assert_true((level > 0) == (distance > 0));
         for (int d = 0; d < dim; d++) Y[d] = X[d] + 0.3 * (2 * random_next(&seed) - 1);
@@ -207,7 +207,7 @@ static void test_gear(void **state)
     for (int k = 0; k < 5000; k++) {
         const real r = 8 + 5 * random_next(&seed), angle = 2 * pi * random_next(&seed), turned = angle + 7 * pi / 9;
         const real X[] = {r * cos(angle), r * sin(angle), 0}, Y[] = {r * cos(turned), r * sin(turned), 0};
-        assert_float_equal(region_level(&gear, X, 2), region_level(&gear, Y, 2), 1e-13);
+        assert_float_equal(region_level_set_value(&gear, X, 2), region_level_set_value(&gear, Y, 2), 1e-13);
     }
     /* Area of a tooth beyond the wheel, by strips along it. */
     real area = pi * 100;
@@ -241,8 +241,8 @@ static void test_grid_and_mirror(void **state)
     for (int k = 0; k < 4000; k++) {
         const real X[] = {7 * random_next(&seed) - 0.5, 5 * random_next(&seed) - 0.5, 0};
         real one[DIM_MAX], other[DIM_MAX];
-        assert_float_equal(region_level(&(struct region){.n = 2, .solid = perforated}, X, 2),
-                           region_level(&(struct region){.n = 7, .solid = list}, X, 2), 1e-13);
+        assert_float_equal(region_level_set_value(&(struct region){.n = 2, .solid = perforated}, X, 2),
+                           region_level_set_value(&(struct region){.n = 7, .solid = list}, X, 2), 1e-13);
         assert_float_equal(region_distance(&(struct region){.n = 2, .solid = pair}, X, 2, one),
                            region_distance(&(struct region){.n = 3, .solid = said}, X, 2, other), 1e-13);
     }
@@ -263,8 +263,8 @@ static void check_same(const struct region *a, const struct region *b, int dim, 
         real X[DIM_MAX] = {0}, one[DIM_MAX], other[DIM_MAX];
         for (int d = 0; d < dim; d++) X[d] = 24 * random_next(&seed) - 2;
         for (int d = 0; d < dim && k % 4 == 0; d++) X[d] = nearbyint(X[d]);
-        const real level = region_level(a, X, dim), grown[] = {0, 0.4, -0.4, 2, level, -level};
-        assert_true(level == region_level(b, X, dim));
+        const real level = region_level_set_value(a, X, dim), grown[] = {0, 0.4, -0.4, 2, level, -level};
+        assert_true(level == region_level_set_value(b, X, dim));
         assert_true(region_distance(a, X, dim, one) == region_distance(b, X, dim, other));
         for (int d = 0; d < dim; d++) assert_true(one[d] == other[d]);
         for (size_t t = 0; t < COUNT_OF(grown); t++) {
@@ -406,7 +406,7 @@ static void test_mirrored_cracks(void **state)
     const struct crack crack[] = {{.n = 2, .corner = across}, {.n = 2, .corner = far}};
     const struct mirror_plane plane[] = {{.axis = 0, .outside = -1, .at = 0.3}, {.axis = 1, .outside = -1, .at = 1.9}};
     struct crack_list list;
-    cracks_mirrored(&list, crack, 2, plane, 1, 1.1, 1e-9);
+    cracks_make_mirror_images(&list, crack, 2, plane, 1, 1.1, 1e-9);
     assert_int_equal(list.n, 3);
     const real meets = 0.9 + 2.9 - 0.9 - 1; /* the crack crosses the plane x = 0.3 midway, at y = 1.9 */
     const real expected[3][2][2] = {{{0.3, meets}, {1.3, 2.9}}, {{3.2, 4}, {5, 4.7}}, {{-0.7, 2.9}, {0.3, meets}}};
@@ -415,7 +415,7 @@ static void test_mirrored_cracks(void **state)
             for (int d = 0; d < 2; d++) assert_true(fabs(list.crack[k].corner[a][d] - expected[k][a][d]) < 1e-12);
     assert_true(list.of[0] == 0 && list.of[1] == 1 && list.of[2] == 0);
     crack_list_free(&list);
-    cracks_mirrored(&list, crack, 1, plane, 2, 1.1, 1e-9);
+    cracks_make_mirror_images(&list, crack, 1, plane, 2, 1.1, 1e-9);
     assert_int_equal(list.n, 4);
     for (int k = 0; k < 4; k++) { /* ends distant from the corner of the planes, all four mirrored */
         const struct crack *c = &list.crack[k];

@@ -70,7 +70,7 @@ static void round_holes(void **state)
                 place_random(&seed, dim, fmin(7, 2.2 * radius), a), place_random(&seed, dim, fmin(7, 2.2 * radius), b);
                 for (int d = 0; d < dim; d++) a[d] += solids[1].centre[d], b[d] += solids[1].centre[d];
                 const real near = line_distance(a, b, solids[1].centre, dim);
-                const real out = fmax(region_level(&r, a, dim), region_level(&r, b, dim));
+                const real out = fmax(region_level_set_value(&r, a, dim), region_level_set_value(&r, b, dim));
                 if (fabs(near - solids[1].radius) < 2e-5 * v.spacing || out > 0) continue; /* a seam is closed */
                 const bool hides = near < solids[1].radius;
                 assert_int_equal(void_separates_points(&v, 3, a, b, &across), hides);
@@ -151,13 +151,13 @@ static void joined_and_mirrored(void **state)
 static void bits_of_particles(void **state)
 {
     (void)state;
-    struct cloud c;
+    struct plotted_particles c;
     struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .horizon = 3, .count = {11, 9}};
-    cloud_make(&c, &plan);
+    plotted_particles_make(&c, &plan);
     cloud_source(&c);
     struct particles *p = &c.p;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
-    for (int d = 0; d < 2; d++) particles_extent(p, p->n, d, &low[d], &high[d]);
+    for (int d = 0; d < 2; d++) particles_coordinate_range(p, p->n, d, &low[d], &high[d]);
     struct solid solids[2] = {{.kind = SOLID_BOX}, {.kind = SOLID_BOX, .subtract = true}};
     for (int d = 0; d < 2; d++)
         solids[0].from[d] = low[d] - 0.5 * CLOUD_SPACING, solids[0].to[d] = high[d] + 0.5 * CLOUD_SPACING;
@@ -168,7 +168,7 @@ static void bits_of_particles(void **state)
     const int body = p->body[0];
     const real reach = 3.01 * CLOUD_SPACING;
     struct voids v = {.dim = 2, .shapes = 1, .shape = &shape, .body = (int *)&body, .spacing = CLOUD_SPACING};
-    voids_find(&v, p, &c.cells, NULL, reach);
+    voids_mark_particles(&v, p, &c.cells, NULL, reach);
     int64_t near = 0;
     for (int64_t i = 0; i < p->n; i++) {
         bool hides = false;
@@ -180,14 +180,15 @@ static void bits_of_particles(void **state)
                                 p->X[0][i] + (cut + face - p->X[1][i]) / y * x};
             const bool one = fmin(at[0], at[1]) < solids[1].to[0];
             hides |= one;
-            if (voids_near(&v, i) && voids_near(&v, j)) assert_int_equal(void_separates_particles(&v, p, i, j), one);
+            if (particle_is_beside_void(&v, i) && particle_is_beside_void(&v, j))
+                assert_int_equal(void_separates_particles(&v, p, i, j), one);
         }
-        assert_int_equal(voids_near(&v, i), hides);
+        assert_int_equal(particle_is_beside_void(&v, i), hides);
         near += hides;
     }
     assert_true(near > 10);
     memory_free(v.near); /* shape and body are on the stack */
-    cloud_free(&c);
+    plotted_particles_free(&c);
 }
 
 /* ---- slits ------------------------------------------------------------------------------------------------------- */

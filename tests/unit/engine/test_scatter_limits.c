@@ -37,7 +37,7 @@ static real least_of(const struct run *e, int64_t row)
     const struct particles *p = &e->part;
     const int32_t i = e->bonds.particle[row];
     real least = INFINITY;
-    for (struct bond_iterator it = bonds_of_row(&e->bonds, row); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(&e->bonds, row); bond_next(&it);)
         if (it.bond.w != 0) least = real_min(least, 1e-3 * real_min(p->strength[i], p->strength[it.bond.nbr]));
     return least;
 }
@@ -76,7 +76,7 @@ static void check_breaks(const char *text)
         assert_ok(engine_step(&e));
         if (isnan(first) && broken_in(&e) > 0) first = e.clock.t * 400 / (1e-3 * weakest);
         for (int64_t row = 0; row < e.bonds.rows && e.clock.step % 10 == 0; row++)
-            for (struct bond_iterator it = bonds_of_row(&e.bonds, row); bond_next(&it);) {
+            for (struct bond_iterator it = bond_iterator_of_row(&e.bonds, row); bond_next(&it);) {
                 const int32_t i = e.bonds.particle[row], j = it.bond.nbr;
                 real y2 = 0;
                 for (int d = 0; d < 2; d++) y2 += square(p->x[d][j] - p->x[d][i]);

@@ -12,11 +12,11 @@
 #define HORIZON (3.015 * CLOUD_SPACING)
 
 struct stage {
-    struct cloud c;
+    struct plotted_particles c;
     struct state_modulus modulus[CLOUD_MATERIALS];
     struct growth_rule rule;
-    struct growth g;
-    struct control K;
+    struct growing_crack g;
+    struct growth_control K;
     bool ruled;
 };
 
@@ -25,8 +25,9 @@ struct stage {
 static void stage_lay(struct stage *s, enum pd_model model, bool local)
 {
     memset(s, 0, sizeof *s);
-    cloud_make(&s->c, &(struct cloud_plan){
-                          .space = SPACE_PLANE_STRAIN, .count = {24, 24}, .horizon = 3.015, .shake = 0.2, .seed = 11});
+    plotted_particles_make(
+        &s->c, &(struct cloud_plan){
+                   .space = SPACE_PLANE_STRAIN, .count = {24, 24}, .horizon = 3.015, .shake = 0.2, .seed = 11});
     for (int k = 0; k < CLOUD_MATERIALS && model != PD_BOND; k++) {
         struct material *m = &s->c.material[k];
         m->poisson = 0.3;
@@ -48,13 +49,13 @@ static void stage_lay(struct stage *s, enum pd_model model, bool local)
 static void stage_set(struct stage *s)
 {
     cloud_bonds(&s->c);
-    growth_make(&s->g, &s->rule);
+    growing_crack_make(&s->g, &s->rule);
 }
 
 static void stage_free(struct stage *s)
 {
-    growth_free(&s->g);
-    cloud_free(&s->c);
+    growing_crack_free(&s->g);
+    plotted_particles_free(&s->c);
 }
 
 static int64_t steps(struct stage *s, int from, int n)
@@ -62,7 +63,7 @@ static int64_t steps(struct stage *s, int from, int n)
     int64_t released = 0;
     for (int k = from; k < from + n; k++)
         released +=
-            growth_extend_crack(&s->g, &s->c.bonds, &s->c.p, &s->c.source, s->ruled ? &s->K : NULL, k * STEP, STEP);
+            growing_crack_advance(&s->g, &s->c.bonds, &s->c.p, &s->c.source, s->ruled ? &s->K : NULL, k * STEP, STEP);
     return released;
 }
 
@@ -119,10 +120,10 @@ static void check_weights(struct stage *s, real damping, real exponent, int64_t 
     const real advance = SPEED * STEP;
     for (int64_t row = 0; row < b->rows; row++)
         for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-            const int64_t q = bond_to_write(b, row / LANES, k, (int)(row % LANES));
+            const int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
             real X[DIM_MAX], Y[DIM_MAX];
-            particle_place(&s->c.p, b->particle[row], X);
-            particle_place(&s->c.p, b->nbr[q], Y);
+            particle_reference_position(&s->c.p, b->particle[row], X);
+            particle_reference_position(&s->c.p, b->nbr[q], Y);
             if (b->inverse_length[q] == 0) continue;
             const real length = crossed_at(&s->rule, X, Y, STEPS * advance);
             if (isnan(length)) {
@@ -276,10 +277,10 @@ static void test_rule(void **state)
     steps(&s, 0, 2);
     assert_exact(s.g.grown, 0);
     s.ruled = true;
-    s.K = (struct control){.factors.K = {0.9e6, 0}, .along = {1, 0}};
+    s.K = (struct growth_control){.factors.K = {0.9e6, 0}, .along = {1, 0}};
     steps(&s, 2, 2);
     assert_exact(s.g.grown, 0);
-    s.K = (struct control){.factors.K = {1e6, -0.2e6}, .along = {1, 0}};
+    s.K = (struct growth_control){.factors.K = {1e6, -0.2e6}, .along = {1, 0}};
     const real first = crack_kink_angle(s.K.factors.K);
     assert_true(first > 0.3 && first < 0.4);
     steps(&s, 4, 3);
@@ -301,7 +302,7 @@ static void test_smoothing(void **state)
         snprintf(s.rule.probe, sizeof s.rule.probe, "sif");
         stage_set(&s);
         s.ruled = true;
-        s.K = (struct control){.factors.K = {1e6, -0.2e6}, .along = {0.96, 0.28}};
+        s.K = (struct growth_control){.factors.K = {1e6, -0.2e6}, .along = {0.96, 0.28}};
         steps(&s, 0, 1);
         const real turned = crack_kink_angle(s.K.factors.K), share = SPEED * STEP / length[k];
         const real frame = atan2(s.g.along[1], s.g.along[0]) - atan2(0.28, 0.96);
@@ -325,7 +326,7 @@ static real follow(struct stage *s, real (*still)(real t), real delay, real end)
         seen = delay > 0 ? seen - (s->g.speed - seen) * expm1(-0.25 * STEP / delay) : s->g.speed;
         s->K.time = t;
         s->K.factors.K[MODE_I] = crack_speed_factor(&s->K.medium, SPEED_EXACT, seen) * still(t);
-        growth_extend_crack(&s->g, &s->c.bonds, &s->c.p, &s->c.source, &s->K, t, STEP / 4);
+        growing_crack_advance(&s->g, &s->c.bonds, &s->c.p, &s->c.source, &s->K, t, STEP / 4);
         fastest = real_max(fastest, s->g.speed);
     }
     return fastest;
@@ -362,7 +363,7 @@ static void test_follows(void **state)
         struct stage s;
         stage_follow(&s);
         const struct crack_medium *m = &s.K.medium;
-        const real settling = HORIZON / m->rayleigh, wanted = crack_speed_of_factor(m, 1 / 1.4, 0.9 * m->rayleigh);
+        const real settling = HORIZON / m->rayleigh, wanted = crack_speed_from_factor(m, 1 / 1.4, 0.9 * m->rayleigh);
         assert_close(crack_speed_factor(m, SPEED_EXACT, wanted), 1 / 1.4, 1e-12);
         assert_true(wanted > 0.2 * m->rayleigh && wanted < 0.5 * m->rayleigh);
         const real most = follow(&s, steady, lag * settling, 16 * settling);
@@ -393,8 +394,8 @@ static void test_follows_and_rests(void **state)
     stage_free(&s), stage_follow(&s);
     follow(&s, rising, settling, 14e-6);
     assert_near(s.g.start_time, 10e-6, 2 * STEP);
-    const real now = crack_speed_of_factor(&m, sqrt(10.0 / 14), m.rayleigh * 0.9);
-    const real before = crack_speed_of_factor(&m, sqrt(10e-6 / (14e-6 - 0.6 * settling)), m.rayleigh * 0.9);
+    const real now = crack_speed_from_factor(&m, sqrt(10.0 / 14), m.rayleigh * 0.9);
+    const real before = crack_speed_from_factor(&m, sqrt(10e-6 / (14e-6 - 0.6 * settling)), m.rayleigh * 0.9);
     assert_true(s.g.speed < now && s.g.speed > before);
     stage_free(&s);
 }
@@ -453,10 +454,11 @@ static void test_restart(void **state)
     steps(&s, 0, STEPS);
     steps(&again, 0, STEPS / 2);
     assert_true(again.g.n > 20);
-    assert_ok(growth_archive(&again.g, 3, &(struct archive){.saving = true, .exchange = exchange, .file = &drawer}));
-    growth_free(&again.g);
-    growth_make(&again.g, &again.rule);
-    assert_ok(growth_archive(&again.g, 3, &(struct archive){.exchange = exchange, .file = &drawer}));
+    assert_ok(growing_crack_save_or_load(&again.g, 3,
+                                         &(struct archive){.saving = true, .exchange = exchange, .file = &drawer}));
+    growing_crack_free(&again.g);
+    growing_crack_make(&again.g, &again.rule);
+    assert_ok(growing_crack_save_or_load(&again.g, 3, &(struct archive){.exchange = exchange, .file = &drawer}));
     steps(&again, STEPS / 2, STEPS - STEPS / 2);
     assert_memory_equal(again.c.bonds.w, s.c.bonds.w, (size_t)(s.c.bonds.columns * LANES) * sizeof(real));
     assert_memory_equal(again.c.bonds.fracture_energy, s.c.bonds.fracture_energy,

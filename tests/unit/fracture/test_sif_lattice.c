@@ -231,7 +231,7 @@ static void lattice_field(struct site_map *l, const real K[MODES])
         if (fabs(x[1]) < 1e-9) x[1] = copysign(0, l->tip.face);
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
-            crack_field(&l->tip.medium, mode, l->tip.speed, x, &f);
+            crack_tip_field(&l->tip.medium, mode, l->tip.speed, x, &f);
             for (int k = 0; k < 2; k++) {
                 sum[0][k] += K[mode] * f.displacement[k];
                 sum[1][k] += K[mode] * f.state.velocity[k];
@@ -303,7 +303,7 @@ static real exact_gradient_error(const struct site_map *l, real outer, enum crac
         const real x[2] = {d[0] * e[0] + d[1] * e[1], d[1] * e[0] - d[0] * e[1]};
         struct crack_field f[MODES];
         if (hypot(x[0], x[1]) > outer || hypot(x[0], x[1]) < 0.5 * outer) continue;
-        for (int m = 0; m < MODES; m++) crack_field(&l->tip.medium, m, 0, x, &f[m]);
+        for (int m = 0; m < MODES; m++) crack_tip_field(&l->tip.medium, m, 0, x, &f[m]);
         for (int m = 0; m < MODES; m++) sum[m] += sif_integrand(&l->tip, &c, x, &f[mode].state, &f[m].state, false);
     }
     for (int m = 0; m < MODES; m++) worst = real_max(worst, fabs(0.5 * l->tip.medium.modulus * sum[m] - K[m]));

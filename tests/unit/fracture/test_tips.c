@@ -6,7 +6,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     notched_make(&b, &t, 4);
     assert_int_equal(t.n, 1);
     assert_true(t.tip[0].from_crack);
@@ -53,7 +53,7 @@ static void tip_speed_is_the_slope_of_growth(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     real dt = 1.0 / 500;
     notched_make(&b, &t, 4 * dt);
     for (int k = 0; k <= 16; k++) {
@@ -61,7 +61,7 @@ static void tip_speed_is_the_slope_of_growth(void **state)
         tips_update(&t, &b.p, &b.c, k * dt);
         assert_true(isnan(t.tip[0].arrest_time) == (k < 2));
     }
-    const struct tip *tip = tips_longest(&t);
+    const struct crack_tip *tip = tips_longest(&t);
     assert_ptr_equal(tip, &t.tip[0]);
     assert_int_equal(t.n, 1);
     assert_int_equal(tip->particles, 10);
@@ -82,7 +82,7 @@ static void tip_speed_takes_the_steepest_window(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     notched_make(&b, &t, 4);
     int reached = 0;
     for (int k = 0; k <= 20; k++) {
@@ -99,28 +99,28 @@ static void tip_turns(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     notched_make(&b, &t, 4);
     hurt(&b, 10.5, 11.5, 0), hurt(&b, 11.5, 12.5, 0), hurt(&b, 12.5, 13.5, 0);
     tips_update(&t, &b.p, &b.c, 0);
     assert_int_equal(t.n, 1);
     assert_near(tip_angle(&t.tip[0], 2), atan2(3, 2.5) * 180 / M_PI, 1e-10);
     /* A mirror image about y = 10.5: the tip is on the upper of both branches; then on the longer one. */
-    assert_int_equal(tips_count_tied(&t), 1);
+    assert_int_equal(tips_count_longest(&t), 1);
     hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0);
     tips_update(&t, &b.p, &b.c, 1);
-    assert_int_equal(tips_count_tied(&t), 1); /* 3.9 and 2.5 */
+    assert_int_equal(tips_count_longest(&t), 1); /* 3.9 and 2.5 */
     hurt(&b, 12.5, 7.5, 0);
     tips_update(&t, &b.p, &b.c, 2);
     assert_int_equal(t.tip[0].particles, 6);
     assert_near(t.tip[0].growth, hypot(2.5, 3), ROUND_OFF);
     assert_near(t.tip[0].place[0], 12.5, ROUND_OFF);
     assert_near(t.tip[0].place[1], 13.5, ROUND_OFF);
-    assert_int_equal(tips_count_tied(&t), 2);
+    assert_int_equal(tips_count_longest(&t), 2);
     hurt(&b, 13.5, 6.5, 0);
     tips_update(&t, &b.p, &b.c, 3);
     assert_near(t.tip[0].place[1], 6.5, ROUND_OFF);
-    assert_int_equal(tips_count_tied(&t), 1); /* 5.3 and 3.9 */
+    assert_int_equal(tips_count_longest(&t), 1); /* 5.3 and 3.9 */
     notched_free(&b, &t);
 }
 
@@ -130,29 +130,29 @@ static void tips_that_tie(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     real X[2][DIM_MAX] = {{15, 10, 0}, {25, 10, 0}};
     struct crack crack = {2, X};
     notched_make(&b, &t, 4);
     tips_free(&t);
     tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
     assert_int_equal(t.n, 2);
-    assert_int_equal(tips_count_tied(&t), 0);
+    assert_int_equal(tips_count_longest(&t), 0);
     for (int k = 0; k < 4; k++)
         for (int side = -1; side <= 1; side += 2)
             hurt(&b, 25.5 + k, 10 + 0.5 * side, 0), hurt(&b, 14.5 - k, 10 + 0.5 * side, 0);
     tips_update(&t, &b.p, &b.c, 0);
     for (int k = 0; k < 2; k++) assert_near(t.tip[k].place[1], 10, ROUND_OFF);
     assert_near(fabs(t.tip[0].place[0] - 20), 8.5, ROUND_OFF);
-    assert_int_equal(tips_count_tied(&t), 2);
+    assert_int_equal(tips_count_longest(&t), 2);
     assert_ptr_equal(tips_longest(&t), &t.tip[0]);
     for (int k = 1; k < 4; k++)
         for (int side = -1; side <= 1; side += 2) hurt(&b, 28.5 + k, 10 + (0.5 + k) * side, 0);
     tips_update(&t, &b.p, &b.c, 1);
-    const struct tip *longest = tips_longest(&t);
+    const struct crack_tip *longest = tips_longest(&t);
     assert_near(longest->place[0], 31.5, ROUND_OFF);
     assert_near(longest->place[1], 13.5, ROUND_OFF); /* a damaged position, not (31.5, 10) */
-    assert_int_equal(tips_count_tied(&t), 2);
+    assert_int_equal(tips_count_longest(&t), 2);
     notched_free(&b, &t);
 }
 
@@ -169,18 +169,18 @@ static void places_of_groups(void **state)
         place[k] = (struct place){{7 + 5 * cos(angle), 3 + 5 * sin(angle)}, false};
         place[24 + k] = (struct place){{-7 + cos(angle), 3, 0.37 * k}, k < 12};
     }
-    assert_int_equal(positions_group_middle(place, 24, 2, 1.5, none, middle), 1);
+    assert_int_equal(positions_cluster_centre(place, 24, 2, 1.5, none, middle), 1);
     assert_near(hypot(middle[0] - 7, middle[1] - 3), 5, ROUND_OFF);
-    assert_int_equal(positions_group_middle(place, 24, 2, 1.2, none, middle), 24); /* their distance is 1.305 */
+    assert_int_equal(positions_cluster_centre(place, 24, 2, 1.2, none, middle), 24); /* their distance is 1.305 */
     assert_near(middle[0], 12, ROUND_OFF);
     assert_near(middle[1], 3, ROUND_OFF);
-    assert_int_equal(positions_group_middle(place, 48, 3, 1.5, none, middle), 2);
+    assert_int_equal(positions_cluster_centre(place, 48, 3, 1.5, none, middle), 2);
     assert_true(middle[0] > 1);
-    assert_int_equal(positions_group_middle(place + 24, 24, 3, 4.5, along, middle),
+    assert_int_equal(positions_cluster_centre(place + 24, 24, 3, 4.5, along, middle),
                      1); /* the mean of the twelve that count */
     assert_near(middle[2], 0.37 * 17.5, ROUND_OFF);
-    assert_int_equal(positions_group_middle(place + 24, 12, 3, 4.5, along, middle), 0);
-    assert_int_equal(positions_group_middle(place, 0, 2, 1.5, none, middle), 0);
+    assert_int_equal(positions_cluster_centre(place + 24, 12, 3, 4.5, along, middle), 0);
+    assert_int_equal(positions_cluster_centre(place, 0, 2, 1.5, none, middle), 0);
 }
 
 /* The faces of the pre-crack beside its end are part of the crack, not growth; fixed particles and those of other
@@ -189,7 +189,7 @@ static void tip_growth_leaves_out(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     notched_make(&b, &t, 4);
     hurt(&b, 9.5, 11.5, 0);
     hurt(&b, 30.5, 2.5, 0);
@@ -216,7 +216,7 @@ static void tip_joins_a_crack_ahead(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     notched_make(&b, &t, 3);
     for (int k = 0; k <= 5; k++) {
         if (k > 0) hurt(&b, 9.5 + k, 10.5, 0);
@@ -252,7 +252,7 @@ static void tip_that_only_joins(void **state)
     (void)state;
     for (int wait = 1; wait < 9; wait++) {
         struct body b;
-        struct tips t;
+        struct crack_tips t;
         notched_make(&b, &t, 3);
         for (int k = 0; k <= wait + 1; k++) {
             if (k == 0) hurt(&b, 10.5, 10.5, 0), hurt(&b, 11.5, 10.5, 0);
@@ -271,7 +271,7 @@ static void tip_of_a_front(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     body_make(&b, 3, (const int[]){12, 6, 6});
     real corner[4][DIM_MAX] = {{-1, 3, -20}, {5, 3, -20}, {5, 3, 8}, {-1, 3, 8}};
     struct crack crack = {4, corner};
@@ -294,7 +294,7 @@ static void tips_area_in_the_plane(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     const struct mirror_plane along = {.axis = 1, .outside = -1, .at = 10.5}, across = {.axis = 0, .at = 10};
     const struct tip_surroundings around = {NULL, 0, 2, 0.2}, on = {&along, 1, 2, 0.2}, beside = {&across, 1, 2, 0.2};
     notched_make(&b, &t, 4);
@@ -318,7 +318,7 @@ static void tips_area_of_a_front(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     body_make(&b, 3, (const int[]){12, 6, 6});
     real corner[4][DIM_MAX] = {{-1, 3, -20}, {5, 3, -20}, {5, 3, 20}, {-1, 3, 20}};
     struct crack crack = {4, corner};
@@ -338,7 +338,7 @@ static void tips_never_outgrow_their_list(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     body_make(&b, 2, (const int[]){40, 20});
     tips_make(&t, &b.p, &b.c, NULL, 0, 1, 4);
     for (int i = 0; i < 13; i++)
@@ -355,7 +355,7 @@ static void tips_survive_a_restart(void **state)
 {
     (void)state;
     struct body b, fresh;
-    struct tips t, again;
+    struct crack_tips t, again;
     struct store s = {0};
     struct archive a = {true, store_exchange, NULL, &s};
     notched_make(&b, &t, 3);
@@ -363,10 +363,10 @@ static void tips_survive_a_restart(void **state)
         hurt(&b, 10.5 + k, 10.5, 0);
         tips_update(&t, &b.p, &b.c, k);
     }
-    assert_ok(tips_archive(&t, &a));
+    assert_ok(tips_save_or_load(&t, &a));
     a.saving = false;
     notched_make(&fresh, &again, 3);
-    assert_ok(tips_archive(&again, &a));
+    assert_ok(tips_save_or_load(&again, &a));
     for (int k = 6; k < 12; k++) {
         hurt(&b, 10.5 + k, 10.5, 0);
         tips_update(&t, &b.p, &b.c, k);

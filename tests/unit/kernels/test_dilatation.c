@@ -20,7 +20,7 @@
 /* A cloud of material points on a grid whose cells are `edge` spacings long. The materials have stress = STIFF strain,
  * component by component. */
 struct setting {
-    struct cloud c;
+    struct plotted_particles c;
     struct grid g;
     struct transfer_order order;
     struct partial_stress none;
@@ -49,16 +49,16 @@ static void setting_make(struct setting *s, int dim, enum shape shape, enum tran
                               .shake = 0.3,
                               .seed = 8,
                               .optional = optional};
-    cloud_make(&s->c, &plan);
+    plotted_particles_make(&s->c, &plan);
     struct particles *p = &s->c.p;
     for (int64_t i = 0; i < p->n; i++) {
         p->kind[i] = KIND_MPM;
-        for (int c = 0; c < symmetric_count(dim); c++) p->stress[c][i] = cloud_between(&seed, -1e8, 1e8);
+        for (int c = 0; c < symmetric_component_count(dim); c++) p->stress[c][i] = cloud_between(&seed, -1e8, 1e8);
     }
     particles_update_lists(p);
     s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING, .anchor = {0.37e-3, 0.11e-3, 0.23e-3}};
     if (crowded) setting_crowd(s);
-    for (int d = 0; d < dim; d++) particles_extent(p, p->n, d, &from[d], &to[d]);
+    for (int d = 0; d < dim; d++) particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
     assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
     for (int m = 0; m < CLOUD_MATERIALS; m++)
         s->elastic[m] =
@@ -77,7 +77,7 @@ static void setting_free(struct setting *s)
 {
     transfer_order_free(&s->order);
     grid_free(&s->g);
-    cloud_free(&s->c);
+    plotted_particles_free(&s->c);
 }
 
 /* Moves the points by the nodal velocities in g->velocity times `sign`, and stores half the difference of both signs
@@ -93,7 +93,7 @@ static void strain_rates(struct setting *s, enum shape shape, enum transfer tran
         g2p_table[p.dim][shape][transfer](&s->g, &p, &s->t);
         for (int d = 0; d < p.dim; d++)
             for (int64_t I = 0; I < s->g.n; I++) s->g.velocity[d][I] *= sign;
-        for (int c = 0; c < symmetric_count(p.dim); c++)
+        for (int c = 0; c < symmetric_component_count(p.dim); c++)
             for (int64_t i = 0; i < p.n; i++)
                 rate[c][i] += sign * (p.stress[c][i] - s->c.p.stress[c][i]) / (2 * STIFF * STEP);
         particles_free(&p);
@@ -118,14 +118,14 @@ static real adjoint(int dim, enum shape shape, enum transfer transfer, bool crow
             s.g.velocity[d][I] = cloud_between(&seed, -1, 1);
             given -= s.g.force[d][I] * s.g.velocity[d][I];
         }
-    for (int c = 0; c < symmetric_count(dim); c++) rate[c] = NEW("test.rate", p->n, real);
+    for (int c = 0; c < symmetric_component_count(dim); c++) rate[c] = NEW("test.rate", p->n, real);
     strain_rates(&s, shape, transfer, rate);
-    for (int c = 0; c < symmetric_count(dim); c++)
+    for (int c = 0; c < symmetric_component_count(dim); c++)
         for (int64_t i = 0; i < p->n; i++) {
             const real power = p->volume[i] * p->stress[c][i] * rate[c][i] * (c < dim ? 1 : 2);
             taken += power, size += fabs(power);
         }
-    for (int c = 0; c < symmetric_count(dim); c++) memory_free(rate[c]);
+    for (int c = 0; c < symmetric_component_count(dim); c++) memory_free(rate[c]);
     setting_free(&s);
     assert_true(fabs(given - taken) <= 1e-12 * size);
     return given / size;
@@ -151,7 +151,7 @@ static void test_uniform(void **state)
         struct setting s;
         real *rate[SYM_MAX];
         setting_make(&s, dim, SHAPE_LINEAR, TRANSFER_FLIP, false);
-        for (int c = 0; c < symmetric_count(dim); c++) {
+        for (int c = 0; c < symmetric_component_count(dim); c++) {
             rate[c] = NEW("test.rate", s.c.p.n, real);
             for (int64_t i = 0; i < s.c.p.n; i++) s.c.p.stress[c][i] = 0;
         }
@@ -167,7 +167,7 @@ static void test_uniform(void **state)
         strain_rates(&s, SHAPE_LINEAR, TRANSFER_FLIP, rate);
         for (int64_t i = 0; i < s.c.p.n; i++)
             for (int d = 0; d < dim; d++) assert_true(fabs(rate[d][i] - L[d][d]) <= 1e-11 * 700);
-        for (int c = 0; c < symmetric_count(dim); c++) memory_free(rate[c]);
+        for (int c = 0; c < symmetric_component_count(dim); c++) memory_free(rate[c]);
         setting_free(&s);
     }
 }

@@ -20,14 +20,14 @@ static void test_functions(void **state)
     for (int k = 0; k < 200000; k++) {
         const real exponent = cloud_between(&seed, -690, 690), near = 1 + cloud_between(&seed, -0.4, 0.4);
         const real a = exp(exponent), b = cloud_between(&seed, 0.1, 1), base = exp(cloud_between(&seed, -20, 2));
-        assert_close(lanes_log(lanes_of(a))[0], logl(a), 6e-16);
-        assert_close(lanes_log(lanes_of(near))[3], logl(near), 6e-16);
-        assert_close(lanes_exp(lanes_of(exponent))[1], expl(exponent), 3e-16);
-        assert_close(lanes_power(lanes_of(base), b)[2], powl(base, b), 3e-16 + 6e-16 * fabs(b * log(base)));
+        assert_close(lanes_log(lanes_broadcast(a))[0], logl(a), 6e-16);
+        assert_close(lanes_log(lanes_broadcast(near))[3], logl(near), 6e-16);
+        assert_close(lanes_exp(lanes_broadcast(exponent))[1], expl(exponent), 3e-16);
+        assert_close(lanes_power(lanes_broadcast(base), b)[2], powl(base, b), 3e-16 + 6e-16 * fabs(b * log(base)));
     }
-    assert_exact(lanes_log(lanes_of(1))[0], 0);
-    assert_exact(lanes_exp(lanes_of(0))[0], 1);
-    assert_exact(lanes_power(lanes_of(0), 0.1)[0], 0);
+    assert_exact(lanes_log(lanes_broadcast(1))[0], 0);
+    assert_exact(lanes_exp(lanes_broadcast(0))[0], 1);
+    assert_exact(lanes_power(lanes_broadcast(0), 0.1)[0], 0);
 }
 
 /* Stress, slope (central difference), work (Simpson's rule) and reach of each law at random strains. */
@@ -41,15 +41,17 @@ static void test_flow_laws(void **state)
             const real a = exp(cloud_between(&seed, -9, 0)), rate = exp(cloud_between(&seed, -3, 12));
             const real T = cloud_between(&seed, 200, 1300), step = 1e-5 * a;
             lanes slope;
-            const lanes stress = flow_stress(&m, lanes_of(a), lanes_of(rate), lanes_of(T), &slope);
+            const lanes stress = flow_stress(&m, lanes_broadcast(a), lanes_broadcast(rate), lanes_broadcast(T), &slope);
             assert_close(stress[5], reference_stress(&m, a, rate, T), 5e-15);
             const real rise = reference_stress(&m, a + step, rate, T) - reference_stress(&m, a - step, rate, T);
             const bool kink = flow == FLOW_TABLE && (fabs(a - 0.01) <= step || fabs(a - 0.05) <= step);
             if (!kink) assert_near(slope[2], rise / (2 * step), 1e-8 * stress[0] / a + 1e-9 * slope[2]);
-            const real reach = flow_reach(&m, stress, lanes_of(rate), lanes_of(T))[1];
+            const real reach = flow_strain_bound(&m, stress, lanes_broadcast(rate), lanes_broadcast(T))[1];
             assert_true(reach >= a * (1 - 1e-12)); /* powers 1/n of roundings */
-            const lanes upper = flow_work(&m, lanes_of(a + step), lanes_of(rate), lanes_of(T));
-            const lanes lower = flow_work(&m, lanes_of(a - step), lanes_of(rate), lanes_of(T));
+            const lanes upper =
+                flow_stress_integral(&m, lanes_broadcast(a + step), lanes_broadcast(rate), lanes_broadcast(T));
+            const lanes lower =
+                flow_stress_integral(&m, lanes_broadcast(a - step), lanes_broadcast(rate), lanes_broadcast(T));
             const real mean = (reference_stress(&m, a + step, rate, T) + 4 * reference_stress(&m, a, rate, T) +
                                reference_stress(&m, a - step, rate, T)) /
                               6;
@@ -84,8 +86,8 @@ static void compare(const struct law *m, enum space space, uint64_t *seed)
     struct law_points eight = laws_points_at_rest();
     const real rate = exp(cloud_between(seed, -3, 12)), T = cloud_between(seed, 294, 900);
     const real size = fabs(p.s[0]) + fabs(p.s[1]) + fabs(p.s[2]) + fabs(p.s[3]) + m->yield;
-    for (int c = 0; c < SYM_MAX; c++) eight.s[c] = lanes_of(p.s[c]), eight.back[c] = lanes_of(p.back[c]);
-    eight.a = lanes_of(p.a), eight.rate = lanes_of(rate), eight.temperature = lanes_of(T);
+    for (int c = 0; c < SYM_MAX; c++) eight.s[c] = lanes_broadcast(p.s[c]), eight.back[c] = lanes_broadcast(p.back[c]);
+    eight.a = lanes_broadcast(p.a), eight.rate = lanes_broadcast(rate), eight.temperature = lanes_broadcast(T);
     eight.active[6] = 0;
     for (int c = 0; c < SYM_MAX; c++) eight.s[c][4] = eight.back[c][4] = 0;
     const struct law_points before = eight;
@@ -171,7 +173,7 @@ static void test_path_energy(void **state)
                 struct law_points p = laws_points_at_rest();
                 if (kinematic > 0) m.kinematic.modulus = 40e9;
                 if (kinematic > 1) m.kinematic.recall = 300;
-                p.rate = lanes_of(0);
+                p.rate = lanes_broadcast(0);
                 for (int k = 0; k < 6; k++) {
                     const struct law_points start = p;
                     const real size = 3e-4 * exp(cloud_between(&seed, 0, 4.6));

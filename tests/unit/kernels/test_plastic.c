@@ -54,10 +54,10 @@ static real step(struct point *p, const struct elastic *m, const real *L)
 {
     const int dim = space_dim(m->space);
     const struct elastic_points constants = {
-        .c11 = points_of(m->c11), .c12 = points_of(m->c12), .shear = points_of(m->shear)};
+        .c11 = points_broadcast(m->c11), .c12 = points_broadcast(m->c12), .shear = points_broadcast(m->shear)};
     row_of_points stress[SYM_MAX], gradient[DIM_MAX * DIM_MAX];
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = points_of(p->s[c]);
-    for (int k = 0; k < dim * dim; k++) gradient[k] = points_of(L[k]);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = points_broadcast(p->s[c]);
+    for (int k = 0; k < dim * dim; k++) gradient[k] = points_broadcast(L[k]);
     stress_update(stress, gradient, &constants, 1, dim);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) p->s[c] = stress[c][0];
     const real more = plastic_return(m, p->s, p->a, &p->zz);
@@ -122,7 +122,7 @@ static void check_return(const struct elastic *m, const struct point *trial, con
     const real mean = (after[0] + after[1] + after[2]) / 3;
     /* Under a pressure of `size` the direction of a deviator q is known to their ratio in roundings. */
     const real slack = CLOSE * size + 1e-15 * size / q * more;
-    const int n = symmetric_count(space_dim(m->space));
+    const int n = symmetric_component_count(space_dim(m->space));
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
     for (int c = 0; c < n; c++) {
         const int k = place[space_dim(m->space)][c];
@@ -145,7 +145,7 @@ static void test_conditions(void **state)
             for (int n = 0; n < 2000; n++) {
                 struct point trial = {.a = n % 2 ? cloud_between(&seed, 0, 0.01) : 0};
                 const real size = YIELD * pow(10, cloud_between(&seed, -1, 6));
-                for (int c = 0; c < symmetric_count(space_dim(spaces[s])); c++)
+                for (int c = 0; c < symmetric_component_count(space_dim(spaces[s])); c++)
                     trial.s[c] = size * cloud_between(&seed, -1, 1) * pow(10, -cloud_between(&seed, 0, 3) * (n % 3));
                 if (spaces[s] == SPACE_PLANE_STRAIN) trial.zz = YIELD * cloud_between(&seed, -1, 1);
                 struct point p = trial;
@@ -215,13 +215,13 @@ static void test_rotation_by_series(void **state)
     for (int dim = 2; dim <= 3; dim++)
         for (size_t k = 0; k < COUNT_OF(angle); k++)
             for (int times = 0; times < 100; times++) {
-                const int n = symmetric_count(dim);
+                const int n = symmetric_component_count(dim);
                 real s[SYM_MAX], axis[3] = {1}, size = 0;
                 row_of_points turned[SYM_MAX], w[3];
                 for (int c = 0; c < 3 && dim == 3; c++) axis[c] = cloud_between(&seed, -1, 1);
                 for (int c = 0; c < 3; c++) size += square(axis[c]);
-                for (int c = 0; c < 3; c++) axis[c] *= angle[k] / sqrt(size), w[c] = points_of(axis[c]);
-                for (int c = 0; c < n; c++) turned[c] = points_of(s[c] = cloud_between(&seed, -1, 1));
+                for (int c = 0; c < 3; c++) axis[c] *= angle[k] / sqrt(size), w[c] = points_broadcast(axis[c]);
+                for (int c = 0; c < n; c++) turned[c] = points_broadcast(s[c] = cloud_between(&seed, -1, 1));
                 stress_rotate(turned, w, dim);
                 if (dim == 2)
                     stress_rotate_2d(s, axis[0]);
@@ -399,7 +399,7 @@ static real balance_energy(const struct point *p, const struct material *m, enum
     const int dim = space_dim(space);
     struct particles body;
     particles_make(&body, dim, 1, WITH_PLASTIC | (space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0));
-    for (int c = 0; c < symmetric_count(dim); c++) body.stress[c][0] = p->s[c];
+    for (int c = 0; c < symmetric_component_count(dim); c++) body.stress[c][0] = p->s[c];
     body.volume[0] = 1, body.plastic_strain[0] = p->a;
     if (body.out_of_plane) body.out_of_plane[0] = p->zz;
     const real energy = points_strain_energy(&body, m, partial) + points_plastic_work(&body, m, partial);
@@ -415,7 +415,7 @@ static void test_work_is_booked(void **state)
     (void)state;
     static const real whole[2][9] = {{4, 1, 0, 3, -2, 1, 0, 2, 1}, {-2, 1, 0, -2, 0.5, -1, 1, 0, 1}};
     for (int s = 0; s < 4; s++) {
-        const int dim = space_dim(spaces[s]), n = symmetric_count(dim), steps = 2000;
+        const int dim = space_dim(spaces[s]), n = symmetric_component_count(dim), steps = 2000;
         const struct material given = material(spaces[s], 0.3, 0.2);
         const struct elastic m = constants(&given, spaces[s]);
         struct point p = {.a = 0};

@@ -86,7 +86,7 @@ static void check_slopes(struct points *s, enum shape shape, enum transfer trans
         {{0}}, {{0}}, {{0, 2}, {2, 1}}, {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
     const int dim = s->p.dim;
     for (int64_t i = 0; i < POINTS; i++)
-        for (int c = 0; c < symmetric_count(dim); c++) {
+        for (int c = 0; c < symmetric_component_count(dim); c++) {
             s->p.stress[c][i] = 1;
             grid_clear(&s->g);
             p2g_table[dim][shape][transfer](&s->g, &s->p, &s->t);

@@ -10,7 +10,7 @@
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
 struct body {
-    struct cloud c;
+    struct plotted_particles c;
     struct state_modulus modulus[CLOUD_MATERIALS];
     enum pd_model model;
 };
@@ -21,7 +21,7 @@ static void body_make(struct body *b, const struct cloud_plan *plan, enum pd_mod
     const bool rotates = model == PD_MOSPD;
     memset(b, 0, sizeof *b);
     b->model = model;
-    cloud_make(&b->c, plan);
+    plotted_particles_make(&b->c, plan);
     for (int k = 0; k < CLOUD_MATERIALS; k++) {
         struct material *m = &b->c.material[k];
         m->poisson = poisson;
@@ -96,7 +96,7 @@ static real patch_ratio(struct body *b, const int *count, enum patch_load load, 
         real f2 = 0, work = 0;
         static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 2}, column[SYM_MAX] = {0, 1, 2, 1, 2, 0};
         for (int d = 0; d < dim; d++) f2 += square(p->f[d][i]);
-        for (int s = 0; s < symmetric_count(dim); s++) {
+        for (int s = 0; s < symmetric_component_count(dim); s++) {
             int a = s < dim ? s : row[3 + s - dim], c = s < dim ? s : column[3 + s - dim];
             work += 0.5 * p->stress[s][i] * (s < dim ? strain[a][c] : strain[a][c] + strain[c][a]);
         }
@@ -118,8 +118,9 @@ static void check_quarter_turn(struct body *b)
     cloud_strain(&b->c, (const real(*)[DIM_MAX])strain);
     force(b);
     state_stress_table[dim][b->model](&b->c.bonds, p);
-    real *before = NEW("test.stress", p->n * symmetric_count(dim), real);
-    for (int c = 0; c < symmetric_count(dim); c++) memcpy(before + c * p->n, p->stress[c], (size_t)p->n * sizeof(real));
+    real *before = NEW("test.stress", p->n * symmetric_component_count(dim), real);
+    for (int c = 0; c < symmetric_component_count(dim); c++)
+        memcpy(before + c * p->n, p->stress[c], (size_t)p->n * sizeof(real));
     for (int64_t i = 0; i < p->n_all; i++) {
         const real x = p->x[0][i];
         p->x[0][i] = -p->x[1][i], p->x[1][i] = x;
@@ -159,7 +160,7 @@ static void test_ospd_plane_stress(void **state)
             cloud_bonds(&b.c);
             assert_near(patch_ratio(&b, count, (enum patch_load)load, SPACE_PLANE_STRESS), want[k].ratio[load],
                         load == DILATATION ? 1e-5 : 6e-4);
-            cloud_free(&b.c);
+            plotted_particles_free(&b.c);
         }
 }
 
@@ -184,7 +185,7 @@ static void test_mospd_exact(void **state)
                               PD_MOSPD, poisson[k], local);
                     cloud_bonds(&b.c);
                     assert_near(patch_ratio(&b, count, (enum patch_load)load, spaces[s]), 1, 1e-5);
-                    cloud_free(&b.c);
+                    plotted_particles_free(&b.c);
                 }
 }
 
@@ -201,7 +202,7 @@ static void test_turned_stress(void **state)
                       rotates ? PD_MOSPD : PD_OSPD, 0.3, true);
             cloud_bonds(&b.c);
             check_quarter_turn(&b);
-            cloud_free(&b.c);
+            plotted_particles_free(&b.c);
         }
 }
 
@@ -253,7 +254,7 @@ static void test_ospd_spaces(void **state)
                     assert_near(ratio, load == UNIAXIAL ? 0.94 : 1.10, 0.015);
                 else if (spaces[s] == SPACE_PLANE_STRESS && poisson[k] == 0.3)
                     assert_near(ratio, load == UNIAXIAL ? 1.012 : 0.965, 6e-4);
-                cloud_free(&b.c);
+                plotted_particles_free(&b.c);
             }
 }
 
@@ -324,7 +325,7 @@ static void gradient_case(enum space space, enum pd_model model, bool local)
             assert_near(kept[d][i], -(above - below) / (2 * h), 2e-6 * largest);
         }
     for (int d = 0; d < dim; d++) memory_free(kept[d]);
-    cloud_free(&b.c);
+    plotted_particles_free(&b.c);
 }
 
 static void test_gradient(void **state)
@@ -360,7 +361,7 @@ static void test_rotation(void **state)
                     for (int64_t i = 0; i < p->n; i++)
                         assert_near(p->f[d][i], 0,
                                     1e-12 * 200e9 * pow(CLOUD_SPACING, p->dim - 1) * (solid ? 1 : 2e-3) * 10);
-                cloud_free(&b.c);
+                plotted_particles_free(&b.c);
             }
 }
 
@@ -386,7 +387,7 @@ static void test_volumes(void **state)
             Q[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[i]];
             corner[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[0]];
             if (local) assert_close(Q[1], state_intact_weighted_volume(&b.c.bonds, b.c.bonds.row_of[i]), 1e-6);
-            cloud_free(&b.c);
+            plotted_particles_free(&b.c);
         }
         assert_close(Q[0], Q[1], 1e-6);
         assert_close(corner[0], Q[1], 1e-6);
@@ -412,7 +413,7 @@ static void test_volumes_at_faces(void **state)
     assert_true(b.c.source.surface && b.c.surface.class_of[0] > 0);
     const real Q = bonds->state.weighted[bonds->row_of[0]];
     assert_close(Q, 1.37 * bonds->state.weighted[bonds->row_of[8]], 1e-12);
-    cloud_free(&b.c);
+    plotted_particles_free(&b.c);
 }
 
 /* ---- critical step ----------------------------------------------------------------------------------------------- */
@@ -440,7 +441,7 @@ static void test_critical_step(void **state)
         const real light = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000 * 0x1p-80,
                                                     (real[]){1, 1}, NULL);
         assert_close(light, step * 0x1p-40, 1e-12);
-        cloud_free(&b.c);
+        plotted_particles_free(&b.c);
     }
 }
 

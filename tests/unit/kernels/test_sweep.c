@@ -19,7 +19,7 @@ static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_P
 static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 61}};
 
 struct body {
-    struct cloud c;
+    struct plotted_particles c;
     struct state_modulus modulus[CLOUD_MATERIALS];
     uint8_t *loaded;
 };
@@ -40,7 +40,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
     uint64_t seed = 77 + (uint64_t)way;
     memcpy(plan.count, count_of[dim], sizeof plan.count);
     plan.optional = model >= PD_OSPD ? WITH_ENDS | (model == PD_MOSPD ? WITH_ROTATIONS : 0) : 0;
-    cloud_make(&b->c, &plan);
+    plotted_particles_make(&b->c, &plan);
     struct particles *p = &b->c.p;
     b->loaded = NEW("test.loaded", p->n + LANES, uint8_t);
     for (int64_t i = 0; i < p->n; i++) {
@@ -65,7 +65,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
 static void body_free(struct body *b)
 {
     memory_free(b->loaded);
-    cloud_free(&b->c);
+    plotted_particles_free(&b->c);
 }
 
 /* Returns the motion after the step, in which dt v is some hundredths of a spacing. */

@@ -22,7 +22,7 @@
 /* ---- points on a grid -------------------------------------------------------------------------------------------- */
 
 struct scene {
-    struct cloud c;
+    struct plotted_particles c;
     struct grid g;
     struct transfer_order order;
     struct partial_stress partial;
@@ -39,7 +39,7 @@ struct choice {
 static void random_state(struct scene *s, uint64_t *seed, real spin)
 {
     struct particles *p = &s->c.p;
-    const int n = symmetric_count(s->dim);
+    const int n = symmetric_component_count(s->dim);
     for (int64_t i = 0; i < p->n; i++) {
         p->kind[i] = cloud_random(seed) < 0.2 ? KIND_PD : KIND_MPM;
         p->material[i] = cloud_random(seed) < 0.3;
@@ -59,7 +59,7 @@ static void random_state(struct scene *s, uint64_t *seed, real spin)
 /* Gives every second point a random partial stress, which it leaves to bonds. */
 static void random_partial(struct scene *s, uint64_t *seed)
 {
-    const int64_t size = square(symmetric_count(s->dim));
+    const int64_t size = square(symmetric_component_count(s->dim));
     s->partial.index = NEW("test.index", s->c.p.n, int32_t);
     s->partial.matrix = NEW("test.matrix", s->c.p.n * size, real);
     for (int64_t i = 0; i < s->c.p.n; i++) s->partial.index[i] = i % 2 ? (int32_t)s->partial.entries++ : -1;
@@ -104,7 +104,7 @@ static void scene_make(struct scene *s, const struct choice *k, real spin)
                   (k->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0);
     struct cloud_plan plan = {.space = space[k->dim], .horizon = 3, .shake = 0.3, .seed = 8, .optional = s->optional};
     memcpy(plan.count, count[k->dim], sizeof plan.count);
-    cloud_make(&s->c, &plan);
+    plotted_particles_make(&s->c, &plan);
     random_state(s, &seed, spin);
     random_partial(s, &seed);
     scene_grid(s);
@@ -129,7 +129,7 @@ static void scene_free(struct scene *s)
     memory_free(s->partial.matrix);
     transfer_order_free(&s->order);
     grid_free(&s->g);
-    cloud_free(&s->c);
+    plotted_particles_free(&s->c);
 }
 
 /* Performs a step of the kernels, as the time loop does. */
@@ -139,7 +139,7 @@ static int64_t scene_step(struct scene *s, const struct choice *k, real *impulse
     kernels_choose(&kernel, k->dim, PD_BOND, (enum shape)k->shape, (enum transfer)k->transfer);
     grid_clear(&s->g);
     kernel.p2g(&s->g, &s->c.p, &s->t);
-    grid_move(&s->g, (enum transfer)k->transfer, s->t.dt_velocity, s->smallest_mass, impulse, work);
+    grid_move_nodes(&s->g, (enum transfer)k->transfer, s->t.dt_velocity, s->smallest_mass, impulse, work);
     if (k->transfer == TRANSFER_FLIP) {
         kernel.remap(&s->g, &s->c.p, &s->t);
         grid_remapped(&s->g, s->smallest_mass);
@@ -198,7 +198,7 @@ static int64_t marks(const struct scene *s, struct particles *expected, const st
         real stress[SYM_MAX];
         bool moved = false;
         if (expected->kind[i] != KIND_MPM) continue;
-        for (int a = 0; a < symmetric_count(s->dim); a++) stress[a] = expected->stress[a][i];
+        for (int a = 0; a < symmetric_component_count(s->dim); a++) stress[a] = expected->stress[a][i];
         real largest = reference_principal(stress, s->dim), trigger = s->elastic[expected->material[i]].trigger;
         assert_true(fabs(largest - trigger) > 1e-9 * trigger); /* no tie that round-off could decide */
         if (largest > trigger) expected->flag[i] |= FLAG_STRESSED;
@@ -251,7 +251,7 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
     check_fields(s.g.momentum, r.momentum, s.dim, s.g.n);
     check_fields(s.g.force, r.force, s.dim, s.g.n);
 
-    grid_move(&s.g, (enum transfer)k->transfer, s.t.dt_velocity, s.smallest_mass, impulse, &work);
+    grid_move_nodes(&s.g, (enum transfer)k->transfer, s.t.dt_velocity, s.smallest_mass, impulse, &work);
     reference_move(&r);
     check_motion(&s, s.g.velocity, r.velocity);
     check_motion(&s, s.g.force, r.change);
@@ -369,7 +369,7 @@ static void linear_field(const struct choice *k)
     for (int64_t i = 0; i < p->n; i++)
         for (int a = 0; a < s.dim; a++) {
             p->v[a][i] = 2, p->f[a][i] = 0;
-            for (int c = 0; c < symmetric_count(s.dim); c++) p->stress[c][i] = 0;
+            for (int c = 0; c < symmetric_component_count(s.dim); c++) p->stress[c][i] = 0;
             for (int b = 0; b < s.dim; b++) {
                 p->v[a][i] += gradient[a][b] * p->x[b][i];
                 p->gradient[a * s.dim + b][i] = gradient[a][b];
@@ -405,7 +405,7 @@ static void test_rotation(void **state)
             for (int64_t i = 0; i < p->n; i++) {
                 for (int d = 0; d < dim; d++) p->v[d][i] = p->f[d][i] = 0;
                 for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = 0;
-                for (int c = 0; c < symmetric_count(dim); c++) p->stress[c][i] = 0;
+                for (int c = 0; c < symmetric_component_count(dim); c++) p->stress[c][i] = 0;
                 p->stress[0][i] = 1e8;
                 const real rotation = angle / s.t.dt, inwards = -0.5 * angle * rotation;
                 p->gradient[0][i] = p->gradient[dim + 1][i] = inwards;
@@ -458,7 +458,7 @@ static bool check_yielded(const struct scene *s, const struct particles *elastic
 {
     const struct particles *p = &s->c.p;
     const struct elastic *m = &s->elastic[p->material[i]];
-    const int n = symmetric_count(s->dim);
+    const int n = symmetric_component_count(s->dim);
     real stress[SYM_MAX], none = 0;
     for (int c = 0; c < n; c++) stress[c] = elastic->stress[c][i];
     const real more = m->yield > 0 ? plastic_return(m, stress, strain, &none) : 0;

@@ -14,10 +14,10 @@
 #define CLOSE 1e-12
 
 struct scene {
-    struct cloud c;
+    struct plotted_particles c;
     struct grid g;
     struct transfer_order order;
-    struct turning_groups turning;
+    struct rotation_groups turning;
     struct transfer_data t;
     uint64_t seed;
     int dim, shape;
@@ -38,7 +38,7 @@ static void scene_make(struct scene *s, int dim, int shape)
     real from[DIM_MAX], to[DIM_MAX];
     *s = (struct scene){.seed = 31, .dim = dim, .shape = shape};
     memcpy(plan.count, count[dim], sizeof plan.count);
-    cloud_make(&s->c, &plan);
+    plotted_particles_make(&s->c, &plan);
     struct particles *p = &s->c.p;
     for (int64_t i = 0; i < p->n; i++) {
         p->body[i] = p->X[0][i] > 8.3 * CLOUD_SPACING;
@@ -49,11 +49,11 @@ static void scene_make(struct scene *s, int dim, int shape)
     s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING};
     for (int d = 0; d < dim; d++) {
         s->g.anchor[d] = (3.17 + d) * CLOUD_SPACING;
-        particles_extent(p, p->n, d, &from[d], &to[d]);
+        particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
     }
     assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
     transfer_order_sort(&s->order, p, p->list_free, p->n_free, &s->g);
-    turning_make(&s->turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0.0035}, one, held);
+    rotation_groups_make(&s->turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0.0035}, one, held);
     s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-14, .dt_velocity = 1};
     struct partial_stress none = {0};
     struct elastic elastic[CLOUD_MATERIALS] = {{0}};
@@ -66,10 +66,10 @@ static void scene_make(struct scene *s, int dim, int shape)
 
 static void scene_free(struct scene *s)
 {
-    turning_free(&s->turning);
+    rotation_groups_free(&s->turning);
     transfer_order_free(&s->order);
     grid_free(&s->g);
-    cloud_free(&s->c);
+    plotted_particles_free(&s->c);
 }
 
 static void node_place(const struct grid *g, int64_t I, real *x)
@@ -102,15 +102,15 @@ static void gather(struct scene *s)
 {
     for (int64_t I = 0; I < s->g.n; I++)
         for (int d = 0; d < s->dim; d++) s->g.force[d][I] = s->g.mass[I] > 0 ? cloud_between(&s->seed, -2, 1) : 0;
-    turning_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
+    rotation_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
     turn_gather_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
-    turning_restore_spins(&s->turning, &s->c.p);
+    rotation_groups_restore_spins(&s->turning, &s->c.p);
 }
 
 /* Computes the nodal velocities of the second map for unchanged points. */
 static void scatter(struct scene *s)
 {
-    turning_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
+    rotation_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
     for (int d = 0; d < s->dim; d++) array_fill_bytes(s->g.momentum[d], 0, s->g.n, sizeof(real));
     turn_scatter_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
     for (int d = 0; d < s->dim; d++)
@@ -206,10 +206,10 @@ static void test_groups(void **state)
     struct particles *p = &s.c.p;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->body[i] == 0 || i == p->n - 1 ? KIND_MPM : KIND_PD;
     particles_update_lists(p);
-    turning_compute_spins(&s.turning, p, CLOUD_SPACING);
+    rotation_groups_compute_spins(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) s.turning.turn[2][k] = 1e-9;
     const real alone = p->v[1][p->n - 1];
-    turning_restore_spins(&s.turning, p);
+    rotation_groups_restore_spins(&s.turning, p);
     assert_true(p->v[1][p->n - 1] == alone);
     for (int32_t g = 0; g < s.turning.groups; g++) {
         const struct turning_group *own = &s.turning.group[g], *root = &s.turning.group[own->root];
@@ -231,16 +231,16 @@ static void test_held(void **state)
         for (int k = 0; k < 4; k++) beside += s.turning.group[g].near[k] >= 0;
         assert_true(beside > 0);
     }
-    turning_make(&s.turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0}, (const int[]){0, 0},
-                 (const bool[]){true, false});
+    rotation_groups_make(&s.turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0}, (const int[]){0, 0},
+                         (const bool[]){true, false});
     real *before = BARE("test.before", p->n, real);
     array_copy(before, p->v[1], p->n, sizeof(real));
-    turning_compute_spins(&s.turning, p, CLOUD_SPACING);
+    rotation_groups_compute_spins(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) {
         assert_true(p->kind[k] != KIND_MPM || s.turning.turn[2][k] == 0);
         s.turning.turn[2][k] = 1e-6;
     }
-    turning_restore_spins(&s.turning, p);
+    rotation_groups_restore_spins(&s.turning, p);
     assert_true(arrays_equal(before, p->v[1], p->n, sizeof(real)));
     memory_free(before);
     scene_free(&s);

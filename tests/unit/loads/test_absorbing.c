@@ -30,14 +30,14 @@ static void test_kick(void **state)
     const struct impedance *const all[MOVERS] = {
         [MOVED_BY_BONDS] = bond, [MOVED_BY_GRID] = other, [MOVED_BY_MESH] = other};
     const real dt = 1e-6, area = CLOUD_SPACING * 2e-3;
-    struct cloud c;
+    struct plotted_particles c;
     struct loads l;
     real taken = 0, kick = 0, impulse[2] = {0};
-    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {5, 4}, .horizon = 3});
+    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {5, 4}, .horizon = 3});
     struct particles *p = &c.p;
     for (int64_t i = 0; i < p->n; i++) p->material[i] = i % 3 == 0;
     assert_ok(loads_make(&l, row, 2, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
-    loads_absorbing_make(&l, p, all);
+    absorbing_dashpots_make(&l, p, all);
     assert_int_equal(l.absorbing.n, 5 * 2 + 4 * 2 - 4); /* two layers deep, for nodes */
     real right = -INFINITY, top = -INFINITY;
     for (int64_t i = 0; i < p->n; i++) right = real_max(right, p->X[0][i]), top = real_max(top, p->X[1][i]);
@@ -55,7 +55,7 @@ static void test_kick(void **state)
         for (int d = 0; d < 2; d++) p->v[d][i] = sin((real)i + d), p->f[d][i] = 1e3 * cos(3 * (real)i + d);
     real *before = NEW("test.f", 2 * p->n, real);
     for (int d = 0; d < 2; d++) memcpy(before + d * p->n, p->f[d], (size_t)p->n * sizeof(real));
-    loads_complete_forces(&l, p, dt, dt, dt);
+    loads_finish_particle_forces(&l, p, dt, dt, dt);
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < 2; d++) {
             const bool on[2] = {p->X[0][i] > right - 1e-9, p->X[1][i] > top - 1e-9};
@@ -71,7 +71,7 @@ static void test_kick(void **state)
     for (int d = 0; d < 2; d++) assert_near(l.impulse[d], impulse[d], 1e-12 * taken);
     loads_free(&l);
     memory_free(before);
-    cloud_free(&c);
+    plotted_particles_free(&c);
 }
 
 /* ---- waves leave ------------------------------------------------------------------------------------------------- */

@@ -212,7 +212,7 @@ static void test_yielded(void **state)
     struct bonds *b = &a.e.bonds;
     assert_true(b->clamped.n > 0 && b->plastic_stretch);
     for (int64_t row = 0; row < b->rows; row++)
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             const int32_t i = b->particle[row], j = it.bond.nbr;
             const real x = p->X[0][i] + p->X[0][j], y = p->X[1][i] + p->X[1][j];
             b->plastic_stretch[it.bond.entry] = 0.02 * sin(700 * x) * cos(500 * y);

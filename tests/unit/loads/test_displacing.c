@@ -21,12 +21,12 @@ static void by_x(struct expression *e, bool with_time)
 
 /* A body under one boundary. */
 struct displaced {
-    struct cloud c;
+    struct plotted_particles c;
     struct loads l;
 };
 static void displaced_make(struct displaced *m, const struct boundary *b)
 {
-    cloud_make(&m->c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {7, 5}, .horizon = 3});
+    plotted_particles_make(&m->c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {7, 5}, .horizon = 3});
     assert_ok(loads_make(&m->l, b, 1, &m->c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     assert_true(m->l.load[0].n == m->c.p.n);
 }
@@ -34,7 +34,7 @@ static void displaced_make(struct displaced *m, const struct boundary *b)
 static void displaced_free(struct displaced *m)
 {
     loads_free(&m->l);
-    cloud_free(&m->c);
+    plotted_particles_free(&m->c);
 }
 
 /* A free component is 0 whatever its value; numbers and formulas are multiplied by the function of time. */
@@ -196,7 +196,7 @@ static void test_static(void **state)
     struct particles *p = &m.c.p;
     real *u[2] = {NEW("test.u", p->n, real), NEW("test.u", p->n, real)}, work = 0, mean = 0;
     uint8_t *held = NEW("test.held", p->n, uint8_t);
-    loads_static_displacements(&m.l, p, 0.1, u, held);
+    static_displacements_compute(&m.l, p, 0.1, u, held);
     for (int64_t i = 0; i < p->n; i++) {
         assert_true(held[i] == 1 && u[1][i] == 0);
         assert_close(u[0][i], 4 * p->X[0][i], 1e-15);

@@ -401,7 +401,10 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
     diagnostics_make(&w);
     const struct grid *nodes[] = {&e->frame->mesh.grid};
     diagnostics_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
-    const real t = run_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) * (one ? 3e-6 : three ? 1 : T);
+    const real t = observed_run_of(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
+                                                          (one     ? 3e-6
+                                                           : three ? 1
+                                                                   : T);
     for (int d = 0; d < s.dim; d++) {
         const real given = (const real[]){3e5, three || one ? 2e5 : -2e5, -1e5}[d] * shows * t;
         if (!(fabs(w.now.momentum[d] - given) <= 1e-10 * fabs(given))) /* round-off of 12 steps for 3e5 */

@@ -18,7 +18,7 @@
 
 /* A quarter with planes of symmetry x = 0 and y = 0, and the whole body. */
 struct quarter {
-    struct cloud whole, part;
+    struct plotted_particles whole, part;
     struct loads loads;
     int32_t *twin; /* particle of the whole at the position of a particle of the quarter */
 };
@@ -60,9 +60,9 @@ static void quarter_bodies(struct quarter *q, enum space space, enum surface_rul
     struct cloud_plan plan = {
         .space = space, .count = {n[0], n[1], 4}, .horizon = dim == 3 ? 2.015 : 3.015, .surface = surface};
     memset(q, 0, sizeof *q);
-    cloud_make(&q->part, &plan);
+    plotted_particles_make(&q->part, &plan);
     for (int d = 0; d < 2; d++) plan.count[d] *= 2;
-    cloud_make(&q->whole, &plan);
+    plotted_particles_make(&q->whole, &plan);
     for (int64_t i = 0; i < q->whole.p.n; i++)
         for (int d = 0; d < 2; d++) {
             int64_t at = d == 0 ? i % plan.count[0] : i / plan.count[0] % plan.count[1];
@@ -89,8 +89,8 @@ static void quarter_free(struct quarter *q)
 {
     memory_free(q->twin);
     loads_free(&q->loads);
-    cloud_free(&q->whole);
-    cloud_free(&q->part);
+    plotted_particles_free(&q->whole);
+    plotted_particles_free(&q->part);
 }
 
 /* Returns the largest difference between a field of the quarter and of the whole. */
@@ -106,7 +106,7 @@ static real deviation(const struct quarter *q, const real *part, const real *who
 static void check_forces(struct quarter *q)
 {
     const int dim = q->part.p.dim;
-    struct cloud *both[] = {&q->part, &q->whole};
+    struct plotted_particles *both[] = {&q->part, &q->whole};
     real energy[2];
     for (int k = 0; k < 2; k++) {
         bond_force_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p, &both[k]->source.limit, NULL);
@@ -118,8 +118,8 @@ static void check_forces(struct quarter *q)
     for (int s = 0; s < dim; s++) assert_true(deviation(q, q->part.p.stress[s], q->whole.p.stress[s]) <= CLOSE);
     for (int64_t i = 0; i < q->part.p.n; i++) {
         int32_t a = q->part.bonds.row_of[i], b = q->whole.bonds.row_of[q->twin[i]];
-        const bool bonded = a >= 0 && (bonds_intact(&q->part.bonds, a / LANES) >> a % LANES & 1);
-        assert_int_equal(bonded, b >= 0 && (bonds_intact(&q->whole.bonds, b / LANES) >> b % LANES & 1));
+        const bool bonded = a >= 0 && (row_block_intact_lanes(&q->part.bonds, a / LANES) >> a % LANES & 1);
+        assert_int_equal(bonded, b >= 0 && (row_block_intact_lanes(&q->whole.bonds, b / LANES) >> b % LANES & 1));
         if (bonded) assert_true(fabs(q->part.bonds.family_volume[a] / q->whole.bonds.family_volume[b] - 1) <= 1e-6);
     }
 }
@@ -127,7 +127,7 @@ static void check_forces(struct quarter *q)
 static void check_partial(const struct quarter *q, const struct partial_stress *part,
                           const struct partial_stress *whole)
 {
-    const int size = (int)square(symmetric_count(q->part.p.dim));
+    const int size = (int)square(symmetric_component_count(q->part.p.dim));
     int entries = 0;
     for (int64_t i = 0; i < q->part.p.n; i++) {
         int32_t a = part->index[i], b = whole->index[q->twin[i]];
@@ -224,7 +224,7 @@ static void test_mirror_convert(void **state)
 static void quarter_families(struct quarter *q, enum space space, enum pd_model model, struct state_modulus *modulus)
 {
     static const int axis[] = {0, 1};
-    struct cloud *both[] = {&q->part, &q->whole};
+    struct plotted_particles *both[] = {&q->part, &q->whole};
     for (int k = 0; k < 2; k++)
         for (int m = 0; m < CLOUD_MATERIALS; m++) {
             both[k]->material[m].poisson = 0.2;
@@ -244,7 +244,7 @@ static void breaks_case(enum space space, enum pd_model model)
     struct state_modulus modulus[CLOUD_MATERIALS];
     quarter_bodies(&q, space, SURFACE_NONE, 99);
     if (model >= PD_OSPD) quarter_families(&q, space, model, modulus);
-    struct cloud *both[] = {&q.part, &q.whole};
+    struct plotted_particles *both[] = {&q.part, &q.whole};
     struct kernels kernels;
     int64_t broken[2];
     kernels_choose(&kernels, dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
@@ -294,7 +294,7 @@ static void points_state(struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0}, r2 = 0;
-        particle_place(p, i, X);
+        particle_reference_position(p, i, X);
         for (int d = 0; d < p->dim; d++) X[d] /= CLOUD_SPACING, r2 += X[d] * X[d];
         for (int d = 0; d < p->dim; d++) {
             p->x[d][i] = p->X[d][i] * (1.07 + 0.02 * d + 1e-4 * r2);
@@ -336,15 +336,15 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     transfer_order_sort(&s->order, s->p, s->p->list[KIND_MPM], s->p->n, &s->g);
     grid_clear(&s->g);
     k.p2g(&s->g, s->p, &s->t);
-    loads_set_grid_walls(&s->loads, &s->held, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
-    grid_move(&s->g, transfer, s->t.dt_velocity, 1e-30, s->loads.impulse, &work);
+    loads_prescribe_grid_velocities(&s->loads, &s->held, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
+    grid_move_nodes(&s->g, transfer, s->t.dt_velocity, 1e-30, s->loads.impulse, &work);
     if (transfer == TRANSFER_FLIP) {
         k.remap(&s->g, s->p, &s->t);
         grid_remapped(&s->g, 1e-30);
     }
     k.g2p(&s->g, s->p, &s->t);
     for (int b = 0; b < s->loads.n; b++) memset(s->loads.load[b].reaction, 0, sizeof s->loads.load[b].reaction);
-    loads_add_reactions(&s->loads, &s->g, s->t.dt_velocity);
+    loads_add_grid_reactions(&s->loads, &s->g, s->t.dt_velocity);
     loads_impose_motion(&s->loads, s->p, 0, s->t.dt);
 }
 
@@ -369,7 +369,7 @@ static void points_compare(const struct quarter *q)
         assert_true(deviation(q, part->x[d], whole->x[d]) <= CLOSE);
         assert_true(deviation(q, part->v[d], whole->v[d]) <= CLOSE);
     }
-    for (int c = 0; c < symmetric_count(part->dim); c++)
+    for (int c = 0; c < symmetric_component_count(part->dim); c++)
         assert_true(deviation(q, part->stress[c], whole->stress[c]) <= CLOSE);
 }
 
@@ -382,9 +382,9 @@ static void points_case(enum space space, enum shape shape, enum transfer transf
     struct points part, whole;
     struct cloud_plan plan = {.space = space, .count = {n[0], n[1], 4}, .optional = WITH_GRADIENT | WITH_STRETCH};
     plan.horizon = 3;
-    cloud_make(&q.part, &plan);
+    plotted_particles_make(&q.part, &plan);
     for (int d = 0; d < 2; d++) plan.count[d] *= 2;
-    cloud_make(&q.whole, &plan);
+    plotted_particles_make(&q.whole, &plan);
     for (int64_t i = 0; i < q.whole.p.n; i++)
         for (int d = 0; d < 2; d++) q.whole.p.X[d][i] -= n[d] * CLOUD_SPACING;
     find_twins(&q);
@@ -407,8 +407,8 @@ static void points_case(enum space space, enum shape shape, enum transfer transf
     points_free(&part);
     points_free(&whole);
     memory_free(q.twin);
-    cloud_free(&q.whole);
-    cloud_free(&q.part);
+    plotted_particles_free(&q.whole);
+    plotted_particles_free(&q.part);
 }
 
 static void test_mirror_points(void **state)
@@ -433,10 +433,10 @@ static void test_mirror_places(void **state)
         {.name = "low", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 0},
         {.name = "high", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 4 * CLOUD_SPACING},
     };
-    struct cloud c;
+    struct plotted_particles c;
     struct loads l;
     const real reach = 3.015 * CLOUD_SPACING;
-    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {6, 4, 1}, .horizon = 3.015});
+    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {6, 4, 1}, .horizon = 3.015});
     assert_int_equal(loads_make(&l, strip, COUNT_OF(strip), &c.p, CLOUD_SPACING, reach, 0), OK);
     for (int64_t i = 0; i < c.p.n; i++)
         for (int d = 0; d < 2; d++) c.p.x[d][i] = c.p.X[d][i] + 1e-13 * CLOUD_SPACING * sin((real)(i + d));
@@ -451,7 +451,7 @@ static void test_mirror_places(void **state)
             assert_true(c.p.x[0][of_j] - c.p.x[0][i->source] == -(c.p.x[0][of_i] - c.p.x[0][j->source]));
         }
     loads_free(&l);
-    cloud_free(&c);
+    plotted_particles_free(&c);
 }
 
 int main(void)

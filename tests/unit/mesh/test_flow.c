@@ -51,7 +51,7 @@ static int states_of(const struct block *b, real *array[STATES])
     array[n++] = b->c.p.plastic_strain;
     if (b->c.p.out_of_plane) array[n++] = b->c.p.out_of_plane;
     if (b->c.p.plastic_work) array[n++] = b->c.p.plastic_work;
-    for (int k = 0; k < symmetric_count(b->c.p.dim); k++) {
+    for (int k = 0; k < symmetric_component_count(b->c.p.dim); k++) {
         array[n++] = b->c.p.plastic_correction[k];
         if (b->c.p.back_stress[0]) array[n++] = b->c.p.back_stress[k];
     }

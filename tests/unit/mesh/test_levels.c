@@ -14,7 +14,7 @@ static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID}
 /* A block of points with coarse cells except near one corner and along an angled band of cells near its middle: coarse
  * cells adjoin finer ones at convex and concave corners. */
 struct plate {
-    struct cloud c;
+    struct plotted_particles c;
     struct mesh mesh;
     struct mesh_levels levels;
     struct elastic elastic[CLOUD_MATERIALS];
@@ -28,7 +28,7 @@ static void demand_mark(const struct plate *b, uint8_t *demand, bool bend)
 {
     const struct grid *g = &b->mesh.grid;
     int64_t k[DIM_MAX] = {0};
-    for (int64_t I = 0; I < g->n; I++, walk_on(g, k)) {
+    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, k)) {
         int64_t r[DIM_MAX];
         bool corner = true, arm = bend, foot = bend;
         for (int d = 0; d < DIM_MAX; d++) r[d] = d < g->dim ? k[d] - b->levels.offset[0][d] : 0;
@@ -46,7 +46,7 @@ static void levels_set(struct plate *b, bool bend)
     uint8_t *demand = NEW("test.demand", 2 * b->mesh.grid.n, uint8_t), *level = demand + b->mesh.grid.n;
     demand_mark(b, demand, bend);
     levels_coarsest_admissible(&b->levels, &b->c.p, demand, NULL, level);
-    levels_change(&b->levels, &b->c.p, &b->source, level);
+    levels_change_refinement(&b->levels, &b->c.p, &b->source, level);
     memory_free(demand);
 }
 
@@ -60,7 +60,7 @@ static void plate_make_of(struct plate *b, enum space space, int levels, int len
     struct grid like = {.dim = dim, .h = 2 * CLOUD_SPACING};
     real density[CLOUD_MATERIALS];
     memset(b, 0, sizeof *b);
-    cloud_make(&b->c, &plan);
+    plotted_particles_make(&b->c, &plan);
     struct particles *p = &b->c.p;
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *k = &b->c.material[m];
@@ -89,13 +89,13 @@ static void plate_free(struct plate *b)
 {
     levels_free(&b->levels);
     mesh_free(&b->mesh);
-    cloud_free(&b->c);
+    plotted_particles_free(&b->c);
 }
 
 /* Returns true if node I of a level is independent: it has mass. */
 static bool node_free(const struct mesh_levels *l, int level, int64_t I)
 {
-    return level_mesh_of(l, level)->grid.mass[I] > 0;
+    return level_mesh_read_only(l, level)->grid.mass[I] > 0;
 }
 
 static real place_of(const struct mesh *mesh, int64_t I, int d)
@@ -198,11 +198,11 @@ static void test_gradient(void **state)
 /* Returns true if the node is on a face of the block. */
 static bool on_face(const struct plate *b, int level, int64_t I)
 {
-    const struct mesh *mesh = level_mesh_of(&b->levels, level);
+    const struct mesh *mesh = level_mesh_read_only(&b->levels, level);
     bool face = false;
     for (int d = 0; d < mesh->grid.dim; d++) {
         real low, high;
-        particles_extent(&b->c.p, b->c.p.n, d, &low, &high);
+        particles_coordinate_range(&b->c.p, b->c.p.n, d, &low, &high);
         const real x = place_of(mesh, I, d);
         face = face || x < low || x > high;
     }
@@ -252,7 +252,7 @@ static void momentum_of(const struct plate *b, real *sum)
 {
     for (int d = 0; d < DIM_MAX; d++) sum[d] = 0;
     for (int level = 0; level <= b->levels.n; level++) {
-        const struct grid *g = &level_mesh_of(&b->levels, level)->grid;
+        const struct grid *g = &level_mesh_read_only(&b->levels, level)->grid;
         for (int d = 0; d < g->dim; d++)
             for (int64_t I = 0; I < g->n; I++) sum[d] += g->mass[I] * g->velocity[d][I];
     }
@@ -307,7 +307,7 @@ static void steps_make(struct plate *b, int64_t n, bool finite)
 {
     for (int64_t k = 0; k < n; k++, b->step++) {
         real impulse[DIM_MAX] = {0}, work = 0;
-        const int due = levels_highest_due(&b->levels, b->step);
+        const int due = levels_highest_acting(&b->levels, b->step);
         forces_of(b, finite, due);
         levels_move(&b->levels, b->dt, b->dt, due, impulse, &work);
     }
@@ -405,7 +405,7 @@ static void pulse_set(struct plate *b, real at, real width)
 /* Computes the displacement at the nodes of level 0. */
 static void profile_of(struct plate *b, real *u)
 {
-    levels_prolong(&b->levels);
+    levels_prolong_motion(&b->levels);
     memcpy(u, b->mesh.displacement[0], (size_t)b->mesh.grid.n * sizeof *u);
 }
 
@@ -464,7 +464,7 @@ static real reflection(int levels, real width)
     uint8_t *demand = NEW("test.demand", 2 * n, uint8_t), *level = demand + n;
     for (int64_t I = 0; I < n; I++) demand[I] = I - b.levels.offset[0][0] < LENGTH / 4;
     levels_coarsest_admissible(&b.levels, &b.c.p, demand, NULL, level);
-    levels_change(&b.levels, &b.c.p, &b.source, level);
+    levels_change_refinement(&b.levels, &b.c.p, &b.source, level);
     pulse_set(&b, 0.3 * LENGTH * CLOUD_SPACING, width);
     real *u = NEW("test.u", n, real);
     profile_of(&b, u);

@@ -93,27 +93,27 @@ static void test_whole_and_cut(void **state)
 static void given_own(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct mesh *mesh = &b->mesh;
-    const int dim = b->c.p.dim, n = symmetric_count(dim), place = mesh->place[i] & ((1 << dim) - 1);
+    const int dim = b->c.p.dim, n = symmetric_component_count(dim), place = mesh->place[i] & ((1 << dim) - 1);
     const struct elastic *m = &b->elastic[b->c.p.material[i]];
     const bool leaves = partial->index[i] >= 0;
     real g[9] = {0}, s[SYM_MAX], trace = 0;
     for (int a = 0; a < dim; a++)
         for (int k = 0; k < dim; k++)
             for (int c = 0; c < 1 << dim; c++)
-                g[a * dim + k] += mesh_slope(dim, c, place, k) / mesh->grid.h *
+                g[a * dim + k] += mesh_shape_function_slope(dim, c, place, k) / mesh->grid.h *
                                   mesh->displacement[a][(mesh->place[i] >> dim) + mesh->corner[c]];
     for (int a = 0; a < dim; a++) trace += g[a * dim + a];
     for (int a = 0; a < dim; a++) g[a * dim + a] += (point_trace(b, i, false) - trace) / dim;
     trace = point_trace(b, i, false);
     for (int k = 0; k < n; k++) {
         int a, d;
-        symmetric_axes(dim, k, &a, &d);
+        symmetric_component_axes(dim, k, &a, &d);
         s[k] =
             a == d ? (m->c11 - m->c12) * g[a * dim + a] + m->c12 * trace : m->shear * (g[a * dim + d] + g[d * dim + a]);
     }
     for (int k = 0; k < n; k++) {
         int a, d;
-        symmetric_axes(dim, k, &a, &d);
+        symmetric_component_axes(dim, k, &a, &d);
         P[a * dim + d] = P[d * dim + a] = s[k] - (leaves ? dot(partial->matrix + (i * n + k) * n, s, n) : 0);
     }
 }
@@ -148,7 +148,7 @@ static void test_partial(void **state)
         block_make(&b, spaces[round / 3], true, false);
         if (round % 3) block_average(&b, round % 3 > 1); /* with one dilatation in a cell; and with several materials */
         const struct particles *p = &b.c.p;
-        const int dim = p->dim, n = symmetric_count(dim);
+        const int dim = p->dim, n = symmetric_component_count(dim);
         partial_of(&partial, p, b.c.material, 0.2);
         int32_t changed[2] = {-1, -1};
         for (int64_t i = 0; i < p->n; i++) {
@@ -176,8 +176,8 @@ static void test_partial(void **state)
                 for (int a = 0; a < dim; a++)
                     for (int k = 0; k < dim; k++)
                         b.mesh.grid.force[a][(b.mesh.place[i] >> dim) + b.mesh.corner[c]] +=
-                            b.mesh.volume * P[a * dim + k] * mesh_slope(dim, c, b.mesh.place[i] & ((1 << dim) - 1), k) /
-                            b.mesh.grid.h;
+                            b.mesh.volume * P[a * dim + k] *
+                            mesh_shape_function_slope(dim, c, b.mesh.place[i] & ((1 << dim) - 1), k) / b.mesh.grid.h;
         }
         assert_near(largest_force(&b), 0, 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
         partial_stress_free(&partial);
@@ -256,7 +256,7 @@ static void test_start(void **state)
         struct particles *p = &b.c.p;
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++) p->v[d][i] = 3 + 1000 * p->X[0][i] - (p->dim > 1 ? 400 * p->X[1][i] : 0);
-        mesh_project(&b.mesh, p, p->v, b.mesh.grid.velocity);
+        mesh_fit_nodal_values(&b.mesh, p, p->v, b.mesh.grid.velocity);
         for (int64_t I = 0; I < b.mesh.grid.n; I++) {
             if (b.mesh.grid.mass[I] == 0) continue;
             const real exact =

@@ -42,8 +42,8 @@ static void slit_block(struct block *b, enum space space, enum slit_kind kind, r
 static bool parted(const struct block *b, int64_t i, int64_t j)
 {
     real X[DIM_MAX], Y[DIM_MAX];
-    particle_place(&b->c.p, i, X);
-    particle_place(&b->c.p, j, Y);
+    particle_reference_position(&b->c.p, i, X);
+    particle_reference_position(&b->c.p, j, Y);
     return crack_cuts(&slit_made, X, Y, b->c.p.dim);
 }
 
@@ -81,7 +81,8 @@ static void test_parts(void **state)
                     const int64_t I = mesh->place[i] >> dim, J = mesh->place[j] >> dim;
                     assert_int_not_equal(I, J);
                     for (int c = 0; c < corners * corners; c++)
-                        assert_int_not_equal(mesh_node(mesh, I, c / corners), mesh_node(mesh, J, c % corners));
+                        assert_int_not_equal(mesh_cell_corner_node(mesh, I, c / corners),
+                                             mesh_cell_corner_node(mesh, J, c % corners));
                     pairs++;
                 }
             assert_true(pairs > 0);
@@ -169,7 +170,8 @@ static void test_loose(void **state)
             for (int64_t i = 0; i < b.c.p.n; i++)
                 if (!parted(&b, i, b.c.p.n - 1) && b.mesh.place[i] >= 0)
                     for (int c = 0; c < 1 << dim; c++)
-                        b.mesh.displacement[1][mesh_node(&b.mesh, b.mesh.place[i] >> dim, c)] = 0.1 * CLOUD_SPACING;
+                        b.mesh.displacement[1][mesh_cell_corner_node(&b.mesh, b.mesh.place[i] >> dim, c)] =
+                            0.1 * CLOUD_SPACING;
             forces(&b, true);
             assert_true(largest_force(&b) < 1e-12 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
             assert_near(mesh_strain(&b.mesh, &b.c.p, b.elastic, true), 0, 1e-20 * b.elastic[0].c11 * b.mesh.volume);

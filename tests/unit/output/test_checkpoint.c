@@ -58,7 +58,7 @@ static status toy_archive(void *context, struct archive *a)
     TRY(a->exchange(a, "toy/value", toy->value, (size_t)toy->n * sizeof(real)));
     TRY(a->exchange(a, "toy/nothing", toy->value, 0));
     assert_int_equal(a->stored_size(a, "toy/absent"), -1);
-    return output_archive(toy->out, a);
+    return output_save_or_load(toy->out, a);
 }
 
 static struct toy toy_make(struct output *o, int64_t step, int64_t n)
@@ -375,7 +375,7 @@ static void full_disk_loses_nothing(void **state)
 static int start(void **state)
 {
     (void)state;
-    output_start();
+    output_configure_hdf5();
     return 0;
 }
 

@@ -277,7 +277,7 @@ static void unequal_runs_are_told_apart(void **state)
 static void runs_of_lammps_are_read(void **state)
 {
     (void)state;
-    struct frame f;
+    struct output_frame f;
     assert_int_equal(mkdir("lammps", 0700), 0);
     put("lammps/in.lammps", "units si\ntimestep 2.5e-8\n");
     put("lammps/check.csv", "id,X [m],Y [m],Z [m],x [m],y [m],z [m],damage,damage_start\n"
@@ -376,12 +376,12 @@ static void missing_gnuplot_is_named(void **state)
 }
 
 /* Returns the share of pixels of a rectangle [spacings] that show a body. */
-static double covered(const struct cloud *c, double from_x, double to_x)
+static double covered(const struct plotted_particles *c, double from_x, double to_x)
 {
     enum { PIXELS = 20 * SIDE }; /* 20 pixels per spacing: a gap of a tenth of a spacing is visible */
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     struct view v = {.from = {from_x * SPACING, 0}, .to = {to_x * SPACING, SIDE * SPACING}, .top = 0.5};
-    raster_paint(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    raster_paint_particles(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
     int shown = 0;
     for (int q = 0; q < PIXELS * PIXELS; q++) shown += pixel[q].alpha > 0;
     memory_free(pixel);
@@ -391,34 +391,34 @@ static double covered(const struct cloud *c, double from_x, double to_x)
 static void bodies_are_closed_and_gaps_open(void **state)
 {
     (void)state;
-    struct frame f;
-    struct cloud c;
+    struct output_frame f;
+    struct plotted_particles c;
     write_run("a", 0, 2, 0.010);
     assert_int_equal(frame_read(&f, "a/frames/000000.hdf"), OK);
     assert_true(fabs(frame_spacing(&f) - SPACING) < 1e-6 * SPACING); /* single precision */
-    cloud_make(&c, &f, NULL);
+    plotted_particles_make(&c, &f, NULL);
     assert_true(c.aligned);
     assert_int_equal(c.n, SIDE * SIDE);
     assert_true(covered(&c, 0, SIDE) == 1); /* no gap between neighbours */
     assert_true(covered(&c, SIDE + 1, SIDE + 3) == 0);
-    cloud_free(&c);
+    plotted_particles_free(&c);
     for (int64_t i = 0; i < f.n; i++) f.u[0][i] = f.X[0][i] > 0.5F * SIDE * 1e-3F ? 2e-3F : 0;
-    cloud_make(&c, &f, NULL);
+    plotted_particles_make(&c, &f, NULL);
     assert_true(covered(&c, 0.5 * SIDE + 0.2, 0.5 * SIDE + 1.8) == 0); /* two spacings apart */
-    cloud_free(&c);
+    plotted_particles_free(&c);
     const double rotation = 0.5; /* radian: a rotated lattice has no gaps either */
     for (int64_t i = 0; i < f.n; i++) {
         double x = f.X[0][i] - 6e-3, y = f.X[1][i] - 6e-3;
         f.u[0][i] = (float)(x * cos(rotation) - y * sin(rotation) - x);
         f.u[1][i] = (float)(x * sin(rotation) + y * cos(rotation) - y);
     }
-    cloud_make(&c, &f, NULL);
+    plotted_particles_make(&c, &f, NULL);
     assert_false(c.aligned);
     struct colour middle[64];
     struct view v = {.from = {4e-3, 4e-3}, .to = {8e-3, 8e-3}, .top = 0.5};
-    raster_paint(middle, 8, 8, &v, &c, MAP_DAMAGE);
+    raster_paint_particles(middle, 8, 8, &v, &c, MAP_DAMAGE);
     for (int q = 0; q < 64; q++) assert_int_equal(middle[q].alpha, 255);
-    cloud_free(&c);
+    plotted_particles_free(&c);
     frame_free(&f);
 }
 
@@ -429,7 +429,7 @@ static char folder[] = "/tmp/cleave_compare_XXXXXX";
 static int enter(void **state)
 {
     (void)state;
-    output_start();
+    output_configure_hdf5();
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 

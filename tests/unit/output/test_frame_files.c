@@ -34,7 +34,7 @@ static void make_particles(struct particles *p, int dim, int64_t n)
     particles_make(p, dim, n, 0);
     for (int64_t i = 0; i < n; i++) {
         for (int d = 0; d < dim; d++) p->X[d][i] = sin((double)(3 * i + d)), p->x[d][i] = p->X[d][i] + 0.01 * (real)d;
-        for (int k = 0; k < symmetric_count(dim); k++) p->stress[k][i] = 1e6 * cos((double)(7 * i + k));
+        for (int k = 0; k < symmetric_component_count(dim); k++) p->stress[k][i] = 1e6 * cos((double)(7 * i + k));
         p->id[i] = (int32_t)(2 * (n - 1 - i));
     }
 }
@@ -46,7 +46,7 @@ static void fields_are_read_by_name(void **state)
     for (int dim = 1; dim <= DIM_MAX; dim++) {
         struct output o;
         struct particles p;
-        struct frame f;
+        struct output_frame f;
         static const char path[] = "named/frames/000000.hdf";
         float *value;
         int columns;
@@ -129,7 +129,7 @@ static void frames_in_one_file(void **state)
     open_fresh(&o, "temporal");
     for (int k = 0; k < STEPS; k++) {
         make_particles(&p[k], 2, PARTICLES + 100 * k);
-        output_particles_changed(&o);
+        output_discard_particle_order(&o);
         assert_int_equal(output_write_frame(&o, &p[k], 0.5 * k, k, scene_text), OK);
     }
     assert_int_equal(output_write_temporal(&o, scene_text), OK);
@@ -163,7 +163,7 @@ static void frames_of_a_region(void **state)
     const struct region region = {.n = 1, .solid = &half};
     struct output o;
     struct particles p;
-    struct frame f;
+    struct output_frame f;
     int64_t inside = 0;
     open_fresh(&o, "regions");
     assert_int_equal(output_add_series(&o, "half", &region), OK);
@@ -201,6 +201,6 @@ int main(int argc, char **argv)
     };
     (void)argc;
     if (chdir(dirname(argv[0])) != 0 || (mkdir(folder, 0777) != 0 && errno != EEXIST) || chdir(folder) != 0) return 1;
-    output_start();
+    output_configure_hdf5();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -62,7 +62,7 @@ static void make_particles(struct particles *p, int dim, int64_t n)
             p->x[d][i] = p->X[d][i] + 1e-3 * noise(i, 3 + d);
             p->v[d][i] = noise(i, 6 + d) - 0.5;
         }
-        for (int k = 0; k < symmetric_count(dim); k++) p->stress[k][i] = 1e6 * noise(i, 9 + k);
+        for (int k = 0; k < symmetric_component_count(dim); k++) p->stress[k][i] = 1e6 * noise(i, 9 + k);
         p->damage[i] = noise(i, 15);
         p->kind[i] = i % 3 ? KIND_MPM : KIND_PD;
         p->material[i] = (uint8_t)(i % 5);
@@ -90,7 +90,7 @@ static void assert_message(const char *part)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-static void check_frame(const struct frame *f, const struct particles *p)
+static void check_frame(const struct output_frame *f, const struct particles *p)
 {
     assert_int_equal(f->n, p->n);
     assert_int_equal(f->dim, p->dim);
@@ -102,7 +102,8 @@ static void check_frame(const struct frame *f, const struct particles *p)
             assert_true(f->u[d][k] == (float)(p->x[d][i] - p->X[d][i]));
             assert_true(f->v[d][k] == (float)p->v[d][i]);
         }
-        for (int c = 0; c < symmetric_count(p->dim); c++) assert_true(f->stress[c][k] == (float)p->stress[c][i]);
+        for (int c = 0; c < symmetric_component_count(p->dim); c++)
+            assert_true(f->stress[c][k] == (float)p->stress[c][i]);
         assert_true(f->damage[k] == (float)p->damage[i]);
         assert_int_equal(f->kind[k], p->kind[i]);
         assert_int_equal(f->material[k], p->material[i]);
@@ -117,7 +118,7 @@ static void frames_come_back(void **state)
         for (int compress = 0; compress < 2; compress++) {
             struct output o;
             struct particles p;
-            struct frame f;
+            struct output_frame f;
             open_fresh(&o, "frames", compress);
             make_particles(&p, dim, PARTICLES);
             assert_int_equal(output_write_frame(&o, &p, 0.125, 17, scene_text), OK);
@@ -198,14 +199,14 @@ static void frames_hold_what_they_are_given(void **state)
     for (int given = 0; given < 2; given++) {
         struct output o;
         struct particles p;
-        struct frame f;
+        struct output_frame f;
         struct hdf file;
         float force[6];
         open_fresh(&o, "given", false);
         particles_make(&p, 2, 2, 0);
         p.id[0] = 1;
         assert_int_equal(output_frame_begin(&o, 0, &p, given ? &extra : NULL, 0, 0, scene_text), OK);
-        assert_int_equal(output_wait(&o), OK);
+        assert_int_equal(output_wait_for_frame(&o), OK);
         hdf_open(&file, "given/frames/000000.hdf");
         hdf_read_rows(&file, "/VTKHDF/PointData/contact_force", HDF_F32, 6, force);
         assert_int_equal(file.failed, !given);
@@ -269,7 +270,7 @@ static void damaged_frames_are_refused(void **state)
     (void)state;
     struct output o;
     struct particles p;
-    struct frame f;
+    struct output_frame f;
     open_fresh(&o, "cut", false);
     make_particles(&p, 2, PARTICLES);
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
@@ -441,14 +442,14 @@ static void summary_has_the_figures(void **state)
     e->report->particle_steps[KIND_PD] = 1000;
     e->diagnostics->break_time = NAN;
     e->coupling->conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
-    e->fracture->tips = (struct tips){.dim = 2, .n = 1, .spacing = 1e-3};
-    e->fracture->tips.tip[0] = (struct tip){.along = {1},
-                                            .place = {0, 2e-3},
-                                            .growth = 2e-3,
-                                            .start_time = 0.06,
-                                            .arrest_time = 0.08,
-                                            .first_time = 0.05,
-                                            .particles = 2};
+    e->fracture->tips = (struct crack_tips){.dim = 2, .n = 1, .spacing = 1e-3};
+    e->fracture->tips.tip[0] = (struct crack_tip){.along = {1},
+                                                  .place = {0, 2e-3},
+                                                  .growth = 2e-3,
+                                                  .start_time = 0.06,
+                                                  .arrest_time = 0.08,
+                                                  .first_time = 0.05,
+                                                  .particles = 2};
     assert_int_equal(summary_write(e, OK, 2), OK);
     assert_int_equal(file_read_whole("summary/summary.json", &text, &length), OK);
     static const char *const part[] = {"\"name\": \"a \\\"b\\\"\\u000a\"",
@@ -485,7 +486,7 @@ static void summary_has_the_figures(void **state)
 static int start(void **state)
 {
     (void)state;
-    output_start();
+    output_configure_hdf5();
     return 0;
 }
 

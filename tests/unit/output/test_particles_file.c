@@ -38,7 +38,7 @@ static void make_particles(struct particles *p, int dim, int64_t n)
         const double a = (double)(i + 1);
         for (int d = 0; d < dim; d++)
             p->X[d][i] = sin(3 * a + d), p->x[d][i] = p->X[d][i] + 0.01 * cos(a + d), p->v[d][i] = sin(a - d);
-        for (int k = 0; k < symmetric_count(dim); k++) p->stress[k][i] = 1e6 * cos(7 * a + k);
+        for (int k = 0; k < symmetric_component_count(dim); k++) p->stress[k][i] = 1e6 * cos(7 * a + k);
         p->damage[i] = fabs(sin(a)), p->kind[i] = (uint8_t)(i % 2), p->id[i] = (int32_t)i;
     }
 }
@@ -67,7 +67,7 @@ static void frames_take_little(void **state)
             for (int i = 0; i < PARTICLES; i++) fragment[i] = i % 7;
             const struct frame_extra extra = {.push = p.v, .fragment = fragment};
             assert_int_equal(output_frame_begin(&o, 0, &p, contact ? &extra : NULL, 0, 0, scene_text), OK);
-            assert_int_equal(output_wait(&o), OK);
+            assert_int_equal(output_wait_for_frame(&o), OK);
             const int64_t least = (4 * (components[dim] + (contact ? dim + 1 : 0)) + 1) * (int64_t)PARTICLES;
             const int64_t size = size_of("small/frames/000000.hdf");
             if (size < least || size > least + PARTICLES / 5 + 16384)
@@ -127,11 +127,11 @@ static void one_file_while_particles_are_the_same(void **state)
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     assert_int_equal(stat("shared/frames/particles_000000.h5", &first), 0);
     for (int k = 1; k < 3; k++) {
-        output_particles_changed(&o);
+        output_discard_particle_order(&o);
         p.v[0][7] += 1;
         assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
     }
-    output_particles_changed(&o);
+    output_discard_particle_order(&o);
     assert_int_equal(output_write_frame(&o, &more, 3, 3, scene_text), OK);
     assert_int_equal(stat("shared/frames/particles_000000.h5", &later), 0);
     assert_true(first.st_ino == later.st_ino && first.st_mtime == later.st_mtime && first.st_size == later.st_size);
@@ -160,7 +160,7 @@ static void frames_alone_are_refused(void **state)
     (void)state;
     struct output o;
     struct particles p;
-    struct frame f;
+    struct output_frame f;
     static const char frame[] = "alone/frames/000000.hdf", file[] = "alone/frames/particles_000000.h5";
     for (int k = 0; k < 2; k++) {
         open_fresh(&o, k ? "alone" : "another");
@@ -190,7 +190,7 @@ static void foreign_file_is_left(void **state)
     (void)state;
     struct output o;
     struct particles p;
-    struct frame f;
+    struct output_frame f;
     char text[1000];
     int lost;
     open_fresh(&o, "foreign");
@@ -201,18 +201,18 @@ static void foreign_file_is_left(void **state)
     open_fresh(&o, "left");
     p.X[0][3] -= 1;
     for (int k = 0; k < 2; k++) assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
-    assert_int_equal(output_frames_check(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(output_index_drop_lost_frames(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 0);
     assert_int_equal(rename("foreign/frames/particles_000000.h5", "left/frames/particles_000000.h5"), 0);
-    output_particles_changed(&o);
-    assert_int_equal(output_frames_check(&o, &lost, text, sizeof text), OK);
+    output_discard_particle_order(&o);
+    assert_int_equal(output_index_drop_lost_frames(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
     assert_non_null(
         strstr(text, "frames/000000.hdf links to frames/particles_000000.h5, which is of another run, and 1"));
     assert_int_equal(unlink("left/frames/particles_000000.h5"), 0);
     assert_int_equal(link("left/frames/000000.hdf", "left/frames/particles_000000.h5"), 0);
     o.series[0].particles.number = 0;
-    assert_int_equal(output_frames_check(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(output_index_drop_lost_frames(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
     assert_int_equal(output_write_frame(&o, &p, 2, 2, scene_text), OK);
     assert_true(path_is_file("left/frames/particles_000002.h5"));
@@ -228,7 +228,7 @@ static void assert_listed(struct output *o, int n, int lost)
     char message[1000], *text;
     size_t length;
     int found = -1, listed = 0;
-    assert_int_equal(output_frames_check(o, &found, message, sizeof message), OK);
+    assert_int_equal(output_index_drop_lost_frames(o, &found, message, sizeof message), OK);
     assert_int_equal(found, lost);
     assert_int_equal(file_read_whole("back/frames.xdmf", &text, &length), OK);
     for (const char *at = text; (at = strstr(at, "<Time ")); at++) listed++;
@@ -249,7 +249,7 @@ static void file_comes_back(void **state)
     for (int k = 0; k < 2; k++) assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
     assert_listed(&o, 2, 0);
     assert_int_equal(rename(file, "away.h5"), 0);
-    output_particles_changed(&o);
+    output_discard_particle_order(&o);
     assert_listed(&o, 0, 2);
     assert_int_equal(output_write_frame(&o, &p, 2, 2, scene_text), OK);
     assert_listed(&o, 1, 2);
@@ -267,7 +267,7 @@ static void complete_frames_are_read(void **state)
     (void)state;
     struct output o;
     struct particles p;
-    struct frame f;
+    struct output_frame f;
     struct hdf from, to;
     open_fresh(&o, "complete");
     make_particles(&p, 3, 500);
@@ -295,7 +295,7 @@ static void contact_where_it_is(void **state)
     (void)state;
     struct output o;
     struct particles p;
-    struct frame f;
+    struct output_frame f;
     struct hdf h;
     float *force, all[2 * 500 * 3];
     int columns;
@@ -309,7 +309,7 @@ static void contact_where_it_is(void **state)
     for (int k = 0; k < 2; k++) {
         push[1][9] = k ? 2.5 : 0;
         assert_int_equal(output_frame_begin(&o, 0, &p, &extra, k, k, scene_text), OK);
-        assert_int_equal(output_wait(&o), OK);
+        assert_int_equal(output_wait_for_frame(&o), OK);
         hdf_open(&h, path[k]);
         assert_int_equal(hdf_dataset_size(&h, "/VTKHDF/PointData/contact_force"), k ? 1500 : -1);
         hdf_close(&h);
@@ -354,6 +354,6 @@ int main(int argc, char **argv)
     };
     (void)argc;
     if (chdir(dirname(argv[0])) != 0 || (mkdir(folder, 0777) != 0 && errno != EEXIST) || chdir(folder) != 0) return 1;
-    output_start();
+    output_configure_hdf5();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

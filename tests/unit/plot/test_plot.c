@@ -18,10 +18,10 @@
 static const double SPACING = 1e-3; /* [m] */
 
 /* Creates a block of nx x ny x nz particles at rest, without damage. */
-static struct frame block_make(int nx, int ny, int nz, int dim)
+static struct output_frame block_make(int nx, int ny, int nz, int dim)
 {
     const int count[3] = {nx, ny, nz};
-    struct frame f = {.n = (int64_t)nx * ny * nz, .dim = dim};
+    struct output_frame f = {.n = (int64_t)nx * ny * nz, .dim = dim};
     for (int d = 0; d < dim; d++) {
         f.X[d] = NEW("test.X", f.n, float), f.u[d] = NEW("test.u", f.n, float), f.v[d] = NEW("test.v", f.n, float);
         for (int64_t i = 0; i < f.n; i++) {
@@ -29,14 +29,14 @@ static struct frame block_make(int nx, int ny, int nz, int dim)
             f.X[d][i] = (float)(((double)k + 0.5 - 0.5 * count[d]) * SPACING);
         }
     }
-    for (int k = 0; k < frame_stresses(dim); k++) f.stress[k] = NEW("test.stress", f.n, float);
+    for (int k = 0; k < frame_stress_component_count(dim); k++) f.stress[k] = NEW("test.stress", f.n, float);
     f.damage = NEW("test.damage", f.n, float);
     f.kind = NEW("test.kind", f.n, uint8_t), f.material = NEW("test.material", f.n, uint8_t);
     f.body = NEW("test.body", f.n, uint8_t), f.id = NEW("test.id", f.n, int32_t);
     return f;
 }
 
-static float value_of(struct frame *f, const char *name)
+static float value_of(struct output_frame *f, const char *name)
 {
     const struct plot_field *field;
     float *value = NULL;
@@ -51,7 +51,7 @@ static float value_of(struct frame *f, const char *name)
 static void fields_follow_from_stress(void **state)
 {
     (void)state;
-    struct frame f = block_make(2, 2, 1, 2);
+    struct output_frame f = block_make(2, 2, 1, 2);
     f.stress[0][0] = 30, f.stress[1][0] = 10, f.stress[2][0] = 10;
     f.v[0][0] = 3, f.v[1][0] = -4;
     assert_float_equal(value_of(&f, "principal_stress"), 20 + sqrt(200), 1e-4);
@@ -109,24 +109,24 @@ static void fields_name_components(void **state)
 static void slices_show_damage(void **state)
 {
     (void)state;
-    struct frame f = block_make(6, 6, 4, 3);
-    struct cloud c;
+    struct output_frame f = block_make(6, 6, 4, 3);
+    struct plotted_particles c;
     for (int64_t i = 0; i < f.n; i++)
         if (f.X[2][i] > 1e-3F && f.X[0][i] > 0) f.damage[i] = 0.4F;
-    cloud_make(&c, &f, NULL);
+    plotted_particles_make(&c, &f, NULL);
     assert_int_equal(c.normal, 2);
     assert_int_equal(c.n, 36);
     assert_float_equal(c.layer, 1.5e-3, 1e-8);
-    cloud_free(&c);
+    plotted_particles_free(&c);
     memset(f.damage, 0, (size_t)f.n * sizeof *f.damage);
-    cloud_make(&c, &f, NULL);
+    plotted_particles_make(&c, &f, NULL);
     assert_float_equal(fabs(c.layer), 0.5e-3, 1e-8);
-    cloud_free(&c);
+    plotted_particles_free(&c);
     struct projection projection = {.normal = 0, .placed = true, .layer = 1.9e-3};
-    assert_int_equal(projection_complete(&projection, &f), OK);
+    assert_int_equal(projection_complete_slice(&projection, &f), OK);
     assert_float_equal(projection.layer, 1.5e-3, 1e-8);
     projection.layer = 9e-3;
-    assert_int_equal(projection_complete(&projection, &f), REFUSED);
+    assert_int_equal(projection_complete_slice(&projection, &f), REFUSED);
     assert_non_null(strstr(status_message(), "-2.5 to 2.5 mm"));
     frame_free(&f);
 }
@@ -137,10 +137,10 @@ static void slices_are_near_the_middle(void **state)
 {
     (void)state;
     static const float damage[] = {0, 0.5F, 0.496F, 0.45F, 0, 0, 0.1F, 0};
-    struct frame f = block_make(9, 9, 8, 3);
+    struct output_frame f = block_make(9, 9, 8, 3);
     for (int64_t i = 0; i < f.n; i++) f.damage[i] = damage[i / 81];
     struct projection projection = {.normal = 2};
-    assert_int_equal(projection_complete(&projection, &f), OK);
+    assert_int_equal(projection_complete_slice(&projection, &f), OK);
     assert_float_equal(projection.layer, -1.5e-3, 1e-8);
     f.spacing = NEW("test.spacing", f.n, float);
     for (int64_t i = 0; i < f.n; i++) f.spacing[i] = i == 37 ? 0.7e-3F : 2.8e-3F;
@@ -158,7 +158,7 @@ static void axes_have_prefixes(void **state)
     } axis[] = {{3.2e9, 1e9, "GPa"},   {7e6, 1e6, "MPa"},   {2.5e3, 1e3, "kPa"}, {40, 1, "Pa"},     {0.3, 1e-3, "mPa"},
                 {3.2e-5, 1e-6, "µPa"}, {4e-9, 1e-9, "nPa"}, {0, 1, "Pa"},        {-5e4, 1e3, "kPa"}};
     for (size_t k = 0; k < COUNT_OF(axis); k++) {
-        const struct unit u = unit_for(axis[k].largest, "Pa");
+        const struct unit u = unit_for_largest_value(axis[k].largest, "Pa");
         assert_true(fabs(u.factor / axis[k].factor - 1) < 1e-12);
         assert_string_equal(u.name, axis[k].name);
     }
@@ -169,14 +169,14 @@ static void axes_have_prefixes(void **state)
 static void one_particle_sets_no_scale(void **state)
 {
     (void)state;
-    struct frame f = block_make(40, 20, 1, 2);
-    struct cloud c;
+    struct output_frame f = block_make(40, 20, 1, 2);
+    struct plotted_particles c;
     float *value = NEW("test.value", f.n, float);
     for (int64_t i = 0; i < f.n; i++) value[i] = (float)(i % 10);
     f.u[0][17] = 5, value[17] = 1e6F;
     const struct plot_field *field;
     assert_int_equal(plot_field_find(&field, "speed", 2), OK);
-    cloud_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
+    plotted_particles_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
     struct view v = view_around(&c, 1);
     view_set_field(&v, field, &c, 1);
     assert_true(v.to[0] < 30e-3 && v.from[0] > -25e-3);
@@ -186,11 +186,11 @@ static void one_particle_sets_no_scale(void **state)
     view_set_field(&v, field, &c, 1);
     assert_true(v.low == -v.high);
     for (int64_t i = 0; i < f.n; i++) value[i] = -value[i];
-    cloud_free(&c);
-    cloud_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
+    plotted_particles_free(&c);
+    plotted_particles_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
     view_set_field(&v, field, &c, 1);
     assert_true(v.low == -v.high && v.high > 7 && v.high <= 9);
-    cloud_free(&c), memory_free(value), frame_free(&f);
+    plotted_particles_free(&c), memory_free(value), frame_free(&f);
 }
 
 enum { PIXELS = 120 };
@@ -199,25 +199,25 @@ enum { PIXELS = 120 };
 static void solids_are_seen_from_outside(void **state)
 {
     (void)state;
-    struct frame f = block_make(10, 10, 10, 3);
-    struct cloud c;
+    struct output_frame f = block_make(10, 10, 10, 3);
+    struct plotted_particles c;
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     f.damage[555] = 1; /* inside */
     const struct projection projection = {.outside = true, .camera = camera_along(2, 1), .normal = -1};
-    cloud_make(&c, &f, &projection);
+    plotted_particles_make(&c, &f, &projection);
     struct view v = {.from = {-6e-3, -6e-3}, .to = {6e-3, 6e-3}, .top = 1};
     int shown = 0, dark = 0;
-    boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
+    cubes_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
     for (int q = 0; q < PIXELS * PIXELS; q++) {
         shown += pixel[q].alpha > 0;
         dark += pixel[q].green < 100 && pixel[q].alpha;
     }
     assert_true(abs(shown - 100 * 100) <= 4 * 101); /* ten of twelve spacings wide, and the gaps */
     assert_int_equal(dark, 0);                      /* its damage is hidden */
-    boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_CRACKS);
+    cubes_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_CRACKS);
     for (int q = 0; q < PIXELS * PIXELS; q++) dark += pixel[q].green < 100 && pixel[q].alpha;
     assert_true(dark >= 100 && dark <= 144); /* one particle, ten pixels wide */
-    memory_free(pixel), cloud_free(&c), frame_free(&f);
+    memory_free(pixel), plotted_particles_free(&c), frame_free(&f);
 }
 
 /* Axes of every view are right-handed unit vectors. */

@@ -90,9 +90,9 @@ static void ledger_survives_a_restart(void **state)
     for (int i = 0; i < 2; i++) b.p.v[0][i] *= 0.1;
     diagnostics_momentum(&w, &b.p, NULL, 0, none);
     diagnostics_energy_balance(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
-    assert_int_equal(diagnostics_archive(&w, &out), OK);
+    assert_int_equal(diagnostics_save_or_load(&w, &out), OK);
     in.saving = false, tape.used = 0;
-    assert_int_equal(diagnostics_archive(&restored, &in), OK);
+    assert_int_equal(diagnostics_save_or_load(&restored, &in), OK);
     b.p.v[0][0] += 2;
     for (int k = 0; k < 2; k++) {
         struct diagnostics *either = k == 0 ? &w : &restored;
@@ -113,7 +113,7 @@ static void strain_energy_of_material_points(void **state)
     for (int dim = 1; dim <= 3; dim++) {
         struct body b;
         struct material m = steel(space[dim]);
-        int n = symmetric_count(dim);
+        int n = symmetric_component_count(dim);
         real C[SYM_MAX * SYM_MAX], stress[SYM_MAX] = {0}, density = 0, half[SYM_MAX * SYM_MAX] = {0};
         material_stiffness(&m, dim, C);
         for (int i = 0; i < n; i++) {
@@ -182,9 +182,9 @@ static void first_break_is_booked_once(void **state)
     struct store s = {0};
     struct archive a = {true, store_exchange, NULL, &s};
     diagnostics_make(&again);
-    assert_ok(diagnostics_archive(&w, &a));
+    assert_ok(diagnostics_save_or_load(&w, &a));
     a.saving = false;
-    assert_ok(diagnostics_archive(&again, &a));
+    assert_ok(diagnostics_save_or_load(&again, &a));
     assert_near(again.break_time, 3, 0);
     assert_int_equal(again.bonds_broken, 12);
     assert_near(again.driven_time, 5, 0);

@@ -233,13 +233,13 @@ static void flux_is_the_force_across(void **state)
                                     .seed = 5,
                                     .calibration = CALIBRATION_CONTINUUM};
     const struct boundary wall = {.kind = BOUNDARY_MIRROR, .name = "wall"};
-    struct cloud c;
+    struct plotted_particles c;
     struct loads l;
     struct bar bar = {0};
     struct particles *p = &c.p;
     real flux[40], scale = 0;
     uint64_t seed = 3;
-    cloud_make(&c, &plan);
+    plotted_particles_make(&c, &plan);
     assert_ok(loads_make(&l, &wall, 1, p, CLOUD_SPACING, c.source.family.cutoff, 0));
     for (int i = 0; i < 40; i++) {
         p->x[0][i] = p->X[0][i] + cloud_between(&seed, -0.01, 0.01) * CLOUD_SPACING;
@@ -251,7 +251,7 @@ static void flux_is_the_force_across(void **state)
     cloud_bonds(&c);
     bar.n = 40, bar.order = NEW("order", 40, int32_t), bar.rank = NEW("rank", 40, int32_t);
     for (int i = 0; i < 40; i++) bar.order[i] = bar.rank[i] = i;
-    struct observed o = {.part = p, .bonds = &c.bonds, .thickness = c.source.family.section};
+    struct observed_run o = {.part = p, .bonds = &c.bonds, .thickness = c.source.family.section};
     bar_bond_flux(&bar, &o, flux);
 
     real modulus = family_micro_modulus(&c.source.family, &c.material[0]);
@@ -277,7 +277,7 @@ static void flux_is_the_force_across(void **state)
     assert_true(scale > 1e7); /* 1 Pa is negligible */
     memory_free(bar.order), memory_free(bar.rank);
     loads_free(&l);
-    cloud_free(&c);
+    plotted_particles_free(&c);
 }
 
 /* ---- the probe --------------------------------------------------------------------------------------------------- */
@@ -311,7 +311,7 @@ struct lab {
     struct load load[4];
     struct loads loads;
     int32_t first, last;
-    struct observed o;
+    struct observed_run o;
 };
 
 static void lab_make(struct lab *b)
@@ -326,7 +326,7 @@ static void lab_make(struct lab *b)
     b->load[1] = (struct load){.boundary = &b->boundary[1], .n = 1, .particle = &b->last};
     b->load[2].boundary = &b->boundary[2], b->load[3].boundary = &b->boundary[3];
     b->loads = (struct loads){.n = 2, .load = b->load};
-    b->o = (struct observed){
+    b->o = (struct observed_run){
         .part = &b->p, .loads = &b->loads, .material = &b->material, .spacing = 0.005, .thickness = 1};
 }
 
@@ -345,8 +345,8 @@ static void measured(struct lab *b, enum exact_form form, real t, struct figures
     }
     b->o.t = b->o.t_velocity = t;
     probes_visit_results(&s, &b->o, keep, f);
-    probes_sample(&s, &b->o);
-    assert_int_equal(s.columns, bar_figures_count(form));
+    probes_sample_begin(&s, &b->o);
+    assert_int_equal(s.columns, bar_result_count(form));
     for (int k = 0; k < s.columns; k++) { /* columns are the figures */
         real value = figure(f, strchr(s.column[k].name, '.') + 1);
         assert_true(isnan(value) ? isnan(s.value[k]) : value == s.value[k]);

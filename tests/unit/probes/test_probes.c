@@ -28,9 +28,9 @@ static real figure(const struct figure_list *l, const char *probe, const char *q
     return NAN;
 }
 
-static struct observed seen(const struct body *b)
+static struct observed_run seen(const struct body *b)
 {
-    return (struct observed){.part = &b->p, .cells = &b->c, .spacing = 1, .thickness = 0.37};
+    return (struct observed_run){.part = &b->p, .cells = &b->c, .spacing = 1, .thickness = 0.37};
 }
 
 static struct solid box(real x0, real y0, real x1, real y1)
@@ -54,7 +54,7 @@ static void probes_read_particles_and_regions(void **state)
     struct material m = steel(SPACE_PLANE_STRESS);
     struct figure_list l = {0};
     body_make(&b, 2, (const int[]){10, 10});
-    struct observed o = seen(&b);
+    struct observed_run o = seen(&b);
     o.material = &m;
     for (int64_t i = 0; i < b.p.n; i++) {
         b.p.x[0][i] = b.p.X[0][i] * 1.01;
@@ -69,7 +69,7 @@ static void probes_read_particles_and_regions(void **state)
         {.name = "patch", .kind = PROBE_PATCH},
     };
     assert_ok(probes_make(&s, request, COUNT_OF(request), &o));
-    probes_sample(&s, &o);
+    probes_sample_begin(&s, &o);
     int64_t i = particle_at(&b, 3.5, 7.5, 0);
     assert_near(s.value[column_named(&s, "gauge.displacement_x")], 0.035, ROUND_OFF);
     assert_near(s.value[column_named(&s, "gauge.velocity_y")], 2, 0);
@@ -99,7 +99,7 @@ static void probes_refuse_what_is_not_there(void **state)
                                   {.name = "pull", .kind = BOUNDARY_TRACTION}};
     struct load load[] = {{.boundary = &boundary[0]}, {.boundary = &boundary[1]}};
     struct loads loads = {.n = 2, .load = load};
-    struct observed o = seen(&b);
+    struct observed_run o = seen(&b);
     o.loads = &loads;
     struct solid outside = box(20, 20, 30, 30);
     struct {
@@ -132,7 +132,7 @@ static void probe_of_a_support(void **state)
     struct boundary other = {.name = "other", .kind = BOUNDARY_VELOCITY};
     struct load load[] = {{.boundary = &grip, .n = 1}, {.boundary = &other, .n = 1, .reaction = {100, 0}}};
     struct loads loads = {.n = 2, .load = load};
-    struct observed o = seen(&b);
+    struct observed_run o = seen(&b);
     o.loads = &loads;
     struct probe_request request = {.name = "reaction", .kind = PROBE_REACTION, .boundary = "grip"};
     assert_ok(probes_make(&s, &request, 1, &o));
@@ -141,15 +141,15 @@ static void probe_of_a_support(void **state)
         load[0].reaction[0] = force[k][0], load[0].reaction[1] = force[k][1];
         load[0].displacement[1] = -0.25 * k;
         o.load_step = k + 1;
-        probes_update_step(&s, &o);
+        probes_update_every_step(&s, &o);
     }
     struct store store = {0};
     struct archive a = {true, store_exchange, NULL, &store};
-    assert_ok(probes_archive(&s, &a));
+    assert_ok(probes_save_or_load(&s, &a));
     a.saving = false;
     assert_ok(probes_make(&again, &request, 1, &o));
-    assert_ok(probes_archive(&again, &a));
-    probes_sample(&again, &o);
+    assert_ok(probes_save_or_load(&again, &a));
+    probes_sample_begin(&again, &o);
     assert_near(again.value[column_named(&again, "reaction.force_x")], -6, 0);
     assert_near(again.value[column_named(&again, "reaction.displacement_y")], -0.75, 0);
     probes_visit_results(&again, &o, figure_keep, &l);
@@ -175,12 +175,12 @@ static void probe_of_two_supports(void **state)
     struct load load[] = {{.boundary = &grip[0], .n = 3, .reaction = {5, -1}, .displacement = {0.4, 0.1}},
                           {.boundary = &grip[1], .n = 5, .reaction = {-2, 4}, .displacement = {-0.2, 0.3}}};
     struct loads loads = {.n = 2, .load = load};
-    struct observed o = seen(&b);
+    struct observed_run o = seen(&b);
     o.loads = &loads;
     struct probe_request request = {.name = "r", .kind = PROBE_REACTION, .boundary = "grip"};
     assert_ok(probes_make(&s, &request, 1, &o));
-    probes_update_step(&s, &o);
-    probes_sample(&s, &o);
+    probes_update_every_step(&s, &o);
+    probes_sample_begin(&s, &o);
     assert_near(s.value[column_named(&s, "r.force_x")], 3, ROUND_OFF);
     assert_near(s.value[column_named(&s, "r.force_y")], 3, ROUND_OFF);
     assert_near(s.value[column_named(&s, "r.displacement_x")], (3 * 0.4 - 5 * 0.2) / 8, ROUND_OFF);
@@ -199,7 +199,7 @@ static void probe_of_a_pulse(void **state)
     real still[20] = {0};
     struct baseline baseline = {.v = {still}, .energy_change = 0.01};
     body_make(&b, 1, (const int[]){20});
-    struct observed o = seen(&b);
+    struct observed_run o = seen(&b);
     struct probe_request request = {.name = "pulse", .kind = PROBE_PULSE, .at = {12}, .direction = {2}};
     b.p.v[0][4] = 0.8;
     assert_ok(probes_make(&s, &request, 1, &o));
@@ -221,7 +221,7 @@ static void probe_of_a_turning_body(void **state)
     struct probes s;
     struct material m = steel(SPACE_PLANE_STRAIN);
     body_make(&b, 2, (const int[]){3, 3});
-    struct observed o = seen(&b);
+    struct observed_run o = seen(&b);
     b.p.plane_strain = &m, b.p.out_of_plane = NEW("test.across", b.p.n, real);
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[0][i] = 1.5 - b.p.X[1][i], b.p.v[1][i] = b.p.X[0][i] - 1.5;
     struct probe_request request = {.name = "turn", .kind = PROBE_RIGID};
@@ -232,7 +232,7 @@ static void probe_of_a_turning_body(void **state)
         b.p.x[0][i] = 1.5 + c * x - n * y, b.p.x[1][i] = 1.5 + n * x + c * y;
         b.p.v[0][i] = -1.1 * (b.p.x[1][i] - 1.5), b.p.v[1][i] = 1.1 * (b.p.x[0][i] - 1.5);
     }
-    probes_sample(&s, &o);
+    probes_sample_begin(&s, &o);
     probes_sample_end(&s, &o, &(struct velocity_time){0, 1});
     assert_near(s.value[column_named(&s, "turn.angle")], 0.3, 1e-12);
     assert_near(s.value[column_named(&s, "turn.stress_max")], 9, ROUND_OFF);
@@ -240,7 +240,7 @@ static void probe_of_a_turning_body(void **state)
     assert_near(s.value[column_named(&s, "turn.angular_momentum_error")], 0.1, 1e-12);
     assert_near(s.value[column_named(&s, "turn.kinetic_energy_error")], 0.21, 1e-12);
     b.p.stress[0][4] = -3, b.p.stress[1][4] = -1, b.p.out_of_plane[7] = -4; /* now the largest is in the plane */
-    probes_sample(&s, &o);
+    probes_sample_begin(&s, &o);
     assert_near(s.value[column_named(&s, "turn.stress_max")], 2 + sqrt(5), ROUND_OFF);
     probes_free(&s);
     body_free(&b);
@@ -250,11 +250,11 @@ static void probe_of_a_tip(void **state)
 {
     (void)state;
     struct body b;
-    struct tips t;
+    struct crack_tips t;
     struct probes s;
     struct figure_list l = {0};
     notched_make(&b, &t, 4);
-    struct observed o = seen(&b);
+    struct observed_run o = seen(&b);
     o.tips = &t;
     struct probe_request request[] = {{.name = "tip", .kind = PROBE_TIP},
                                       {.name = "right", .kind = PROBE_TIP, .has_at = true, .at = {30, 10}}};
@@ -262,7 +262,7 @@ static void probe_of_a_tip(void **state)
     for (int k = 0; k < 4; k++) hurt(&b, 10.5 + k, 10.5, 0);
     hurt(&b, 30.5, 5.5, 0), hurt(&b, 31.5, 5.5, 0);
     tips_update(&t, &b.p, &b.c, 2);
-    probes_sample(&s, &o);
+    probes_sample_begin(&s, &o);
     assert_near(s.value[column_named(&s, "tip.growth")], 3.5, ROUND_OFF);
     assert_near(s.value[column_named(&s, "right.x")], 31.5, ROUND_OFF);
     probes_visit_results(&s, &o, figure_keep, &l);
@@ -302,7 +302,7 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
     for (int64_t row = 0; row < b->rows; row++) {
         int32_t i = b->particle[row];
         for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-            int64_t q = bond_to_write(b, row / LANES, k, (int)(row % LANES));
+            int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
             int32_t j = b->nbr[q];
             bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);
             if (b->w[q] == 0 || !across || fabs(p->X[0][i] - p->X[0][j]) < shortest - 0.5) continue;
@@ -314,9 +314,9 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
     }
 }
 
-static struct observed bar_seen(const struct bar *bar, real t)
+static struct observed_run bar_seen(const struct bar *bar, real t)
 {
-    struct observed o = seen(&bar->b);
+    struct observed_run o = seen(&bar->b);
     o.bonds = &bar->bonds, o.material = &bar->m, o.t = t;
     return o;
 }
@@ -338,18 +338,18 @@ static void probe_of_a_spall(void **state)
     }
     bar_bond(&bar);
     struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
-    struct observed o = bar_seen(&bar, 1);
+    struct observed_run o = bar_seen(&bar, 1);
     assert_ok(probes_make(&s, &request, 1, &o));
     bar_cut(&bar, 25, 2);
-    probes_update_step(&s, &o);
+    probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_int_equal(l.n, 0); /* its shortest bond is intact */
     bar_cut(&bar, 25, 1);
     o.t = 2;
-    probes_update_step(&s, &o);
+    probes_update_every_step(&s, &o);
     bar_cut(&bar, 20, 1);
     o.t = 3;
-    probes_update_step(&s, &o);
+    probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 25, 1e-12);
     assert_near(figure(&l, "spall", "time"), 2, 0);
@@ -371,10 +371,10 @@ static void probe_of_a_wide_spall(void **state)
     for (int64_t i = 0; i < bar.b.p.n; i++) bar.b.p.kind[i] = KIND_PD;
     bar_bond(&bar);
     struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
-    struct observed o = bar_seen(&bar, 1);
+    struct observed_run o = bar_seen(&bar, 1);
     assert_ok(probes_make(&s, &request, 1, &o));
     for (int k = 23; k <= 25; k++) bar_cut(&bar, k, 1);
-    probes_update_step(&s, &o);
+    probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 24, 1e-12);
     probes_free(&s);
@@ -394,16 +394,16 @@ static void probe_of_a_spall_knows_the_grid(void **state)
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = fabs(p->X[0][i] - 15) < 1 ? KIND_PD : KIND_MPM;
     bar_bond(&bar);
     struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
-    struct observed o = bar_seen(&bar, 1);
+    struct observed_run o = bar_seen(&bar, 1);
     assert_ok(probes_make(&s, &request, 1, &o));
     bar_cut(&bar, 15, 1);
     for (int64_t i = 0; i < p->n; i++)
         if (p->kind[i] == KIND_MPM) p->flag[i] = 0;
-    probes_update_step(&s, &o);
+    probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_int_equal(l.n, 0);
     p->flag[particle_at(&bar.b, 13.5, 0, 0)] = FLAG_LOST_BOND;
-    probes_update_step(&s, &o);
+    probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 15, 1e-12);
     probes_free(&s);
@@ -425,15 +425,15 @@ static void probe_of_a_break(void **state)
     struct probe_request request[] = {{.name = "right", .kind = PROBE_BREAK, .region = {.n = 1, .solid = &right}},
                                       {.name = "all", .kind = PROBE_BREAK},
                                       {.name = "energy", .kind = PROBE_ENERGY}};
-    struct observed o = bar_seen(&bar, 1);
+    struct observed_run o = bar_seen(&bar, 1);
     o.horizon = 3;
     assert_ok(probes_make(&s, request, 3, &o));
     bar_cut(&bar, 5, 1);
-    probes_update_step(&s, &o);
+    probes_update_every_step(&s, &o);
     memset(p->flag, 0, (size_t)p->n);
     bar_cut(&bar, 25, 3); /* three bonds of length 3: 22.5-25.5, 23.5-26.5, 24.5-27.5 */
     o.t = 2;
-    probes_update_step(&s, &o);
+    probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "all", "first_time"), 1, 0);
     assert_near(figure(&l, "all", "x"), 5, 1e-12);
@@ -451,7 +451,7 @@ static void probe_of_a_break(void **state)
     for (int64_t i = 0; i < p->n; i++)
         for (int64_t j = 0; j < p->n; j++)
             if (i != j && llabs(i - j) <= 3) half_energy += full * (real)llabs(i - j) / 12; /* 2 (1 + 2 + 3) = 12 */
-    probes_sample(&s, &o);
+    probes_sample_begin(&s, &o);
     assert_near(s.value[column_named(&s, "energy.strain")], half_energy, 1e-12 * half_energy);
     probes_free(&s);
     bonds_free(&bar.bonds);
@@ -480,7 +480,7 @@ static void profile_of_a_line(void **state)
     struct kept_profile kept = {{0}, {0}};
     body_make(&b, 1, (const int[]){10});
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[0][i] = (real)i;
-    struct observed o = seen(&b);
+    struct observed_run o = seen(&b);
     struct probe_request request = {.name = "a/b", .kind = PROBE_LINE, .from = {0.5}, .to = {12.5}, .points = 5};
     assert_ok(probes_make(&s, &request, 1, &o));
     assert_int_equal(probes_count_profiles(&s), 1);

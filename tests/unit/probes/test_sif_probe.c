@@ -9,11 +9,11 @@ enum { WIDTH = 72, HEIGHT = 60 };
 /* A plate of glass of 72 x 60 with a crack from its left edge to (30, 30), between two rows of particles. */
 struct plate {
     struct body body;
-    struct tips tips;
+    struct crack_tips tips;
     struct material material[2];
     real corner[2][2][DIM_MAX];
     struct crack crack[2];
-    struct observed o;
+    struct observed_run o;
 };
 
 static void plate_make(struct plate *p, int cracks, const real *tip)
@@ -30,16 +30,16 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
     p->corner[1][0][0] = tip[0] + 10, p->corner[1][1][0] = tip[0] + 10;
     p->corner[1][0][1] = 10, p->corner[1][1][1] = 50;
     tips_make(&p->tips, &p->body.p, &p->body.c, p->crack, cracks, 1, 1);
-    p->o = (struct observed){.part = &p->body.p,
-                             .cells = &p->body.c,
-                             .tips = &p->tips,
-                             .material = p->material,
-                             .spacing = 1,
-                             .thickness = 0.37,
-                             .space = SPACE_PLANE_STRAIN,
-                             .horizon = 3.015,
-                             .crack = p->crack,
-                             .cracks = cracks};
+    p->o = (struct observed_run){.part = &p->body.p,
+                                 .cells = &p->body.c,
+                                 .tips = &p->tips,
+                                 .material = p->material,
+                                 .spacing = 1,
+                                 .thickness = 0.37,
+                                 .space = SPACE_PLANE_STRAIN,
+                                 .horizon = 3.015,
+                                 .crack = p->crack,
+                                 .cracks = cracks};
 }
 
 static void plate_free(struct plate *p)
@@ -58,7 +58,7 @@ static void plate_field(struct plate *k, const real K[MODES], const real *place,
         real u[2] = {0}, w[2] = {0};
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
-            crack_field(&m, mode, v, x, &f);
+            crack_tip_field(&m, mode, v, x, &f);
             for (int d = 0; d < 2; d++) u[d] += K[mode] * f.displacement[d], w[d] += K[mode] * f.state.velocity[d];
         }
         for (int d = 0; d < 2; d++) {
@@ -115,7 +115,7 @@ static void tip_at_rest(void **state)
         assert_ok(probes_make(&s, cracks ? request : request + 2, cracks ? 3 : 1, &p.o));
         assert_string_equal(s.column[s.columns - 4].name, "bare.K_I");
         assert_string_equal(s.column[s.columns - 4].unit, "Pa m^(1/2)");
-        probes_sample(&s, &p.o);
+        probes_sample_begin(&s, &p.o);
         probes_sample_end(&s, &p.o, &(struct velocity_time){0, 1});
         const char *const names[] = {"bare", "told", "found"};
         for (int k = 0; k < (cracks ? 3 : 1); k++) {
@@ -194,12 +194,12 @@ static void tip_in_motion(void **state)
     plate_make(&p, 1, start);
     assert_ok(probes_make(&s, &request, 1, &p.o));
     assert_ok(probes_make(&again, &request, 1, &p.o));
-    struct tip *tip = &p.tips.tip[0];
+    struct crack_tip *tip = &p.tips.tip[0];
     p.tips.samples = 13;
     p.tips.time = NEW("test.time", 13, real), p.tips.growth = NEW("test.growth", 13 * TIPS_MAX, real);
     for (int k = 0; k < 13; k++) p.tips.time[k] = 1e-3 * k, p.tips.growth[k * TIPS_MAX] = k;
     p.tips.window = 5e-3;
-    assert_close(tips_speed(&p.tips, 0), v, 1e-12);
+    assert_close(tips_average_speed(&p.tips, 0), v, 1e-12);
     tip->growth = 12, tip->place[0] = p.corner[0][1][0] = 42; /* no bonds here that would hide particles */
     p.o.t = 12e-3, p.o.t_velocity = p.o.t - 0.5 * dt;
     for (int round = 0; round < 2; round++) {
@@ -217,9 +217,9 @@ static void tip_in_motion(void **state)
         assert_close(value_of(now, "sif.J"), (A[0] * K[0] * K[0] + A[1] * K[1] * K[1]) / m.modulus, 0.003);
         struct store store = {0};
         struct archive a = {true, store_exchange, NULL, &store};
-        assert_ok(probes_archive(&s, &a));
+        assert_ok(probes_save_or_load(&s, &a));
         a.saving = false;
-        assert_ok(probes_archive(&again, &a));
+        assert_ok(probes_save_or_load(&again, &a));
         store_free(&store);
     }
     assert_exact(value_of(&again, "sif.K_II"), value_of(&s, "sif.K_II"));
@@ -240,7 +240,7 @@ static void tip_that_turned(void **state)
     const struct probe_request request = {.name = "sif", .kind = PROBE_SIF, .outer = 12, .speed = NAN};
     plate_make(&p, 1, start);
     assert_ok(probes_make(&s, &request, 1, &p.o));
-    struct tip *tip = &p.tips.tip[0];
+    struct crack_tip *tip = &p.tips.tip[0];
     for (int k = 1; k <= 20; k++) {
         tip->place[0] = 30 + 0.6 * k, tip->place[1] = 30 + 0.6 * k, tip->growth = 0.6 * sqrt(2) * k;
         probes_sample_end(&s, &p.o, &(struct velocity_time){0, 1});

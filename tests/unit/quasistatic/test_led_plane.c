@@ -53,7 +53,7 @@ static void field_set(struct run *e, const struct sif_crack_tip *tip, enum space
         for (int d = 0; d < 2; d++) X[d] -= tip->position[d];
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
-            crack_field_at_rest(&medium, mode, (real[]){a[0] * X[0] + a[1] * X[1], a[0] * X[1] - a[1] * X[0]}, &f);
+            crack_tip_field_at_rest(&medium, mode, (real[]){a[0] * X[0] + a[1] * X[1], a[0] * X[1] - a[1] * X[0]}, &f);
             u[0] += K[mode] * (a[0] * f.displacement[0] - a[1] * f.displacement[1]);
             u[1] += K[mode] * (a[1] * f.displacement[0] + a[0] * f.displacement[1]);
         }
@@ -167,7 +167,7 @@ static void test_release_rate(void **state)
         real record[20];
         if (k > 0) led->path[led->segments++] = (struct path_segment){{{grown[k - 1]}, {grown[k]}}, 0};
         a.e.statics->balance.lost = released[k];
-        statics_record(&a.e, record);
+        statics_write_record(&a.e, record);
         assert_true(fabs(record[2] - released[k]) <= 1e-12 * released[k]);
         assert_true(fabs(record[3] - 0.37e-3 * grown[k]) <= 1e-12 * grown[k]);
         const int since = k > 2 ? k - 2 : 0;
@@ -196,7 +196,7 @@ static void test_rate_of_damage(void **state)
             if (p->X[0][i] > 7e-3 && p->X[0][i] < (7 + k) * 1e-3 && fabs(p->X[1][i] - 4e-3) < 0.6e-3)
                 p->damage[i] = 0.45;
         a.e.statics->balance.lost = released[k];
-        statics_record(&a.e, record);
+        statics_write_record(&a.e, record);
         const int since = k > 8 ? 4 : 0;
         const real rate = (released[k] - released[since]) / (0.37e-3 * 1e-3 * (k - since));
         if (!(fabs(record[3] / (0.37e-6 * k) - 1) < 1e-9)) fail_msg("%d spacings: %g m^2", k, record[3]);

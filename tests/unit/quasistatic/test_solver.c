@@ -217,7 +217,7 @@ static void test_points_support(void **state)
                         "probes: [{reaction: {boundary: end}}]\n",
           "solver=relaxation", "method=mpm", NULL);
     solved(&a);
-    const struct observed o = {.loads = &a.e.loads, .part = &a.e.part};
+    const struct observed_run o = {.loads = &a.e.loads, .part = &a.e.part};
     probes_visit_results(&a.e.probing->probes, &o, reaction_keep, figure);
     near("reaction", figure[0], 1e12 * strain(&a, 0, quarter_place, far_place), 1e-3);
     assert_true(figure[0] == figure[1] && figure[0] == a.e.loads.load[1].reaction[0]);

@@ -248,9 +248,9 @@ static void test_trial(void **state)
         solution_make(&a, YIELDS, variant[k][0], variant[k][1], k == 3 ? "steps.path=bonds" : "name=same", NULL);
         solution_done(&a);
         statics_unknowns_make(&a.e);
-        assert_int_equal(equilibrium_at(&a.e, 0.25), OK);
-        assert_int_equal(equilibrium_at(&a.e, 0.9), OK);
-        assert_int_equal(equilibrium_convert(&a.e, 0), OK);
+        assert_int_equal(equilibrium_find_at_time(&a.e, 0.25), OK);
+        assert_int_equal(equilibrium_find_at_time(&a.e, 0.9), OK);
+        assert_int_equal(equilibrium_convert_points(&a.e, 0), OK);
         if (k == 0) assert_true(bond_plastic_work(&a.e.bonds) > 0);
         trace_take(&before, &a.e);
         assert_int_equal(crack_increment_find(&a.e), OK);
@@ -286,7 +286,7 @@ static void test_let_go(void **state)
     solution_done(&a);
     struct particles *p = &a.e.part;
     statics_unknowns_make(&a.e);
-    assert_int_equal(equilibrium_at(&a.e, 0.6), OK);
+    assert_int_equal(equilibrium_find_at_time(&a.e, 0.6), OK);
     const real rests = contact_energy(a.e.contact, p), lost = a.e.statics->balance.lost, damped = a.e.damped;
     for (int64_t i = 0; i < p->n; i++)
         if (p->X[1][i] > 4e-3) p->x[1][i] -= push;

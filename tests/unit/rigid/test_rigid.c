@@ -188,11 +188,11 @@ static void test_kick(void **state)
                            .spin = {0.6, -1.3, 0.9}};
     const real force = 4 * 0.3 + 3 * 0.2 + 2.5 * 0.5, weight = 0.7 * 0.3 - 1.1 * 0.2 - 9 * 0.5;
     const real moment = 2 * 0.6 - 0.4 * 1.3 - 1.7 * 0.9;
-    assert_close(rigid_kick_energy(&r, 0.03), 0.015 * (force + weight + moment), 1e-14);
+    assert_close(rigid_leapfrog_energy_gap(&r, 0.03), 0.015 * (force + weight + moment), 1e-14);
     r.turns = false;
-    assert_close(rigid_kick_energy(&r, 0.03), 0.015 * (force + weight), 1e-14);
+    assert_close(rigid_leapfrog_energy_gap(&r, 0.03), 0.015 * (force + weight), 1e-14);
     r.motion = RIGID_DRIVEN;
-    assert_exact(rigid_kick_energy(&r, 0.03), 0);
+    assert_exact(rigid_leapfrog_energy_gap(&r, 0.03), 0);
 }
 
 /* ---- in the engine ----------------------------------------------------------------------------------------------- */
@@ -267,7 +267,7 @@ static void test_ramp(void **state)
     for (int k = 0; k < 1000; k++) {
         real way[DIM_MAX];
         rigid_move(&r, (k + 0.5) * 2e-3, 2e-3, 2e-3);
-        assert_near(rigid_displacement(&r, (k + 1) * 2e-3, way), hypot(r.x[0] - 1, r.x[1] - 2), 1e-9);
+        assert_near(rigid_driven_displacement(&r, (k + 1) * 2e-3, way), hypot(r.x[0] - 1, r.x[1] - 2), 1e-9);
         for (int d = 0; d < 2; d++) assert_near(way[d], r.x[d] - r.centre[d], 1e-9);
     }
 }

@@ -12,7 +12,8 @@ static struct reader reader = {.name = "test", .scene = &scene, .dim = 3};
 
 static status compile(struct expression *e, const char *text, enum unit unit)
 {
-    struct node n = {.kind = NODE_SCALAR, .line = 1, .column = 2, .origin = -1, .key = "value", .text = (char *)text};
+    struct yaml_node n = {
+        .kind = NODE_SCALAR, .line = 1, .column = 2, .origin = -1, .key = "value", .text = (char *)text};
     struct key k = {.path = "value", .type = KEY_REAL, .unit = unit};
     const status result = read_expression(&reader, &k, &n, EXPRESS_SPACE | EXPRESS_TIME, e);
     arena_free(&reader);

@@ -314,7 +314,7 @@ static void initial_strain_is_hooke(void **state)
                 real want = dim == 1 ? m->young * H[0][0] : m->c12 * trace + (m->c11 - m->c12) * H[a][a];
                 assert_near(p.stress[a][i], want, 1e-6); /* relative to 1e6 Pa */
             }
-            for (int c = dim; c < symmetric_count(dim); c++) {
+            for (int c = dim; c < symmetric_component_count(dim); c++) {
                 const int *ab = pair[c - dim];
                 assert_near(p.stress[c][i], m->shear * (H[ab[0]][ab[1]] + H[ab[1]][ab[0]]), 1e-6);
             }

@@ -23,7 +23,7 @@ struct truss {
         int a, b;
         real stiffness, rest;
     } bar[BARS];
-    struct equilibrium q;
+    struct newton_solver q;
     struct field way;
 };
 
@@ -84,19 +84,19 @@ static void bar_add(struct truss *t, int a, int b, real stiffness)
 
 static void truss_make(struct truss *t, real tolerance)
 {
-    t->q = (struct equilibrium){.force = truss_force,
-                                .precondition = truss_precondition,
-                                .context = t,
-                                .tolerance = tolerance,
-                                .length = 1,
-                                .unit_energy = 1};
-    equilibrium_make(&t->q, t->dim, t->nodes);
+    t->q = (struct newton_solver){.force = truss_force,
+                                  .precondition = truss_precondition,
+                                  .context = t,
+                                  .tolerance = tolerance,
+                                  .length = 1,
+                                  .unit_energy = 1};
+    newton_solver_make(&t->q, t->dim, t->nodes);
     for (int d = 0; d < t->dim; d++) t->way.of[d] = NEW("test.way", t->nodes, real);
 }
 
 static void truss_free(struct truss *t)
 {
-    equilibrium_free(&t->q);
+    newton_solver_free(&t->q);
     for (int d = 0; d < t->dim; d++) memory_free(t->way.of[d]);
 }
 
@@ -106,7 +106,7 @@ static status truss_find(struct truss *t, bool moved)
     for (int i = 0; i < t->nodes; i++)
         for (int d = 0; d < t->dim; d++) applied += t->q.held[i] >> d & 1 ? 0 : square(t->load[i][d]);
     t->q.applied = sqrt(applied);
-    return equilibrium_find(&t->q, &t->way, moved);
+    return newton_solver_find_equilibrium(&t->q, &t->way, moved);
 }
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */

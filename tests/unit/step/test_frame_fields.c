@@ -32,7 +32,7 @@ static void run_text(const char *text, bool begins)
     if (engine_make(&e, &s, &o) != OK) fail_msg("%s", status_message());
     e.report->quiet = true;
     if ((begins ? report_start(&e) : engine_run(&e)) != OK) fail_msg("%s", status_message());
-    assert_int_equal(output_wait(&o), OK);
+    assert_int_equal(output_wait_for_frame(&o), OK);
     engine_free(&e);
     output_close(&o);
     scene_free(&s);
@@ -163,7 +163,7 @@ static void strain_of(const struct block *b, const double H[3][3], double *E)
 }
 
 /* Computes the stress by Hooke's law in 3D from the strain including the out-of-plane component. */
-static void stress_of(const struct block *b, const double *E, double *S)
+static void hooke_stress(const struct block *b, const double *E, double *S)
 {
     const double nu = b->poisson, lambda = YOUNG * nu / ((1 + nu) * (1 - 2 * nu)), G = YOUNG / (2 * (1 + nu));
     for (int k = 0; k < 6; k++) S[k] = 2 * G * E[k] + (k < 3 ? lambda * (E[0] + E[1] + E[2]) : 0);
@@ -186,7 +186,7 @@ static void uniform_strain(void **state)
         run_block(&block[k], own, "");
         shown_open(&a, 0, block[k].dim);
         strain_of(&block[k], own, E);
-        stress_of(&block[k], E, S);
+        hooke_stress(&block[k], E, S);
         const double close = (bonds ? 0.07 : 2e-4) * YOUNG * 4e-5;
         const double mean = (S[0] + S[1] + S[2]) / 3, density = DENSITY * (1 - E[0] - E[1] - E[2]);
         double deviator = 0;

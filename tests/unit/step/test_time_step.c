@@ -183,7 +183,7 @@ static void frames_are_nearest(void **state)
     static struct run e;
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
-    for (int k = 1; k <= 3; k++) assert_int_equal(report_frame_step(e.scene, &e.clock, k), nearest[k]);
+    for (int k = 1; k <= 3; k++) assert_int_equal(report_step_of_frame(e.scene, &e.clock, k), nearest[k]);
     engine_free(&e);
     scene_free(&s);
 }

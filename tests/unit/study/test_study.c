@@ -132,13 +132,13 @@ static void values_are_short_in_pictures(void **state)
         struct varied_key k;
         char text[LABEL_ROOM];
         assert_int_equal(varied_key_read(&k, wanted[w].text), OK);
-        study_value_shown(text, &k, 1);
+        study_value_label(text, &k, 1);
         assert_string_equal(text, wanted[w].shown);
         varied_key_free(&k);
     }
-    assert_near(study_tics_apart(1000, 4), 500, 1e-9);
-    assert_near(study_tics_apart(1.5e-3, 4), 5e-4, 1e-12);
-    assert_near(study_tics_apart(8, 4), 2, 1e-12);
+    assert_near(axis_tick_distance(1000, 4), 500, 1e-9);
+    assert_near(axis_tick_distance(1.5e-3, 4), 5e-4, 1e-12);
+    assert_near(axis_tick_distance(8, 4), 2, 1e-12);
 }
 
 /* Units are taken from the header of a history, if it has the figure. */
@@ -171,7 +171,7 @@ static void figures_have_units(void **state)
     };
     for (size_t w = 0; w < COUNT_OF(wanted); w++) {
         char unit[UNIT_ROOM];
-        study_figure_unit(unit, sizeof unit, header, wanted[w][0]);
+        study_result_unit(unit, sizeof unit, header, wanted[w][0]);
         assert_string_equal(unit, wanted[w][1]);
     }
 }
@@ -235,7 +235,7 @@ static void figures_fit_their_scene(void **state)
     for (size_t k = 0; k < COUNT_OF(figure); k++)
         for (int which = 0; which < 2; which++) {
             const char *lacks = which ? figure[k].steps : figure[k].plate;
-            const status s = figure_name_check(which ? &steps : &plate, figure[k].name);
+            const status s = result_name_check(which ? &steps : &plate, figure[k].name);
             if (s != (lacks ? REFUSED : OK) || (lacks && !strstr(status_message(), lacks)))
                 fail_msg("%s, scene %d: %s", figure[k].name, which, s == OK ? "not refused" : status_message());
         }
@@ -275,7 +275,7 @@ static void stopped_runs_have_no_figures(void **state)
         const struct scene_override own = {"duration", name[k]};
         struct study_case *c = study_add(&s, name[k], &own, 1);
         c->state = (enum case_state[]){CASE_DONE, CASE_STOPPED, CASE_FAILED}[k];
-        const struct path run = study_folder(&s, c);
+        const struct path run = study_case_folder(&s, c);
         assert_int_equal(folder_make(run.text), OK);
         assert_int_equal(file_write_whole(path_join(run.text, "summary.json").text, text, strlen(text)), OK);
     }
@@ -285,8 +285,8 @@ static void stopped_runs_have_no_figures(void **state)
     assert_true(isnan(t.value[0][1]) && isnan(t.value[0][2]));
     study_table_free(&t);
     for (int k = 0; k < 3; k++) {
-        unlink(path_join(study_folder(&s, &s.at[k]).text, "summary.json").text);
-        rmdir(study_folder(&s, &s.at[k]).text);
+        unlink(path_join(study_case_folder(&s, &s.at[k]).text, "summary.json").text);
+        rmdir(study_case_folder(&s, &s.at[k]).text);
     }
     study_free(&s);
     rmdir(folder);
