@@ -121,10 +121,9 @@ status fault_key_missing(struct reader *r, const struct yaml_node *map, const st
     snprintf(group, sizeof group, "%s", k->path);
     char *dot = strrchr(group, '.');
     if (dot) *dot = '\0';
-    bool number = k->type == KEY_REAL;
+    const char *example = k->type == KEY_REAL ? unit_rows[k->unit].example : "";
     return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%s; %s is expected%s%s", key_leaf(k),
-                             dot ? " in " : "", dot ? group : "", form_text(r, k), number ? ", as " : "",
-                             number ? unit_rows[k->unit].example : "");
+                             dot ? " in " : "", dot ? group : "", form_text(r, k), *example ? ", as " : "", example);
 }
 
 const char *words_for_message(struct reader *r, const char *words)

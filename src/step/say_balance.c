@@ -116,19 +116,20 @@ static const struct material *yielding_material(const struct scene *s)
     return found;
 }
 
-/* Warns that energy comes from nowhere in a body that yields, with what makes it less. m: its material; error: relative
- * error of the energy balance [1]. */
+/* Warns of energy gained without work of loads in a body that yields, with what makes it less. m: its material; error:
+ * relative error of the energy balance [1]. */
 static void say_yield_gain(const struct scene *s, const struct material *m, real error, struct warnings *to)
 {
     char text[480], law[120] = "";
     if (s->method == METHOD_MPM && scene_is_dynamic(s))
         snprintf(law, sizeof law, ", and material.hardening: {linear: {modulus: %.4g}} counts it more exactly",
                  m->yield_hardening);
-    snprintf(
-        text, sizeof text,
-        "%.2g %% of the energy comes from nowhere (energy.balance_error %.2g): the plastic work of yield_stress and "
-        "yield_tangent is counted with the stress at the end of each step; time.safety: %.2g halves the error%s",
-        100 * error, error, 0.5 * s->safety, law);
+    snprintf(text, sizeof text,
+             "%.2g %% of the energy is gained without work of loads (energy.balance_error %.2g): the plastic work of "
+             "yield_stress and yield_tangent is counted with the stress at the end of each step; time.safety: %.2g "
+             "halves the "
+             "error%s",
+             100 * error, error, 0.5 * s->safety, law);
     warnings_add_and_print(to, text);
 }
 

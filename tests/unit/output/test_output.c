@@ -16,6 +16,7 @@
 #include "engine/engine.h"
 #include "src/engine/engine_internal.h"
 #include "base/memory.h"
+#include "output/checksum.h"
 #include "output/output_files.h"
 #include "output/output_hdf5.h"
 #include "step/report.h"
@@ -317,6 +318,9 @@ static void older_run_is_replaced_unless_resumed(void **state)
     open_fresh(&o, "again", false);
     static const char *const made[] = {"frames/000000.hdf", "history.csv", "checkpoint.h5", "checkpoint.previous.h5"};
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_int_equal(output_write_text(&o, made[k], "x", 1), OK);
+    assert_int_equal(output_write_text(&o, "frames/000000.hdf.cleave.tmp", "x", 1), OK);
+    assert_int_equal(file_append_footer("again/frames/000000.hdf"), OK); /* by which a frame is known as Cleave's */
+    assert_int_equal(file_publish("again/frames/000000.hdf"), OK);
     static const char *const others[] = {"frames/000001.hdf.tmp", "checkpoint.h5.tmp", "history.csv.tmp"};
     for (size_t k = 0; k < COUNT_OF(others); k++) assert_int_equal(output_write_text(&o, others[k], "mine", 4), OK);
     assert_int_equal(output_write_text(&o, "frames/000001.hdf.cleave.tmp", "x", 1), OK);
