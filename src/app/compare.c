@@ -301,11 +301,11 @@ static void print_tips(const struct pair *p)
             least = fmin(least, sqrt(square(a[0] - b[0]) + square(a[1] - b[1]) + square(a[2] - b[2])));
         printf("  tip %d at (%.5g, %.5g, %.5g) m: ", i, a[0], a[1], a[2]);
         if (!isfinite(least))
-            printf("B has no tip\n");
+            printf("run B has no tip\n");
         else if (p->spacing > 0)
-            printf("nearest of B %.4g m away, %.3g spacings\n", least, least / p->spacing);
+            printf("nearest tip of run B is %.4g m away (%.3g spacings)\n", least, least / p->spacing);
         else
-            printf("nearest of B %.4g m away\n", least);
+            printf("nearest tip of run B is %.4g m away\n", least);
     }
 }
 

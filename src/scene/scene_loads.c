@@ -120,8 +120,8 @@ static status read_velocity(struct reader *r, const struct yaml_node *n, struct 
     } else if (n->kind == NODE_SCALAR && r->dim == 1) {
         TRY(read_component(r, n, b, 0));
     } else {
-        return fault(r, n, "%s does not fit space %s; a list of %d is expected, as %s", node_text(r, n),
-                     space_names[r->scene->space], r->dim, examples[b->displaces][r->dim - 1]);
+        return fault(r, n, "%s has not the number of components of space %s; a list of %d is expected, for example %s",
+                     node_text(r, n), space_names[r->scene->space], r->dim, examples[b->displaces][r->dim - 1]);
     }
     return b->components ? OK
                          : fault(r, n, "every component is free; at least one %s is expected",

@@ -154,7 +154,7 @@ static status scene_override_entry_of(struct reader *r, struct yaml_node *map, c
     bool empty = map->kind == NODE_SCALAR && *map->text == '\0';
     if (empty) map->kind = NODE_MAP;
     if (map->kind != NODE_MAP)
-        return fault(r, &at, "%s holds %s, not keys; `cleave help` shows the path of every key",
+        return fault(r, &at, "%s has the value %s and no keys below it; `cleave help` shows the path of every key",
                      map->key ? text_for_message(r, map->key) : "the item", node_text(r, map));
     if (strspn(at.key, "0123456789") == length) {
         at.key = map->key;

@@ -151,8 +151,10 @@ static status region_called(struct reader *r, const struct yaml_node *n, const s
     const char *word = r->dim == r->scene->dim ? "region" : "section";
     if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of %ss is expected", node_text(r, n), word);
     if (!map)
-        return fault(r, n, "%s is no solid, and no %s has a name; %ss: {%s: {box: ..}} is expected", node_text(r, n),
-                     word, word, node_text(r, n));
+        return fault(
+            r, n,
+            "%s is not the word of a solid, and the scene has no %s of this name; %ss: {%s: {box: ..}} is expected",
+            node_text(r, n), word, word, node_text(r, n));
     for (const struct yaml_node *c = map->first; c; c = c->next) {
         *called = c;
         if (strcmp(c->key, n->text) == 0) return OK;

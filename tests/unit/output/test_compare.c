@@ -233,7 +233,7 @@ static void runs_are_compared(void **state)
     assert_true(number_after(printed, "damage") == 0);
     assert_true(number_after(printed, "kind differs (bond or point)") == 0);
     assert_true(fabs(number_after(printed, "t_r = 1 - A/B = ") - 0.75) < 1e-4); /* printed with four digits */
-    assert_true(fabs(number_after(printed, "nearest of B") - 5e-3) < 1e-6);
+    assert_true(fabs(number_after(printed, "nearest tip of run B is") - 5e-3) < 1e-6);
     assert_non_null(strstr(printed, "5 spacings"));
     assert_non_null(strstr(printed, "comparable particle by particle: yes"));
 }

@@ -195,7 +195,8 @@ static const struct {
     {"[22 m/s, free]", "[22 m/s, fre]", "28:24: velocity[1]: fre is not a number; a velocity is expected, as 22 m/s"},
     {"[22 m/s, free]", "[22 m, free]", "28:16: velocity[0]: 22 m is a length; a velocity is expected, as 22 m/s"},
     {"[22 m/s, free]", "22 m/s",
-     "28:5: velocity: 22 m/s does not fit space plane stress; a list of 2 is expected, as [22 m/s, free]"},
+     "28:5: velocity: 22 m/s has not the number of components of space plane stress; a list of 2 is expected, for "
+     "example [22 m/s, free]"},
     {"velocity: [22 m/s, free]", "fixed: [x, z]",
      "28:16: fixed[1]: z is no axis of space plane stress; x or y is expected"},
     {"velocity: [22 m/s, free]", "fixed: [x, x]", "28:16: fixed[1]: x is given twice; each axis is expected once"},
@@ -401,7 +402,8 @@ static void test_overrides(void **state)
         {{"boundary[0].velocity[1]", "fre"},
          "-s boundary[0].velocity[1]=fre: velocity[1]: fre is not a number; a velocity is expected, as 22 m/s"},
         {{"duration.x", "1"},
-         "-s duration.x=1: x: duration holds 50 us, not keys; `cleave help` shows the path of every key"},
+         "-s duration.x=1: x: duration has the value 50 us and no keys below it; `cleave help` shows the path of every "
+         "key"},
         {{"duration[0]", "1"}, "-s duration[0]=1: duration: is no list in this scene; [0] has no meaning"},
         {{"material..young", "1"},
          "-s material..young=1: material..young: not a path of keys; material.young or boundary.0.velocity is one"},

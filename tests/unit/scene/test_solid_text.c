@@ -251,7 +251,8 @@ static void test_refusals(void **state)
         {2, "sections: {a: {box: {from: [0, 0], to: [1, 1]}}}\n", "{box: {from: [0, 0], to: [1, 1]}}",
          "not in space plane stress; regions are expected there"},
         {3, "regions: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",
-         "a is no solid, and no section has a name; sections: {a: {box: ..}} is expected"},
+         "a is not the word of a solid, and the scene has no section of this name; sections: {a: {box: ..}} is "
+         "expected"},
         {3, "sections: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",
          "2 are expected in the plane of extrude"},
         {3, "sections: {web: {disc: {centre: [0, 0], radius: 1}}}\n", "{extrude: {shape: wed, from: 0, to: 1}}",
