@@ -81,15 +81,13 @@ bool reference_frame_in_use(const struct reference_frame *r)
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
 /* Returns the elastic constants of the cells [materials]: of the material, or of its bonds on the lattice
- * (mpm.constants). Points that flow keep their own dilatation unless the material is nearly incompressible: with one in
- * a cell, Newton's method of load steps finds no equilibrium close to a limit load. */
+ * (mpm.constants). */
 static struct elastic *cell_constants(const struct scene *s, const struct elastic *own, const struct family *family)
 {
     struct elastic *cell = NEW("engine.cell_elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
         real c12;
         cell[m] = own[m];
-        cell[m].mean_dilatation = own[m].mean_dilatation && s->material[m].poisson > 0.4;
         if (!s->lattice_constants) continue;
         family_elastic_constants(family, &s->material[m], &cell[m].c11, &c12);
         if (s->dim > 1) cell[m].c12 = cell[m].shear = c12;

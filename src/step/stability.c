@@ -421,7 +421,7 @@ static bool say_stretched(const struct particles *p, const struct scene *s, real
 
 /* Plastic strain of points of a mesh at which a warning is printed: elastic and plastic strains add up to the strain of
  * the rotated cell, which is short of the logarithm of the stretch by half its square. */
-#define FLOW_MOST 0.3
+#define FLOW_MOST 0.05
 
 /* Warns of the first point of a mesh with a plastic strain above FLOW_MOST; returns true if there is one. t: present
  * time [s]. */
@@ -433,7 +433,7 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
         snprintf(
             text, sizeof text,
             "points in mpm.frame reference have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: its strains "
-            "add up, which holds to some 0.2; use mpm.frame: current",
+            "add up, so that shear beyond 0.04 brings tension that is not there; use mpm.frame: current",
             p->plastic_strain[i], t, p->X[0][i]);
         warnings_add_and_print(to, text);
         return true;

@@ -92,6 +92,7 @@ static status stability_state(struct run *e, struct archive *a)
 {
     ARCHIVE_VALUE(a, "engine/speed_rise", e->stability->speed);
     ARCHIVE_VALUE(a, "engine/excess_rise", e->stability->excess);
+    ARCHIVE_VALUE(a, "engine/stretched", e->stability->stretched);
     return OK;
 }
 

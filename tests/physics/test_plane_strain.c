@@ -172,9 +172,9 @@ static void plane_stress_has_none(void **state)
 
 /* A block extended along x flows without hardening as soon as 2 G e = sigma_y; then y and z are equivalent, so that
  *     sigma_xx - sigma_yy = sigma_y,   sigma_zz = sigma_yy = K e - sigma_y/3,   e = ln(1 + G t), the total extension,
- * 9 sigma_y/E at the end; an elastic sigma_zz would be a fifth too small. A wave travels 1.2 mm from the edges; means
- * over cells of 2 mm carry a share of it further in, 1e-4 of the yield stress at 6.4 mm. */
-#define FLOWS                                                                                                          \
+ * 9 sigma_y/E at the end; an elastic sigma_zz would be a fifth too small. A wave travels 1.2 mm from the edges; short
+ * waves ahead of it have 1.2e-4 of the yield stress at 6.4 mm. */
+#define FLOWING                                                                                                        \
     "space: plane strain\nthickness: 1 mm\nduration: 0.2 us\nmethod: mpm\n"                                            \
     "material: {young: 200 GPa, poisson: 1/4, density: 7800, yield_stress: 400 MPa}\n"                                 \
     "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\n"                                                      \
@@ -186,20 +186,20 @@ static void flow(void **state)
 {
     struct ran r;
     struct output_frame f;
-    run(&r, FLOWS, (struct scene_override[]){{"method", *state}, {0}});
+    run(&r, FLOWING, (struct scene_override[]){{"method", *state}, {0}});
     const real G = 9e4, K = 200e9 / 1.5, yield = 400e6;
     const real wanted = K * log1p(G * 0.2e-6) - yield / 3;
     int64_t seen = 0;
     assert_ok(frame_read(&f, FOLDER "/frames/000001.hdf"));
     for (int64_t i = 0; i < f.n; i++) {
-        if (fabs(f.X[0][i]) > INSIDE - 1e-3 || fabs(f.X[1][i]) > INSIDE - 1e-3) continue;
-        assert_near(f.stress[3][i], f.stress[1][i], 1e-4 * yield);
+        if (fabs(f.X[0][i]) > INSIDE || fabs(f.X[1][i]) > INSIDE) continue;
+        assert_near(f.stress[3][i], f.stress[1][i], 1.5e-4 * yield);
         assert_near(f.stress[0][i] - f.stress[1][i], yield, 1e-4 * yield);
         assert_near(f.stress[3][i], wanted, 1e-3 * wanted);
         assert_true(f.stress[3][i] > 1.1 * 0.25 * (f.stress[0][i] + f.stress[1][i])); /* excludes the elastic value */
         seen++;
     }
-    assert_int_equal(seen, 36);
+    assert_int_equal(seen, 64);
     frame_free(&f);
     assert_near(last_value(FOLDER "/history.csv", "gauge.stress_zz"), wanted, 1e-3 * wanted);
     done(&r);

@@ -113,11 +113,11 @@ near "cylinder: half through" "$(column "$work/cylinder" outer.displacement_x 0.
 near "cylinder: nearly through" "$(column "$work/cylinder" outer.displacement_x 1)" 5.366e-5 6e-2
 apart "cylinder: balance" "$(figure "$work/cylinder" energy.balance_error)" 0 1e-3
 
-# Its limit load is s ln 2 = 320 MPa. Beyond, it expands until strains are not small any more, which a run reports.
+# Its limit load is s ln 2 = 320 MPa. Beyond, there is no equilibrium. Close to it a coarse lattice is too soft: its staircase has 3 % more load.
 sed -e 's/pressure: 300/pressure: 330/; s/number: 10/number: 11/; s/spacing: 0.5/spacing: 1/' "$work/cylinder.yaml" >"$work/limit.yaml"
-warned "beyond the limit load" "$work/limit" 'the plastic strain has reached' "$work/limit.yaml" -t 1
-between "cylinder: 300 MPa" "$(column "$work/limit" outer.displacement_x 0.91)" 5.3e-5 6.2e-5
-between "cylinder: 330 MPa" "$(column "$work/limit" outer.displacement_x 1)" 1e-3 1e-1
+"$cleave" run "$work/limit.yaml" -q -o "$work/limit" -t 1 2>"$work/err"
+is "beyond the limit load" "$? $(grep -c '^load step 11, .*: no equilibrium' "$work/err")" "1 1"
+between "cylinder: 300 MPa" "$(column "$work/limit" outer.displacement_x 0.91)" 5.3e-5 6.6e-5
 
 # ---- bitwise equality --------------------------------------------------------------------------------------------------
 
