@@ -253,9 +253,9 @@ told = []
 study = cleave.sweep(plate, {"particles.spacing": ["2 mm", 4e-3], "boundary.0.traction": [[0, 6e6]]}, output=work + "/sweep", jobs=1, progress=told.append)
 holds("a sweep", list(study.sweep["state"]) == ["done"] * 2 and study.status == "study" and [p.step for p in told] == [1, 2] and told[-1].steps == 2)
 holds("its runs", list(study.runs) == list(study.sweep["run"]) and list(study.runs.values())[1].summary["particles"] == study.sweep["particles"][1] == 25)
-study = cleave.converge(plate, "energy.kinetic", {"output.frames": 0}, output=work + "/converge", levels=3, runs=1, budget=60, jobs=2)
+study = cleave.converge(plate, "energy.kinetic", {"output.frames": 0}, output=work + "/converge", levels=3, runs=1, budget=5, jobs=2)
 figure = study.figures["energy.kinetic"]
-holds("a figure: %s" % figure, figure.unit == "J" and figure.uncertainty > 0 and len(figure.means) == len(figure.spacings) == 3
+holds("a figure: %s" % figure, figure.unit == "J" and figure.uncertainty > 0 and len(figure.means) == len(figure.spacings) >= 3
       and figure.value == study.converge["value"][0] and (np.diff(figure.spacings) > 0).all() and len(study.runs) >= 3)
 
 # a frame of the earlier form, complete by itself
