@@ -240,7 +240,7 @@ static void test_refusals(void **state)
         {2, "", "{rotate: {angle: 30 deg}}", "has 0 solids"},
         {2, "", "{subtract: {box: {from: [0, 0], to: [1, 1]}}}", "subtracts from nothing"},
         {2, "", "{half-space: {point: [0, 0], normal: [1, 0]}}", "a body cannot be infinite"},
-        {2, "", "grip", "no region has a name"},
+        {2, "", "grip", "the scene has no region of this name"},
         {2, "regions: {grip: {box: {from: [0, 0], to: [1, 1]}}, other: {region: grip}}\n", "girp",
          "there is no region girp; the nearest is grip"},
         {2, "regions: {a: {region: b}, b: [{region: c}], c: {region: a}}\n", "a", "region a is part of itself"},

@@ -345,7 +345,7 @@ static void jumps_are_refused(void **state)
         {"method=pd", GRIP("displacement: [free, free]"),
          "every component is free; at least one displacement is expected"},
         {"method=pd", GRIP("displacement: [1 m/s, free]"), "a length is expected"},
-        {"method=pd", GRIP("displacement: 1 um"), "a list of 2 is expected, as [0.1 mm, free]"},
+        {"method=pd", GRIP("displacement: 1 um"), "a list of 2 is expected, for example [0.1 mm, free]"},
         {"method=pd", GRIP("displacement: [1 um, free], velocity: [0, 0]"), "given together with displacement"},
         {"method=pd", GRIP("pressure: 1 MPa, face: x+"),
          "face: pressure acts on every free face of the particles in `region`"},
