@@ -187,6 +187,18 @@ static inline void particle_reference_position(const struct particles *p, int64_
     for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
 }
 
+/* A position or another vector as text, for messages: `position_text(X, dim, 4).text` is valid until the end of the
+ * statement in which it is called. */
+struct position_text {
+    char text[DIM_MAX * 24];
+};
+
+/* Returns the components X[dim] of a vector as text, separated by ", ". digits: significant digits of each. */
+struct position_text position_text(const real *X, int dim, int digits);
+
+/* Returns the reference position of particle i [m] as text. digits: significant digits of each coordinate. */
+struct position_text particle_position_text(const struct particles *p, int64_t i, int digits);
+
 /* Returns the factor on the critical stretch of the bond between particles i and j, the smaller of their strength
  * factors [1]; 1 if strength is uniform. Weibull's distribution is closed under the minimum (weakest link), so bonds,
  * and chains of bonds, have its modulus too. */

@@ -115,11 +115,7 @@ static struct resultant resultant_at(const struct load *l, const struct particle
     return r;
 }
 
-static void say_vector(const real *a, int n)
-{
-    for (int d = 0; d < n; d++) printf("%s%.4g", d ? ", " : n > 1 ? "(" : "", a[d]);
-    if (n > 1) putchar(')');
-}
+static void say_vector(const real *a, int n) { printf(n > 1 ? "(%s)" : "%s", position_text(a, n, 4).text); }
 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 

@@ -29,10 +29,9 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
     }
     if (pieces < 2) return;
     printf("pieces         body %s consists of %lld pieces without bonds between them; all pieces but the heaviest "
-           "have %lld particles together, and the second heaviest is at (",
-           s->body[body].name, (long long)pieces, (long long)particles);
-    for (int d = 0; d < s->dim; d++) printf("%s%.4g", d ? ", " : "", f->fragment[first].x[d]);
-    printf(") m%s\n",
+           "have %lld particles together, and the second heaviest is at (%s) m%s\n",
+           s->body[body].name, (long long)pieces, (long long)particles,
+           position_text(f->fragment[first].x, s->dim, 4).text,
            free_ones > 0 ? "; some pieces have no support, so that there is no equilibrium: add supports" : "");
 }
 

@@ -167,8 +167,7 @@ struct length_text length_with_unit(real length, int digits, real spacing)
 
 static void say_place(const real *at, int dim, FILE *out)
 {
-    for (int d = 0; d < dim; d++) fprintf(out, "%s%.4g", d ? ", " : dim > 1 ? "(" : "", at[d]);
-    fprintf(out, dim > 1 ? ") m" : " m");
+    fprintf(out, dim > 1 ? "(%s) m" : "%s m", position_text(at, dim, 4).text);
 }
 
 /* Prints the name of the body, the material of the part if it is one of several, and the position. */

@@ -128,9 +128,9 @@ static void print_field(const char *label, const char *unit, const struct output
     snprintf(text, sizeof text, "%s%s%s%s", label, *unit ? " [" : "", unit, *unit ? "]" : "");
     printf("  %-28s %14.7g %14.7g %14.7g", text, d.largest, d.rms, d.scale);
     if (d.largest > 0) {
-        printf("   (%.5g", f->X[0][d.where]);
-        for (int k = 1; k < f->dim; k++) printf(", %.5g", f->X[k][d.where]);
-        printf(")");
+        real X[DIM_MAX] = {0};
+        for (int k = 0; k < f->dim; k++) X[k] = f->X[k][d.where];
+        printf("   (%s)", position_text(X, f->dim, 5).text);
     }
     putchar('\n');
 }

@@ -20,14 +20,6 @@
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
-/* Prints a text and the position X (dim components [m]). */
-static void print_position(const char *text, const real *X, int dim)
-{
-    printf("%s(", text);
-    for (int d = 0; d < dim; d++) printf("%s%.4g", d ? ", " : "", X[d]);
-    printf(")");
-}
-
 /* Prints when and at how many positions bonds broke first, and the growth of the longest crack with its ends. */
 static void print_breaks(const struct run *e)
 {
@@ -41,11 +33,9 @@ static void print_breaks(const struct run *e)
         printf("  first bond broken at %.4g s", w->break_time);
     if (broke && w->break_ends > 1) printf(" at %lld positions", (long long)w->break_ends);
     if (tip) {
-        printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
-               tip_angle(tip, e->part.dim));
-        print_position(", from ", tip->origin, e->part.dim);
-        print_position(" to ", tip->place, e->part.dim);
-        printf(" m%s", tip->from_crack ? "" : ", not from a pre-crack");
+        printf("%slongest crack grew %.4g mm at %.3g degrees, from (%s) to (%s) m%s", broke ? ", " : "  ",
+               1e3 * tip->growth, tip_angle(tip, e->part.dim), position_text(tip->origin, e->part.dim, 4).text,
+               position_text(tip->place, e->part.dim, 4).text, tip->from_crack ? "" : ", not from a pre-crack");
     }
     if (tied > 1) printf(", one of %lld tips whose growth is equal to within a spacing", (long long)tied);
     if (broke || tip) printf("\n");

@@ -20,15 +20,6 @@ void convert_particles_beside_voids(struct particles *p, const struct voids *v, 
         if (v->near[i] & VOID_ACROSS && (include_meshed || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
 }
 
-/* Writes the position of a particle as "(x, y)" [m] to text. Returns text. */
-static const char *void_position_text(const struct particles *p, int64_t i, char text[96])
-{
-    int used = snprintf(text, 96, "(");
-    for (int d = 0; d < p->dim; d++) used += snprintf(text + used, 96 - used, "%s%.4g", d > 0 ? ", " : "", p->X[d][i]);
-    snprintf(text + used, 96 - used, ")");
-    return text;
-}
-
 /* Particles beside voids whose sides the grid joins, as the voids are too narrow: their number, and the first of
  * them. */
 struct closed {
@@ -96,24 +87,24 @@ void voids_warn(const struct run *e, struct warnings *to)
     const struct scene *s = e->scene;
     const bool uncut = mesh_ignores_voids(&e->grid->field[0].grid, s);
     const struct closed grid = closed_on_grid(&e->part, e->source.voids, uncut);
-    char place[96];
     if (grid.n > 0)
-        warnings_add(to,
-                     "body %s has a void too narrow for its grid, at %s m: %lld material points share grid nodes with "
-                     "points on the other side of the void, which closes it; use %smethod: pd, method: adaptive or a "
-                     "smaller particles.spacing",
-                     s->body[e->part.body[grid.first]].name, void_position_text(&e->part, grid.first, place),
-                     (long long)grid.n, uncut ? "" : "mpm.frame: reference, ");
+        warnings_add(
+            to,
+            "body %s has a void too narrow for its grid, at (%s) m: %lld material points share grid nodes with "
+            "points on the other side of the void, which closes it; use %smethod: pd, method: adaptive or a "
+            "smaller particles.spacing",
+            s->body[e->part.body[grid.first]].name, particle_position_text(&e->part, grid.first, 4).text,
+            (long long)grid.n, uncut ? "" : "mpm.frame: reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         if (s->body[b].joined != b || body_surface_is_exact(s, b)) continue;
         const struct closed gap =
             closed_in_lattice(s, &e->part, &e->cells, b, voids_interaction_distance(s, e->source.family.cutoff));
         if (gap.n == 0) continue;
         warnings_add(to,
-                     "body %s has a void one or two particles wide at %s m, beside %lld particles in all: a list or "
+                     "body %s has a void one or two particles wide at (%s) m, beside %lld particles in all: a list or "
                      "image defines no faces, so that %s join both sides of the void; define its faces by the key "
                      "cracks, or use a smaller particles.spacing",
-                     s->body[b].name, void_position_text(&e->part, gap.first, place), (long long)gap.n,
+                     s->body[b].name, particle_position_text(&e->part, gap.first, 4).text, (long long)gap.n,
                      s->method == METHOD_MPM  ? "cells"
                      : s->method == METHOD_PD ? "bonds"
                                               : "bonds and cells");

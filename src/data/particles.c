@@ -296,6 +296,21 @@ bool conversion_is_due(const struct particles *p)
     return any != 0;
 }
 
+struct position_text position_text(const real *X, int dim, int digits)
+{
+    struct position_text to = {0};
+    for (int d = 0, used = 0; d < dim; d++)
+        used += snprintf(to.text + used, sizeof to.text - (size_t)used, "%s%.*g", d > 0 ? ", " : "", digits, X[d]);
+    return to;
+}
+
+struct position_text particle_position_text(const struct particles *p, int64_t i, int digits)
+{
+    real X[DIM_MAX];
+    particle_reference_position(p, i, X);
+    return position_text(X, p->dim, digits);
+}
+
 status particles_save_or_load(struct particles *p, int optional, struct archive *a)
 {
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)

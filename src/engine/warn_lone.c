@@ -140,15 +140,10 @@ void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, c
         if (s->body[k].file && !s->body[k].list.volumes && s->body[k].joined == k && s->spacing > 0)
             warn_of_list_spacing(&s->body[k], s->spacing, cells, p, to);
     for (int k = 0; k < s->bodies; k++) {
-        real X[DIM_MAX] = {0};
-        char place[96] = "";
         if (lone[k].n == 0 || lone[k].all <= MASS_POINTS) continue;
-        particle_reference_position(p, lone[k].first, X);
-        for (int d = 0, used = 0; d < s->dim; d++)
-            used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d ? ", " : "", X[d]);
         warnings_add(to, "body %s: %lld of its particles ha%s no neighbour, the first at (%s) m: nothing holds %s%s",
-                     s->body[k].name, (long long)lone[k].n, lone[k].n == 1 ? "s" : "ve", place,
-                     lone[k].n == 1 ? "it" : "them",
+                     s->body[k].name, (long long)lone[k].n, lone[k].n == 1 ? "s" : "ve",
+                     particle_position_text(p, lone[k].first, 6).text, lone[k].n == 1 ? "it" : "them",
                      scene_is_single_equilibrium(s) ? ", and there is no equilibrium; remove such particles" : "");
     }
     memory_free(lone);

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "engine/engine.h"
+#include "engine_internal.h"
 
 /* Marks the bodies that contain particles of a load. body [bodies]: joined bodies are marked at the lowest of their
  * numbers. */
@@ -65,15 +65,9 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     real slowest = INFINITY, most = 0;
     for (int m = 0; m < s->materials; m++) slowest = real_min(slowest, s->material[m].wave_speed);
     for (int b = 0; b < s->bodies; b++) {
-        real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
-        real size2 = 0;
-        for (int64_t i = 0; body[b] && i < p->n; i++) {
-            real X[DIM_MAX];
-            if (s->body[p->body[i]].joined != b) continue;
-            particle_reference_position(p, i, X);
-            for (int d = 0; d < p->dim; d++) low[d] = real_min(low[d], X[d]), high[d] = real_max(high[d], X[d]);
-        }
-        for (int d = 0; d < p->dim && high[d] >= low[d]; d++) size2 += square(high[d] - low[d] + s->spacing);
+        real low[DIM_MAX], high[DIM_MAX], size2 = 0;
+        if (!body[b] || !engine_body_box(s, p, b, low, high)) continue;
+        for (int d = 0; d < p->dim; d++) size2 += square(high[d] - low[d] + s->spacing);
         most = real_max(most, sqrt(size2));
     }
     return most / slowest;

@@ -117,20 +117,15 @@ static bool diagnostics_particle_diverged(const struct particles *p, int64_t i, 
 /* Returns FAILED, with the position of particle i, the step and the cause. */
 static status divergence_report(const struct particles *p, int64_t i, real limit, int64_t step, real t)
 {
-    char position[128];
     real speed2 = 0;
-    int used = 0;
-    for (int d = 0; d < p->dim; d++) {
-        speed2 += square(p->v[d][i]);
-        used += snprintf(position + used, sizeof position - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
-    }
+    for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
     char what[128];
     if (isfinite(speed2) && speed2 > limit * limit)
         snprintf(what, sizeof what, "moves at %.3g m/s, faster than the wave speed %.4g m/s", sqrt(speed2), limit);
     else
         snprintf(what, sizeof what, "has a position or velocity that is no finite number");
     return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s", (long long)step, t,
-                      (int)p->id[i], position, what);
+                      (int)p->id[i], particle_position_text(p, i, 6).text, what);
 }
 
 real diagnostics_largest_speed(const struct particles *p, const int32_t *list, int64_t n)

@@ -111,24 +111,14 @@ void station_position(const struct probe *q, int dim, int k, real *X)
     for (int d = 0; d < dim; d++) X[d] = r->from[d] + s * (r->to[d] - r->from[d]);
 }
 
-/* Prints a position X [dim, m] to text [size], for messages. */
-static void position_text(const real *X, int dim, char *text, size_t size)
-{
-    size_t used = 0;
-    text[0] = '\0';
-    for (int d = 0; d < dim && used < size; d++)
-        used += (size_t)snprintf(text + used, size - used, "%s%.6g", d > 0 ? ", " : "", X[d]);
-}
-
 /* Finds the particle nearest to the point of a POINT probe. Returns REFUSED if the point is outside the body. */
 static status bind_point(struct probe *q, const struct observed_run *o)
 {
     q->list = NEW("probes.list", 1, int32_t);
     q->list[q->n++] = particle_nearest(o, q->request.at);
     if (q->list[0] >= 0) return OK;
-    char text[96];
-    position_text(q->request.at, o->part->dim, text, sizeof text);
-    return status_set(REFUSED, "probe \"%s\": the point (%s) m is outside the bodies", q->request.name, text);
+    return status_set(REFUSED, "probe \"%s\": the point (%s) m is outside the bodies", q->request.name,
+                      position_text(q->request.at, o->part->dim, 6).text);
 }
 
 /* Finds the particles nearest to the stations of a LINE probe. Returns REFUSED if all stations are outside the body. */

@@ -4,17 +4,6 @@
 
 #include "run/make.h"
 
-enum { TEXT_LONGEST = 96 };
-
-/* Writes a [dim] to text as "(a, b, c)". Returns text. */
-static const char *vector_in_words(char *text, const real *a, int dim)
-{
-    for (int d = 0, used = 0; d < dim; d++)
-        used += snprintf(text + used, (size_t)(TEXT_LONGEST - used), "%s%.4g%s", d ? ", " : "(", a[d],
-                         d + 1 == dim ? ")" : "");
-    return text;
-}
-
 /* Returns the number of the mirror midway between two positions along an axis, or -1. */
 static int mirror_between(const struct loads *loads, const real *X, const real *Y, int axis)
 {
@@ -57,7 +46,6 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
                            int64_t j)
 {
     real X[DIM_MAX], Y[DIM_MAX], steps[DIM_MAX] = {0}, worst = 0;
-    char here[TEXT_LONGEST], there[TEXT_LONGEST], apart[TEXT_LONGEST];
     int axis = 0;
     particle_reference_position(p, i, X), particle_reference_position(p, j, Y);
     for (int d = 0; d < p->dim; d++) {
@@ -67,19 +55,22 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
     }
     const int mirror = j < p->n ? -1 : mirror_between(loads, X, Y, axis);
     if (mirror >= 0) return refuse_rows(s, p, i, loads->load[mirror].boundary);
-    vector_in_words(here, X, p->dim), vector_in_words(there, Y, p->dim), vector_in_words(apart, steps, p->dim);
+    const struct position_text here = position_text(X, p->dim, 4), there = position_text(Y, p->dim, 4),
+                               apart = position_text(steps, p->dim, 4);
     const int body = body_made_for(s, X, p->body[i]), beside = body_made_for(s, Y, p->body[j]);
     const char *own = s->body[body].name, *other = s->body[beside].name;
     if (body != beside)
         return status_set(
             REFUSED,
-            "bodies %s and %s are joined, but not on one lattice: their particles at %s m and %s m are %s spacings "
-            "apart; sizes and positions of both in whole spacings, or pd.surface: volume, are expected",
-            own, other, here, there, apart);
-    return status_set(REFUSED,
-                      "body %s: its particles at %s m and %s m are %s spacings apart, so that they are not on one "
-                      "lattice; distances of whole spacings, or pd.surface: volume, are expected",
-                      own, here, there, apart);
+            "bodies %s and %s are joined, but not on one lattice: their particles at (%s) m and (%s) m "
+            "are (%s) spacings apart; sizes and positions of both in whole spacings, or pd.surface: volume, "
+            "are expected",
+            own, other, here.text, there.text, apart.text);
+    return status_set(
+        REFUSED,
+        "body %s: its particles at (%s) m and (%s) m are (%s) spacings apart, so that they are not on one "
+        "lattice; distances of whole spacings, or pd.surface: volume, are expected",
+        own, here.text, there.text, apart.text);
 }
 
 status run_surface_weights_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,

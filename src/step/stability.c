@@ -370,13 +370,9 @@ static bool swings(const struct run_clock *clock, const struct energy *energy)
 static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {
     const int64_t i = fastest_particle(p);
-    char position[96];
-    int used = 0;
-    for (int d = 0; d < p->dim; d++)
-        used += snprintf(position + used, sizeof position - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
-    return status_set(FAILED,
-                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest one of a body %s; %s",
-                      (long long)clock->step, clock->t, (int)p->id[i], position, what, remedy);
+    return status_set(
+        FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest one of a body %s; %s",
+        (long long)clock->step, clock->t, (int)p->id[i], particle_position_text(p, i, 6).text, what, remedy);
 }
 
 /* Elastic strain of points on the grid at which a warning is printed. A strip under tension tears or gains energy at
