@@ -110,6 +110,7 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     memory_free(override);
     TRY(read);
     s->active_set = s->active_set && rest;
+    s->accept |= 1u << ACCEPT_SHOCK; /* as in check_sound */
     return engine_make(e, s, NULL);
 }
 
