@@ -1,6 +1,6 @@
 #!/bin/sh
 # README and manual: lengths of pages, links and their anchors, the page of all keys, keys that pages name, and scenes that a reader
-# would copy. Takes half a minute: it checks each scene of the manual and computes two equilibria.
+# would copy. Takes 20 s: it checks each scene of the manual and computes two equilibria.
 test_name=documents
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,9 +1,10 @@
 #!/bin/sh
 # Files installed by `make install` and removed by `make uninstall`; completion in bash; the tarball of `make dist`; help of every command.
-# Runs alone: the folder of the build, into which `make install` writes, is shared by all tests.
 test_name=install
 . tests/support/summary.sh
-build=${BUILD:-build}
+# A folder of the build of its own, as `make install` writes to it: the program alone.
+build=$work/build
+mkdir "$build" && cp "$cleave" "$build"
 
 prefix=$work/prefix
 make -s install BUILD="$build" PREFIX="$prefix" -o all >"$work/log" 2>&1 || fail "make install: $(cat "$work/log")"

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Runs test programs and scripts on as many threads as OMP_NUM_THREADS says: in parallel on one thread each, then one after another on all
-# threads those whose source contains `Runs alone`. Prints a line for each, the output of those that fail, and a count. A script that cannot
-# run here exits with status 77 after a line with the reason: SKIPPED.
+# Runs test programs and scripts on as many threads as OMP_NUM_THREADS says: in parallel on one thread each, those first whose heads state
+# the most seconds, then one after another on all threads those whose source contains `Runs alone`. Prints a line for each, the output of
+# those that fail, and a count. A script that cannot run here exits with status 77 after a line with the reason: SKIPPED.
 lanes=${OMP_NUM_THREADS:-$(getconf _NPROCESSORS_ONLN)}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -30,6 +30,9 @@ alone()
     esac
 }
 
+# seconds_stated TEST: prints the number in `Takes 30 s` in its head, 0 if there is none.
+seconds_stated() { head -n 12 "$(source_of "$1")" | sed -n 's/.*Takes \([0-9]*\) s.*/\1/p' | grep . || echo 0; }
+
 # try TEST LANE: runs a test and prints the result.
 try()
 {
@@ -50,8 +53,8 @@ try()
     head -n 1 "$said" >>"$folder/results"
 }
 
-# lane NUMBER: runs the tests of the list `beside` that no other lane has started. Threads that a test starts itself do not spin while they
-# wait, because the other lanes need the processors.
+# lane NUMBER: runs the tests of the list `beside` in its order, but for those that another lane has started. Threads that a test starts
+# itself do not spin while they wait, because the other lanes need the processors.
 lane()
 {
     export OMP_NUM_THREADS=1 GOMP_SPINCOUNT=0 KMP_BLOCKTIME=0
@@ -62,9 +65,11 @@ lane()
 
 : >"$folder/results"
 for test in "$@"; do
-    if [ "$lanes" -gt 1 ] && ! alone "$test"; then echo "$test" >>"$folder/beside"; else echo "$test" >>"$folder/alone"; fi
+    if [ "$lanes" -eq 1 ] || alone "$test"; then echo "$test" >>"$folder/alone"
+    else echo "$(seconds_stated "$test") $test" >>"$folder/unsorted"; fi
 done
-if [ -f "$folder/beside" ]; then
+if [ -f "$folder/unsorted" ]; then
+    sort -s -k 1,1nr "$folder/unsorted" | cut -d ' ' -f 2 >"$folder/beside"      # no lane begins a long test last
     for number in $(seq "$lanes"); do lane "$number" & done
     wait
 fi
