@@ -205,14 +205,14 @@ static void job_time(struct job *j, struct ground *g)
     }
 }
 
-static void time_all(struct kernel_bench *b, int repetitions)
+static void time_all(struct kernel_bench *b, bool quick)
 {
     struct microbench_lattice *cell_stencil[DIM_MAX + 1];
-    struct microbench_triad *triad = microbench_triad_make();
+    struct microbench_triad *triad = microbench_triad_make(quick);
     struct microbench_points *points = microbench_points_make();
     b->limits = (struct limits){.cell_stencil = {INFINITY, INFINITY, INFINITY, INFINITY}, .points = INFINITY};
     for (int d = 1; d <= DIM_MAX; d++) cell_stencil[d] = microbench_lattice_make(d);
-    for (int r = 0; r < repetitions; r++) {
+    for (int r = 0; r < (quick ? 2 : 12); r++) {
         for (int k = 0; k < 3; k++) {
             for (int d = 1; d <= DIM_MAX; d++)
                 b->limits.cell_stencil[d] = fmin(b->limits.cell_stencil[d], microbench_lattice_run(cell_stencil[d]));
@@ -326,7 +326,7 @@ static status kernels_run(struct kernel_bench *b, bool quick)
     team_set_threads(1);
     bench_print_machine(1);
     for (int d = 1; d <= DIM_MAX; d++) TRY(ground_make(&b->ground[d], d));
-    time_all(b, quick ? 2 : 12);
+    time_all(b, quick);
     find_limits(b);
     kernels_print(b);
     TRY(bench_targets_speed(&b->targets, quick));

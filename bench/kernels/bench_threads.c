@@ -75,11 +75,11 @@ static status threads_time_scalings(struct threads_bench *b, int which, bool qui
     return OK;
 }
 
-static void time_memory(struct threads_bench *b)
+static void time_memory(struct threads_bench *b, bool quick)
 {
     for (int t = 0; t < b->teams; t++) {
         team_set_threads(b->team[t]);
-        struct microbench_triad *probe = microbench_triad_make();
+        struct microbench_triad *probe = microbench_triad_make(quick);
         for (int k = 0; k < 5; k++) b->triad[t] = fmax(b->triad[t], microbench_triad_run(probe));
         microbench_triad_free(probe);
     }
@@ -151,7 +151,7 @@ static status threads_measure(struct threads_bench *b, bool quick)
     for (int t = 0; t < b->teams; t++) printf(" %d", b->team[t]);
     printf(" threads; strong: %s particles, weak: %s for each thread\n", quick ? "1e4" : "1e6",
            quick ? "5e3" : "2.5e5");
-    time_memory(b);
+    time_memory(b, quick);
     for (int which = 0; which < BENCH_BLOCKS; which++)
         if (has_shown_dim(which)) TRY(threads_time_scalings(b, which, quick));
     team_set_threads(0);

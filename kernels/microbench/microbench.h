@@ -22,8 +22,9 @@ KERNEL(void, microbench_lattice_free, (struct microbench_lattice *s));
 /* Data of the STREAM triad a = b + q c over arrays larger than any cache. */
 struct microbench_triad;
 
-/* Allocates the arrays of the triad. Release with microbench_triad_free. */
-KERNEL(struct microbench_triad *, microbench_triad_make, (void));
+/* Allocates the arrays of the triad, each of twice the last-level cache and at least 64 MB; with `quick` of 64 MB.
+ * Release with microbench_triad_free. */
+KERNEL(struct microbench_triad *, microbench_triad_make, (bool quick));
 
 /* Runs the triad once. Returns bytes per second, counted as 24 bytes per entry. */
 KERNEL(double, microbench_triad_run, (struct microbench_triad *t));

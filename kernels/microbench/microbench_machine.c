@@ -138,12 +138,13 @@ struct microbench_triad {
     real *a, *b, *c;
 };
 
-/* Allocates arrays of twice the last-level cache each, at least 64 MB. */
-struct microbench_triad *microbench_triad_make(void)
+#define TRIAD_LEAST 64000000 /* size of an array [byte] */
+
+struct microbench_triad *microbench_triad_make(bool quick)
 {
     struct microbench_triad *t = NEW("bench.triad", 1, struct microbench_triad);
-    int64_t bytes = 2 * machine_properties().cache[3];
-    t->n = (bytes > 64000000 ? bytes : 64000000) / (int64_t)sizeof(real);
+    const int64_t bytes = quick ? 0 : 2 * machine_properties().cache[3];
+    t->n = (bytes > TRIAD_LEAST ? bytes : TRIAD_LEAST) / (int64_t)sizeof(real);
     t->a = NEW("bench.triad.a", t->n, real);
     t->b = NEW("bench.triad.b", t->n, real);
     t->c = NEW("bench.triad.c", t->n, real);

@@ -128,10 +128,10 @@ cd ../..
 # Accuracy over time for its bar: files, values known from inputs/bar_smooth.yaml, and nothing runs twice.
 "$cleave" bench accuracy=bar --quick >out || fail "accuracy failed"
 cp results/bench/accuracy.csv before.csv
-head -3 before.csv >results/bench/accuracy.csv
+head -n $(($(wc -l <before.csv) - 6)) before.csv >results/bench/accuracy.csv
 printf 'bar,pulse,pd bo' >>results/bench/accuracy.csv      # an incomplete line
 "$cleave" bench accuracy=bar --quick >out || fail "accuracy does not go on"
-grep -q ', 54 of them to be run' out || fail "accuracy runs again what it knows: $(grep 'to be run' out)"
+grep -q ', 6 of them to be run' out || fail "accuracy runs again what it knows: $(grep 'to be run' out)"
 cut -d, -f1-9 before.csv >one
 cut -d, -f1-9 results/bench/accuracy.csv | cmp -s - one || fail "accuracy differs once it was broken off"
 cd results/bench
