@@ -5,6 +5,7 @@ test_name=test_contact
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/trust.sh
+. tests/support/claims.sh
 
 # ---- inputs/ ---------------------------------------------------------------------------------------------------------
 
@@ -19,6 +20,10 @@ for thickness in 3 4; do
 done
 wait
 for run in bars_collide discs_collide kalthoff_projectile three_point_bend brazilian_disc ring ball_3 ball_4; do sound $run $pd_balance; done
+claimed spall "cleave run inputs/hopkinson_bar.yaml -s method=pd"
+claimed bars_collide "cleave run inputs/bars_collide.yaml"
+claimed kalthoff_projectile "cleave run inputs/kalthoff_projectile.yaml"
+claimed three_point_bend "cleave run inputs/three_point_bend.yaml"
 
 # An impactor of 30 m/s, both bodies of bonds; with material points: test_scenes.sh.
 sound spall $pd_balance

@@ -68,6 +68,9 @@ start slide slope
 start bounce hertz_3d
 start squeezed hertz_2d
 wait
+claimed slide "cleave run inputs/slope.yaml"
+claimed bounce "cleave run inputs/hertz_3d.yaml"
+claimed squeezed "cleave run inputs/hertz_2d.yaml"
 between "slope: momentum, over m g (sin - mu cos) t" "$(compute "$(f slide probes.block.x) / 0.03932")" 0.95 1.05
 between "slope: what the floor bears" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == "floor_force_y") at = k } }
     $1 > 3e-4 { sum -= $at; n++ } END { print sum / n }' "$work/slide/history.csv")" 181 213

@@ -1,4 +1,4 @@
-# What test_claims.sh and long_claims.sh share: figures of bench/claims.csv that runs of scenes and benches give now.
+# Figures of bench/claims.csv that runs of scenes and benches give now, for test_claims.sh, long_claims.sh and tests that run such scenes.
 # Sourced after summary.sh, whose functions it uses.
 claims=$root/bench/claims.csv
 compare() { awk -v results="$1" -v fresh="$2" -v tables="${3:-}" -v unsourced="${unsourced:-}" -f "$root/tests/support/claims.awk" "$claims"; }
@@ -114,23 +114,43 @@ formulas()
     while IFS=, read -r value tolerance formula figure; do apart "$figure" "$(compute "$formula")" "$value" "$tolerance"; done <"$work/rows"
 }
 
+# Rows of the table that a run of a scene gives: not those of files, publications, formulas, or without a source.
+of_runs='$5 ~ /^cleave run / && $6 !~ /^([A-Za-z0-9_.\/]+[.][a-z]+: |paper: |formula: |-$)/'
+
+# compare_rows WHEN COMMAND RUN: compares what RUN1, RUN2, ... give with value and tolerance of the rows of this kind and command.
+compare_rows()
+{
+    awk -F, -v when="$1" -v command="$2" '$4 == when && $5 == command && '"$of_runs"' { print $2 "," $3 "," $6 "," $1 }' "$claims" |
+        sort -u >"$work/rows"
+    holds "$2 has rows" test -s "$work/rows"
+    while IFS=, read -r value tolerance source figure; do
+        measured=$(value_of "$3" "$source")
+        case $tolerance in
+            "<") between "$figure ($2)" "$measured" -1e99 "$value" ;;
+            ">") between "$figure ($2)" "$measured" "$value" 1e99 ;;
+            *) apart "$figure ($2)" "$measured" "$value" "$tolerance" ;;
+        esac
+    done <"$work/rows"
+}
+
+# claimed FOLDER COMMAND: compares the quick rows of a command with a run of it that a test has made for other reasons; test_claims.sh leaves
+# such commands out. The command is written out in quotes, as in the table.
+claimed()
+{
+    ln -s "$work/$1" "$work/claimed1"
+    compare_rows quick "$2" "$work/claimed"
+    rm "$work/claimed1"
+}
+
 # measure WHEN: runs each command of the rows of this kind once, and compares what its runs give with value and tolerance.
 measure()
 {
-    awk -F, -v when="$1" 'NR > 1 && $4 == when && $5 ~ /^cleave run / && $6 !~ /^([A-Za-z0-9_.\/]+[.][a-z]+: |paper: |formula: |-$)/ && !($5 in seen) {
-        seen[$5] = 1; print $5 }' "$claims" >"$work/commands"
+    awk -F, -v when="$1" 'NR > 1 && $4 == when && '"$of_runs"' && !($5 in seen) { seen[$5] = 1; print $5 }' "$claims" >"$work/commands"
+    grep -rhE '^ *claimed [^ ]+ "' "$root/tests" --include='test_*.sh' | sed 's/^[^"]*"//; s/"[^"]*$//' >"$work/elsewhere"
     while read -r command; do
+        [ "$1" != quick ] || ! grep -qxF "$command" "$work/elsewhere" || continue
         runs "$work/claim" "$command"
-        awk -F, -v when="$1" -v command="$command" 'NR > 1 && $4 == when && $5 == command && $6 !~ /^([A-Za-z0-9_.\/]+[.][a-z]+: |paper: |formula: |-$)/ {
-            print $2 "," $3 "," $6 "," $1 }' "$claims" | sort -u >"$work/rows"
-        while IFS=, read -r value tolerance source figure; do
-            measured=$(value_of "$work/claim" "$source")
-            case $tolerance in
-                "<") between "$figure ($command)" "$measured" -1e99 "$value" ;;
-                ">") between "$figure ($command)" "$measured" "$value" 1e99 ;;
-                *) apart "$figure ($command)" "$measured" "$value" "$tolerance" ;;
-            esac
-        done <"$work/rows"
+        compare_rows "$1" "$command" "$work/claim"
         rm -rf "$work"/claim[1-9]
     done <"$work/commands"
 }
