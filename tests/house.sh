@@ -38,14 +38,15 @@ nothing "includes that lead up"
 # Calls of functions in higher rooms, by the symbols of the objects.
 build=${BUILD:-build}
 objects=$(find src bench -name '*.c' | sed "s|^|$build/|; s|c$|o|"; find kernels -name '*.c' | sed "s|^|$build/|; s|c$|portable.o|")
-nm -A -P $objects | awk -v rooms="$rooms" -v build="$build/" "$room_of"'
+nm -A -P $objects >"$work/symbols"
+awk -v rooms="$rooms" -v build="$build/" "$room_of"'
     BEGIN { floors(rooms) }
     { file = $1; sub(/:$/, "", file); file = substr(file, length(build) + 1)
       if ($3 ~ /^[TDBRC]$/) place[$2] = file
       else if ($3 == "U") used[$2] = used[$2] " " file }
     END { for (name in used) if (name in place) { n = split(used[name], user, " ")
               for (k = 1; k <= n; k++) if (floor[room_of(place[name])] > floor[room_of(user[k])])
-                  print user[k] " calls " name " of " place[name] } }' | sort >"$found"
+                  print user[k] " calls " name " of " place[name] } }' "$work/symbols" | sort >"$found"
 nothing "calls that lead up"
 
 # A header in src/ROOM is included only by files of that room, and one included without a path is beside the including file.
@@ -105,7 +106,7 @@ nothing "arrays that are copied, filled, compared or sorted without array_copy, 
 circles="scene/scene_yaml 11, contact/contact 7, data/solid 4, scene/scene_echo 4, app/help 4, mesh/mesh 3,
     geometry/image 3, probes/probes 3, app/check_advice 3, plot/plot_curves 3, coupling/partial_stress 2, data/hull 2,
     geometry/elements_body 2, mesh/levels 2, output/checkpoint 2, scene/fill 2, scene/particle_list 2, step/report 2"
-nm -A -P $(echo "$objects" | grep -v "/bench/") | awk -v build="$build/" -v known="$circles" '
+grep -v "/bench/" "$work/symbols" | awk -v build="$build/" -v known="$circles" '
     { file = $1; sub(/:$/, "", file); file = substr(file, length(build) + 1); sub(/^src\//, "", file); sub(/\.o$/, "", file)
       if ($3 ~ /^[TDBRC]$/) place[$2] = file
       else if ($3 == "U") used[$2] = used[$2] " " file }
@@ -133,10 +134,10 @@ parts="grid/grid_part mesh/mesh_part rigid/rigid_part contact/contact coupling/c
     probes/diagnostics step/report step/stability step/damping quasistatic/statics solver/solver"
 rooms_of_run=$(for room in run grid mesh rigid contact coupling fracture solver probes step quasistatic engine; do ls src/$room/*.c; done)
 whole=$(cat $rooms_of_run $(echo "$rooms_of_run" | sed 's|/[^/]*$|/*.h|' | sort -u) $(echo "$rooms_of_run" | sed 's|^src|include|; s|/[^/]*$|/*.h|' | sort -u) 2>/dev/null | awk '/^[a-z].*\(/ { head = "" } /^[a-z]/, /\{|;/ { head = head " " $0 } /^\{|\) \{/ { if (head ~ /struct run( const)? *\*|struct run( const)? [a-z_]+\[/) n++; head = "" } END { print n + 0 }')
-seen=0
-for file in $(grep -l 'struct run' $rooms_of_run); do
-    for part in $parts; do ! grep -q "include/$part\.h" "$build/${file%c}d" || seen=$((seen + 1)); done
-done
+seen=$(grep -l 'struct run' $rooms_of_run | sed "s|^|$build/|; s|c$|d|" | xargs awk -v list="$parts" '
+    BEGIN { n = split(list, part, /[ \n]+/) }
+    { for (k = 1; k <= n; k++) if (part[k] != "" && index($0, "include/" part[k] ".h")) seen[FILENAME, k] = 1 }
+    END { for (pair in seen) pairs++; print pairs + 0 }')
 echo "house: $whole functions take the whole run, $seen pairs of file and part"
 holds "functions that take the whole run: $whole, $most_whole at the most" test "$whole" -le $most_whole
 holds "pairs of a file and a part that it sees: $seen, $most_seen at the most" test "$seen" -le $most_seen
@@ -185,7 +186,7 @@ awk 'function look(text) { while (match(text, /[A-Za-z0-9_]+\.(c|h|sh)([^A-Za-z0
           if (inside) { k = index(rest, "*/"); look(k ? substr(rest, 1, k - 1) : rest); rest = k ? substr(rest, k + 2) : ""; inside = !k; continue }
           k = index(rest, "/*"); if (!k) break
           rest = substr(rest, k + 2); inside = 1 } }' $sources | sort -u |
-    while read -r name file; do grep -q -x -F "$name" "$work/files" || echo "$file: $name"; done >"$found"
+    awk 'NR == FNR { known[$0] = 1; next } !($1 in known) { print $2 ": " $1 }' "$work/files" - >"$found"
 nothing "comments that name no file"
 
 finish
