@@ -20,7 +20,14 @@ CPPFLAGS += -I. -Iinclude -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)
 CFLAGS   += -std=c11 $(OPTIMISE) $(DEBUG) -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
 # Asked once, when the first recipe needs them: the targets that install packages read this file before those are there.
 LIBFLAGS  = $(eval LIBFLAGS := $(shell pkg-config --cflags $(LIBRARIES)))$(LIBFLAGS)
-LIBS      = $(eval LIBS := $(shell pkg-config --libs $(LIBRARIES)) -lm)$(LIBS)
+SHARED    = $(eval SHARED := $(shell pkg-config --libs $(LIBRARIES)) -lm)$(SHARED)
+
+# HDF5 as an archive where that links: its shared library loads 30 others (curl, Kerberos), which takes half of the time of a start.
+archive   = $(shell file=$$(mktemp); echo 'int H5open(void); int main(void) { return H5open(); }' | \
+            $(CC) -x c -o $$file - $(1) 2>/dev/null && echo '$(1)'; rm -f $$file)
+HDF5      = $(eval HDF5 := $(shell pkg-config --libs hdf5))$(HDF5)
+LIBS      = $(eval LIBS := $(or $(call archive,$(HDF5:-lhdf5=-l:libhdf5.a) -lsz -lz -lm),$(HDF5)) \
+            $(shell pkg-config --libs $(filter-out hdf5,$(LIBRARIES))) -lm)$(LIBS)
 
 # Kernels are compiled once for each set of vector instructions; the program takes one at start (src/simd/simd.c). The rest is
 # for any machine of its kind, or for ARCH (native, ...). Debuggers see their lines, not their variables (-g1), which of code
@@ -129,12 +136,13 @@ $(foreach set,$(SETS),$(eval $(call SET,$(set))))
 $(PROGRAMS): %: %.o $(ENGINE)
 	$(Q)$(CC) $(CFLAGS) $(QUICK) -o $@ $^ -lcmocka $(LIBS)
 
-# Calls that a test lets fail, or in which it stops a run (tests/robustness/faults.c): its linker must be GNU's or like it.
+# Calls that a test lets fail, or in which it stops a run (tests/robustness/faults.c): its linker must be GNU's or like it, and calls of
+# libraries must not be taken for the program's.
 LINUX    := $(findstring linux,$(shell $(CC) -dumpmachine))
 WRAPPED  := main malloc calloc realloc posix_memalign mmap open fopen read pread write pwrite fflush fsync close rename mkdir unlink \
             output_write_history convert_flagged_points partial_stress_make largest_stretch_ratio
 $(BUILD)/tests/robustness/test_faults: $(BUILD)/tests/robustness/faults.o $(if $(LINUX),$(BUILD)/src/app/main.o)
-$(BUILD)/tests/robustness/test_faults: LIBS += $(if $(LINUX),$(WRAPPED:%=-Wl,--wrap=%) -ldl)
+$(BUILD)/tests/robustness/test_faults: LIBS = $(SHARED) $(if $(LINUX),$(WRAPPED:%=-Wl,--wrap=%) -ldl)
 
 # The fuzzer (tests/robustness/fuzz.c): sources under sanitizers, which tell it of branches; kernels as they are.
 FUZZED   := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fsanitize-coverage=trace-pc
