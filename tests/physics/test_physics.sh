@@ -89,7 +89,7 @@ go fall_flip fall -s method=mpm -s mpm.frame=current
 go fall_apic fall -s method=mpm -s mpm.transfer=apic
 landed
 for run in fall_pd fall_flip fall_apic; do
-    forced $run 0.01
+    sound $run 0.01
     time=$(f $run time_end) mass=$(compute "7800 * 1e-9 * $(f $run particles)")
     for axis in x y; do
         if [ $axis = x ]; then force=3e9; else force=-4e9; fi
@@ -160,7 +160,7 @@ go column_flip column -s method=mpm -s mpm.frame=current
 go column_apic column -s method=mpm -s mpm.transfer=apic
 go column_whole column -s method=mpm -s mpm.frame=current -s duration=20ms
 landed
-for run in column_pd column_flip column_apic column_whole; do forced $run 0.01; done
+for run in column_pd column_flip column_apic column_whole; do sound $run 0.01; done
 for run in column_pd column_flip column_apic; do
     near "$run: stress at the base" "$(along $run stress_xx 0 0.002)" 1.995 0.03
     between "$run: stress everywhere" "$(astray $run stress_xx 2 -4 0)" 0 0.06

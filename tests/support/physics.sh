@@ -17,14 +17,6 @@ go()
 
 landed() { wait; going=0; }
 
-# forced FOLDER BALANCE: checks a run under body forces, as sound().
-forced()
-{
-    is "$1 status" "$(f "$1" status)" done
-    between "$1 momentum" "$(f "$1" momentum_error)" 0 1e-12
-    between "$1 energy balance" "$(f "$1" energy.balance_error)" "-$2" "$2"
-}
-
 # read_csv: common start of the awk programs here: `at` is the index of the column `name`, x that of positions. Values to be compared need a
 # "+ 0": awk reads numbers below 1e-308 as words.
 read_csv='FNR == 1 {

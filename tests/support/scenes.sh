@@ -10,8 +10,8 @@ start()
     { "$cleave" run "$scene" -o "$to" -t 1 -q "$@" 2>"$to.err" || fail "$to: $(cat "$to.err")"; } &
 }
 
-# f FOLDER PATH: prints a figure of such a run.
-f() { figure "$work/$1" "$2"; }
+# f FOLDER PATH...: prints figures of such a run.
+f() { folder=$work/$1; shift; figure "$folder" "$@"; }
 
 # last FOLDER COLUMN: prints its value in the last line of history.csv.
 last() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } } END { print $at }' \
@@ -21,9 +21,10 @@ last() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, 
 # energy balance within BALANCE of the largest sum.
 sound()
 {
-    is "$1 status" "$(f "$1" status)" done
-    between "$1 momentum" "$(f "$1" momentum_error)" 0 1e-12
-    between "$1 energy balance" "$(f "$1" energy.balance_error)" "-$2" "$2"
+    set -- "$1" "$2" $(f "$1" status momentum_error energy.balance_error)
+    is "$1 status" "${3:-}" done
+    between "$1 momentum" "${5:-}" 0 1e-12
+    between "$1 energy balance" "${4:-}" "-$2" "$2"
 }
 
 # Energies of peridynamics are those of the leap-frog scheme: balance error below 0.5 %. An adaptive run dissipates on its grid and leaves

@@ -9,6 +9,7 @@ trap 'exit 1' INT TERM HUP
 cleave=$work/cleave                      # a copy: a concurrent build must not mix two programs in one test
 cp "${BUILD:-build}/cleave" "$cleave" || exit 1
 look_through=$(cd "${BUILD:-build}" && pwd)/tests/robustness/test_numbers       # built by `make test`
+[ -x "$look_through" ] || look_through=true
 checks=0 failures=0
 
 fail() { echo "$test_name: $1" >&2; failures=$((failures + 1)); }
@@ -18,14 +19,13 @@ pass() { checks=$((checks + 1)); }
 # fewer than two contours, no factors, or no yielded point.
 numbers()
 {
-    [ ! -x "$look_through" ] || none=$(find "$1" \( -path '*/frames/*.hdf' -o -name 'particles_*.h5' \) -exec "$look_through" {} +) || fail "$1: $none"
-    none=$(find "$1" -name history.csv -exec awk -F, '
+    none=$(find "$1" \( -path '*/frames/*.hdf' -o -name 'particles_*.h5' \) -exec "$look_through" {} + -o -name history.csv -exec awk -F, '
         FNR == 1 { for (k = 1; k <= NF; k++) name[k] = $k; next }
         { for (k = 1; k <= NF; k++)
             if ($k ~ /inf/ || $k ~ /nan/ && name[k] !~ /^tip_[xyz]|\.[xyz] |\.(front|plateau)|\.contour_spread|\.K_eq|\.strain_(elastic|plastic)|^release_rate|^K_I|^path_[xyz]|\.K_I|\.J /)
                 none[FILENAME ": " name[k] ": " $k]++ }
-        END { for (what in none) print what }' {} +)
-    is "$1: histories" "$none" ""
+        END { for (what in none) print what }' {} +) || fail "$1: $none"
+    is "$1: numbers" "$none" ""
 }
 
 # finish: prints the count, and exits with the status of the script.
@@ -37,11 +37,14 @@ finish()
     exit
 }
 
-# figure DIR PATH: prints the entry of DIR/summary.json with this path, as in crack.tips.0.x; nothing if there is none.
+# figure DIR PATH: prints the entry of DIR/summary.json with this path, as in crack.tips.0.x; nothing if there is none. With several paths
+# it prints a line for each, in the order of the file.
 figure()
 {
     [ -f "$1/summary.json" ] || return 0
-    awk -v wanted="$2" '
+    summary=$1/summary.json; shift
+    awk -v paths="$*" '
+        BEGIN { left = split(paths, path_of, " "); for (k in path_of) wanted[path_of[k]] = 1 }
         { text = text $0 "\n" }
         function place(key) { path[depth + 1] = depth > 1 ? path[depth] "." key : key }
         END {
@@ -59,9 +62,9 @@ figure()
                 text = substr(text, RLENGTH + 1)
                 if (letter == "\"" && !named) { place(word); named = 1; continue }
                 named = 0
-                if (path[depth + 1] == wanted) { print word; exit }
+                if (path[depth + 1] in wanted) { print word; if (--left == 0) exit }
             }
-        }' "$1/summary.json"
+        }' "$summary"
 }
 
 # column DIR NAME TIME: prints a column of DIR/history.csv (its name without the unit) at the last sample not after TIME [s].
@@ -100,16 +103,23 @@ between()
 apart()
 {
     record "$1" "$2" "beside $3"
-    if awk -v a="$2" -v b="$3" -v most="$4" 'BEGIN { n = "^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
-        d = a - b; exit !(a ~ n && b ~ n && d <= most + 0 && -d <= most + 0) }'; then pass
-    else fail "$1: ${2:-missing} and ${3:-missing} are more than $4 apart"; fi
+    if differ_by "$2" "$3" "$4" 1; then pass; else fail "$1: ${2:-missing} and ${3:-missing} are more than $4 apart"; fi
+}
+
+# differ_by A B MOST UNIT: succeeds if two numbers differ by at most MOST times the size of UNIT.
+differ_by()
+{
+    awk -v a="$1" -v b="$2" -v most="$3" -v unit="$4" 'BEGIN { n = "^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
+        d = a - b; if (unit < 0) unit = -unit
+        exit !(a ~ n && b ~ n && most ~ n && d <= most * unit && -d <= most * unit) }'
 }
 
 # near WHAT VALUE WANTED SHARE: checks that the relative difference is at most SHARE.
 near()
 {
     [ -z "${FIGURES:-}" ] || record "$1 over $3" "$(compute "(${2:-nan}) / ($3)")" ""
-    apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"
+    record "$1" "$2" "beside $3"
+    if differ_by "$2" "$3" "$4" "$3"; then pass; else fail "$1: ${2:-missing} and ${3:-missing} are more than $4 of the second apart"; fi
 }
 
 # absent WHAT VALUE: checks that the run has no such figure.

@@ -67,7 +67,11 @@ random() { draw=$((draw + 1)); awk -v s="$seed" -v k=$draw -v low="$1" -v high="
 # await FOLDER LINES PID: waits until history.csv has that many lines or the process has ended.
 await()
 {
-    while kill -0 "$3" 2>/dev/null && [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -lt "$2" ]; do sleep 0.01; done
+    while kill -0 "$3" 2>/dev/null; do
+        held=$(grep -c '' "$1/history.csv" 2>/dev/null)
+        [ "${held:-0}" -lt "$2" ] || return 0
+        sleep 0.01
+    done
 }
 
 # Background processes of a shell ignore SIGINT; env restores the default. If env cannot, SIGTERM is used instead of SIGINT.
