@@ -212,34 +212,7 @@ done
 
 # Between rollers a pressure p travels at c = sqrt(C11/rho), C11 = E/(1 - nu^2) in plane stress, else E (1 - nu)/((1 + nu) (1 - 2 nu));
 # behind it v = p/(rho c), and the transverse stress is nu p in plane stress, else p nu/(1 - nu).
-# plane NAME SPACE: writes the scene of a strip with rollers on its sides.
-plane()
-{
-    to="4 mm" middle="1.5 mm" from=0 depth="thickness: 1 mm" rollers=""
-    if [ "$2" = solid ]; then
-        to="4 mm, 4 mm" middle="1.5 mm, 1.5 mm" from="0, 0" depth="name: $1"
-        rollers="
-  - {name: front, mirror: {axis: z, at: 0}}
-  - {name: back, mirror: {axis: z, at: 4 mm}}"
-    fi
-    scene "$1" <<END
-space: $2
-$depth
-duration: 50 us
-material: {young: 190 GPa, density: 7800}
-body: {box: {from: [0, $from], to: [250 mm, $to]}}
-particles: {spacing: 1 mm}
-boundary:
-  - {name: push, traction: [100 MPa, $from], face: x-, time: {ramp: {from: 0, until: 12 us}}}
-  - {name: low, mirror: {axis: y, at: 0}}
-  - {name: high, mirror: {axis: y, at: 4 mm}}$rollers
-output: {frames: 1, samples: 400}
-probes: [{point: {name: near, at: [50.5 mm, $middle]}}, {point: {name: far, at: [200.5 mm, $middle]}}]
-END
-}
-plane stress "plane stress"
-plane strain "plane strain"
-plane solid solid
+for space in "plane stress" "plane strain" solid; do strip "$space" | scene "${space#plane }"; done
 for space in stress strain solid; do
     go wave_${space}_flip $space -s method=mpm -s mpm.frame=current
     go wave_${space}_apic $space -s method=mpm -s mpm.transfer=apic

@@ -86,35 +86,11 @@ holds "driven_elastic: converts" test -n "$(f driven_elastic conversion.first_ti
 
 # Between rollers, without hardening: q = |sigma_xx - sigma_yy| = sigma_y behind both fronts, in spaces without transverse strain. The
 # precursor has sigma_y (1 - nu)/(1 - 2 nu) = 60 MPa and travels at sqrt(C11/rho), the plastic front at sqrt(K/rho).
-# plane NAME SPACE YIELDING: writes the scene of such a strip.
-plane()
-{
-    to="4 mm" middle="1.5 mm" from=0 depth="thickness: 1 mm" rollers=""
-    if [ "$2" = solid ]; then
-        to="4 mm, 4 mm" middle="1.5 mm, 1.5 mm" from="0, 0" depth="name: $1"
-        rollers="
-  - {name: front, mirror: {axis: z, at: 0}}
-  - {name: back, mirror: {axis: z, at: 4 mm}}"
-    fi
-    scene "$1" <<END_OF_SCENE
-space: $2
-$depth
-duration: 50 us
-method: mpm
-material: {young: 190 GPa, density: 7800, poisson: 1/4, $3}
-body: {box: {from: [0, $from], to: [250 mm, $to]}}
-particles: {spacing: 1 mm}
-boundary:
-  - {name: push, traction: [100 MPa, $from], face: x-, time: {ramp: {from: 0, until: 12 us}}}
-  - {name: low, mirror: {axis: y, at: 0}}
-  - {name: high, mirror: {axis: y, at: 4 mm}}$rollers
-output: {frames: 2, samples: 200}
-probes: [{point: {name: near, at: [50.5 mm, $middle]}}]
-END_OF_SCENE
-}
-plane stress "plane stress" "yield_stress: 60 MPa, yield_tangent: 50 GPa"
-plane strain "plane strain" "yield_stress: 40 MPa"
-plane solid solid "yield_stress: 40 MPa"
+# plane SPACE YIELDING: prints the scene of such a strip.
+plane() { strip "$1" "poisson: 1/4, $2" | sed 's/^duration/method: mpm\n&/'; }
+plane "plane stress" "yield_stress: 60 MPa, yield_tangent: 50 GPa" | scene stress
+plane "plane strain" "yield_stress: 40 MPa" | scene strain
+plane solid "yield_stress: 40 MPa" | scene solid
 for space in stress strain solid; do
     go wave_$space $space
     go wave_${space}_apic $space -s mpm.transfer=apic

@@ -1,10 +1,14 @@
-/* Removes folders with all files, for tests that create some. */
+/* Folders with all that is in them, for tests that create some. */
 #ifndef CLEAVE_TESTS_TREES
 #define CLEAVE_TESTS_TREES
 
+#include <errno.h>
 #include <ftw.h>
+#include <libgen.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static inline int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)
 {
@@ -12,6 +16,16 @@ static inline int remove_one(const char *path, const struct stat *s, int type, s
     return remove(path);
 }
 
+/* Removes a folder with all that is in it. */
 static inline void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS); }
+
+/* Enters the folder `name` beside a program, for all files of its tests; creates it if it is missing. program: argv[0].
+ * Returns false if that fails. */
+static inline bool enter_folder_beside(const char *program, const char *name)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s", program);
+    return chdir(dirname(path)) == 0 && (mkdir(name, 0777) == 0 || errno == EEXIST) && chdir(name) == 0;
+}
 
 #endif

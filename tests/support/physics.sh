@@ -5,6 +5,33 @@
 # scene NAME: writes standard input as the scene NAME.
 scene() { cat >"$work/$1.yaml"; }
 
+# strip SPACE [MATERIAL]: prints the scene of a strip of steel between rollers, whose end is loaded by a pressure of 100 MPa; further keys of
+# its material.
+strip()
+{
+    to="4 mm" middle="1.5 mm" from=0 depth="thickness: 1 mm" rollers=""
+    if [ "$1" = solid ]; then
+        to="4 mm, 4 mm" middle="1.5 mm, 1.5 mm" from="0, 0" depth="name: solid"
+        rollers="
+  - {name: front, mirror: {axis: z, at: 0}}
+  - {name: back, mirror: {axis: z, at: 4 mm}}"
+    fi
+    cat <<END
+space: $1
+$depth
+duration: 50 us
+material: {young: 190 GPa, density: 7800${2:+, $2}}
+body: {box: {from: [0, $from], to: [250 mm, $to]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: push, traction: [100 MPa, $from], face: x-, time: {ramp: {from: 0, until: 12 us}}}
+  - {name: low, mirror: {axis: y, at: 0}}
+  - {name: high, mirror: {axis: y, at: 4 mm}}$rollers
+output: {frames: 1, samples: 400}
+probes: [{point: {name: near, at: [50.5 mm, $middle]}}, {point: {name: far, at: [200.5 mm, $middle]}}]
+END
+}
+
 # go FOLDER NAME [ARGUMENT...]: starts a run of such a scene in the background, at most two at a time; `landed` waits for the last.
 going=0
 go()

@@ -1,7 +1,6 @@
 /* Tests of checkpoints: restored data, and effects of damage, kills and a full disk. */
 #include <errno.h>
 #include <fcntl.h>
-#include <libgen.h>
 #include <omp.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -381,8 +380,6 @@ static int start(void **state)
 
 int main(int argc, char **argv)
 {
-    /* Folder beside the program for all files of the tests. */
-    struct path folder = {{0}};
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(state_comes_back),
         cmocka_unit_test(hdf5_ignores_the_footer),
@@ -396,9 +393,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(full_disk_loses_nothing),
     };
     (void)argc;
-    snprintf(folder.text, sizeof folder.text, "%s", argv[0]);
-    if (chdir(dirname(folder.text)) != 0 || (mkdir("test_checkpoint.files", 0777) != 0 && errno != EEXIST)) return 1;
-    if (chdir("test_checkpoint.files") != 0) return 1;
+    if (!enter_folder_beside(argv[0], "test_checkpoint.files")) return 1;
     int failed = cmocka_run_group_tests(tests, start, NULL);
     if (failed == 0 && chdir("..") == 0) remove_tree("test_checkpoint.files");
     return failed;

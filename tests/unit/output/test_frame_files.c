@@ -1,7 +1,5 @@
 /* Tests of reading frames: fields by name, all frames as one file, frames of regions. */
 #include <errno.h>
-#include <ftw.h>
-#include <libgen.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,19 +10,14 @@
 #include "output/output.h"
 #include "output/output_files.h"
 #include "output/output_hdf5.h"
+#include "tests/robustness/trees.h"
 
 static const char scene_text[] = "name: \"toy\"\nspace: plane stress\noutput:\n  regions:\n    - name: \"half\"\n";
 enum { PARTICLES = 1000 };
 
-static int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)
-{
-    (void)s, (void)type, (void)walk;
-    return remove(path);
-}
-
 static void open_fresh(struct output *o, const char *folder)
 {
-    nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_tree(folder);
     assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, false), OK);
 }
 
@@ -192,15 +185,13 @@ static void frames_of_a_region(void **state)
 
 int main(int argc, char **argv)
 {
-    /* Folder beside the program for all files of the tests. */
-    static const char folder[] = "test_frame_files.files";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fields_are_read_by_name),
         cmocka_unit_test(frames_in_one_file),
         cmocka_unit_test(frames_of_a_region),
     };
     (void)argc;
-    if (chdir(dirname(argv[0])) != 0 || (mkdir(folder, 0777) != 0 && errno != EEXIST) || chdir(folder) != 0) return 1;
+    if (!enter_folder_beside(argv[0], "test_frame_files.files")) return 1;
     output_configure_hdf5();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,5 @@
 /* Tests of output.h: frames, indices, history, checkpoints, and effects of a full disk and damaged bytes. */
 #include <errno.h>
-#include <ftw.h>
-#include <libgen.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -25,19 +23,12 @@
 #include "coupling/conversion.h"
 #include "fracture/fracture_part.h"
 #include "fracture/tips.h"
+#include "tests/robustness/trees.h"
 
 static const char scene_text[] = "name: \"toy\"\nspace: plane stress\n";
 enum { PARTICLES = 1000 };
 
 /* ---- helpers ----------------------------------------------------------------------------------------------------- */
-
-static int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)
-{
-    (void)s, (void)type, (void)walk;
-    return remove(path);
-}
-
-static void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS); }
 
 /* Opens an empty folder for one test. */
 static void open_fresh(struct output *o, const char *folder, bool compress)
@@ -496,8 +487,6 @@ static int start(void **state)
 
 int main(int argc, char **argv)
 {
-    /* Folder beside the program for all files of the tests. */
-    struct path folder = {{0}};
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_come_back),
         cmocka_unit_test(frames_have_vtk_layout),
@@ -514,9 +503,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(summary_has_the_figures),
     };
     (void)argc;
-    snprintf(folder.text, sizeof folder.text, "%s", argv[0]);
-    if (chdir(dirname(folder.text)) != 0 || (mkdir("test_output.files", 0777) != 0 && errno != EEXIST)) return 1;
-    if (chdir("test_output.files") != 0) return 1;
+    if (!enter_folder_beside(argv[0], "test_output.files")) return 1;
     int failed = cmocka_run_group_tests(tests, start, NULL);
     if (failed == 0 && chdir("..") == 0) remove_tree("test_output.files");
     return failed;

@@ -1,7 +1,5 @@
 /* Tests of what frames share: the particles file, its links, and how little frames take. */
 #include <errno.h>
-#include <ftw.h>
-#include <libgen.h>
 #include <math.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -14,19 +12,14 @@
 #include "output/output.h"
 #include "output/output_files.h"
 #include "output/output_hdf5.h"
+#include "tests/robustness/trees.h"
 
 static const char scene_text[] = "name: \"toy\"\nspace: plane stress\n";
 enum { PARTICLES = 20000 };
 
-static int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)
-{
-    (void)s, (void)type, (void)walk;
-    return remove(path);
-}
-
 static void open_fresh(struct output *o, const char *folder)
 {
-    nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_tree(folder);
     assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, false), OK);
 }
 
@@ -340,8 +333,6 @@ static void contact_where_it_is(void **state)
 
 int main(int argc, char **argv)
 {
-    /* Folder beside the program for all files of the tests. */
-    static const char folder[] = "test_particles_file.files";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_take_little),
         cmocka_unit_test(tables_come_back),
@@ -353,7 +344,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(contact_where_it_is),
     };
     (void)argc;
-    if (chdir(dirname(argv[0])) != 0 || (mkdir(folder, 0777) != 0 && errno != EEXIST) || chdir(folder) != 0) return 1;
+    if (!enter_folder_beside(argv[0], "test_particles_file.files")) return 1;
     output_configure_hdf5();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

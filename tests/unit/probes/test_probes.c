@@ -321,6 +321,24 @@ static struct observed_run bar_seen(const struct bar *bar, real t)
     return o;
 }
 
+/* Bonds the particles of a bar and makes a spall probe of it. Returns the bar as it is at 1 s. */
+static struct observed_run spall_probe_make(struct probes *s, struct bar *bar)
+{
+    struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
+    bar_bond(bar);
+    const struct observed_run o = bar_seen(bar, 1);
+    assert_ok(probes_make(s, &request, 1, &o));
+    return o;
+}
+
+/* Releases the probes of a bar, its bonds and its particles. */
+static void bar_probes_free(struct probes *s, struct bar *bar)
+{
+    probes_free(s);
+    bonds_free(&bar->bonds);
+    body_free(&bar->b);
+}
+
 /* Two adjacent bodies (0..6 and 6..30) are separate from the start; the second breaks at 25 with its last bond. */
 static void probe_of_a_spall(void **state)
 {
@@ -336,10 +354,7 @@ static void probe_of_a_spall(void **state)
         p->v[0][i] = p->X[0][i] > 25 ? 28 : p->X[0][i] < 6 ? 2 : -0.5;
         if (p->X[0][i] > 28) p->v[0][i] = 20, p->mass[i] = 3 * BODY_MASS;
     }
-    bar_bond(&bar);
-    struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
-    struct observed_run o = bar_seen(&bar, 1);
-    assert_ok(probes_make(&s, &request, 1, &o));
+    struct observed_run o = spall_probe_make(&s, &bar);
     bar_cut(&bar, 25, 2);
     probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
@@ -355,9 +370,7 @@ static void probe_of_a_spall(void **state)
     assert_near(figure(&l, "spall", "time"), 2, 0);
     assert_near(figure(&l, "spall", "speed"), (3 * 28 + 2 * 3 * 20) / 9.0, 1e-12); /* the mean by mass */
     assert_near(figure(&l, "spall", "speed_rest"), -0.5, 1e-12);
-    probes_free(&s);
-    bonds_free(&bar.bonds);
-    body_free(&bar.b);
+    bar_probes_free(&s, &bar);
 }
 
 /* Adjacent planes that separate at the same time are one fracture, at their middle. */
@@ -369,17 +382,12 @@ static void probe_of_a_wide_spall(void **state)
     struct figure_list l = {0};
     body_make(&bar.b, 1, (const int[]){30});
     for (int64_t i = 0; i < bar.b.p.n; i++) bar.b.p.kind[i] = KIND_PD;
-    bar_bond(&bar);
-    struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
-    struct observed_run o = bar_seen(&bar, 1);
-    assert_ok(probes_make(&s, &request, 1, &o));
+    struct observed_run o = spall_probe_make(&s, &bar);
     for (int k = 23; k <= 25; k++) bar_cut(&bar, k, 1);
     probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 24, 1e-12);
-    probes_free(&s);
-    bonds_free(&bar.bonds);
-    body_free(&bar.b);
+    bar_probes_free(&s, &bar);
 }
 
 /* Material points on both sides within reach of bonds still connect a plane, until they separate themselves. */
@@ -392,10 +400,7 @@ static void probe_of_a_spall_knows_the_grid(void **state)
     body_make(&bar.b, 1, (const int[]){30});
     struct particles *p = &bar.b.p;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = fabs(p->X[0][i] - 15) < 1 ? KIND_PD : KIND_MPM;
-    bar_bond(&bar);
-    struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
-    struct observed_run o = bar_seen(&bar, 1);
-    assert_ok(probes_make(&s, &request, 1, &o));
+    struct observed_run o = spall_probe_make(&s, &bar);
     bar_cut(&bar, 15, 1);
     for (int64_t i = 0; i < p->n; i++)
         if (p->kind[i] == KIND_MPM) p->flag[i] = 0;
@@ -406,9 +411,7 @@ static void probe_of_a_spall_knows_the_grid(void **state)
     probes_update_every_step(&s, &o);
     probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 15, 1e-12);
-    probes_free(&s);
-    bonds_free(&bar.bonds);
-    body_free(&bar.b);
+    bar_probes_free(&s, &bar);
 }
 
 static void probe_of_a_break(void **state)
@@ -453,9 +456,7 @@ static void probe_of_a_break(void **state)
             if (i != j && llabs(i - j) <= 3) half_energy += full * (real)llabs(i - j) / 12; /* 2 (1 + 2 + 3) = 12 */
     probes_sample_begin(&s, &o);
     assert_near(s.value[column_named(&s, "energy.strain")], half_energy, 1e-12 * half_energy);
-    probes_free(&s);
-    bonds_free(&bar.bonds);
-    body_free(&bar.b);
+    bar_probes_free(&s, &bar);
 }
 
 struct kept_profile {

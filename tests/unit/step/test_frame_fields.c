@@ -2,7 +2,6 @@
  * yielding; all methods and spaces. */
 #include "tests/support/near.h"
 
-#include <ftw.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -11,14 +10,9 @@
 #include "output/output_hdf5.h"
 #include "step/report.h"
 #include "scene/scene_read.h"
+#include "tests/robustness/trees.h"
 
 /* ---- a run and its frames ---------------------------------------------------------------------------------------- */
-
-static int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)
-{
-    (void)s, (void)type, (void)walk;
-    return remove(path);
-}
 
 /* Runs a scene; begins: only up to the frame at t = 0. */
 static void run_text(const char *text, bool begins)
@@ -26,7 +20,7 @@ static void run_text(const char *text, bool begins)
     struct scene s;
     struct output o;
     struct run e;
-    nftw("run", remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_tree("run");
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_int_equal(output_open(&o, "run", s.text, OUTPUT_OVERWRITE, false), OK);
     if (engine_make(&e, &s, &o) != OK) fail_msg("%s", status_message());
@@ -393,6 +387,6 @@ int main(void)
         cmocka_unit_test(only_what_is_asked_for),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    nftw("run", remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_tree("run");
     return failed;
 }
