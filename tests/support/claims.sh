@@ -1,7 +1,7 @@
 # Figures of bench/claims.csv that runs of scenes and benches give now, for test_claims.sh, long_claims.sh and tests that run such scenes.
 # Sourced after summary.sh, whose functions it uses.
 claims=$root/bench/claims.csv
-compare() { awk -v results="$1" -v fresh="$2" -v tables="${3:-}" -v unsourced="${unsourced:-}" -f "$root/tests/support/claims.awk" "$claims"; }
+compare() { awk -v results="$1" -v fresh="$2" -v tables="${3:-}" -f "$root/tests/support/claims.awk" "$claims"; }
 
 # scene_of NAME: the scene that a command names. A name without a folder is that of a scene printed in README.md below a line with `NAME`,
 # or in a page of the manual below `# NAME`: it is written to a file of its own.
