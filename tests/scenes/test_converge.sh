@@ -168,9 +168,8 @@ grep -ho 'json_\(real\|count\|number\)(j, "[a-z_]*"' "$root/src/engine/summary.c
 grep -ho 'probes_figures_put(e, "[a-z_]*"' "$root/src/probes/probes_figures.c" | sed 's/.*"\(.*\)"/\1/' >>written
 cat "$root"/src/probes/*.c | tr '\n' ' ' | grep -o 'struct column \(sif\|rigid\)_figure\[[^;]*;' | grep -o '{"[A-Za-z_0-9]*"' | tr -d '{"' >>written
 grep -o '\] = {"[A-Za-z_0-9]*"' "$root/src/probes/probes_bar.c" | sed 's/.*"\(.*\)"/\1/' >>written
-for name in $(sort -u written); do
-    grep -q "[\" ]$name[\" ]" "$root/src/study/figure_names.c" || fail "figure_names.c has no $name"
-done
+is "names that figure_names.c lacks" "$(sort -u written | awk 'NR == FNR { text = text $0 "\n"; next }
+    text !~ "[\" ]" $0 "[\" ]" { print }' "$root/src/study/figure_names.c" -)" ""
 awk 'BEGIN { print "x,volume"; for (i = 0; i < 20; i++) printf "%.4f,1e-3\n", 0.0005 + i * 0.001 }' >points.csv
 sed 's/^body:.*/bodies: [{name: bar, particles: points.csv}]/; s/0.2 mm/1 mm/' bar.yaml >list.yaml
 refused "nothing can be refined" list.yaml -o none
