@@ -41,7 +41,7 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
  * sets FLAG_STRESSED where the largest principal stress exceeds the conversion stress. The volume follows the trace of
  * the strain in the space; in plane stress the strain through the thickness is left out (below 1 % strain it changes
  * the volume by less than 0.5 %). m: elastic constants by lane; point: numbers of the points, of which there are
- * `points`. With flow laws the stresses go to `due` (points_flow.h). */
+ * `points`. With flow laws the points go to `due`, too (points_flow.h). */
 static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, struct flow_points *due,
                                         const struct elastic_points *m, const int32_t *point, int points,
                                         const row_of_points *L, const int dim, const enum shape shape)
@@ -51,10 +51,8 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
     for (int c = 0; c < n; c++) stress[c] = points_load(p->stress[c], point, dim);
     const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim);
     points_store(p->volume, point, volume + volume * trace, dim);
-    if (__builtin_expect(t->laws, 0))
-        flow_add(due, point, points, stress, L, dim);
-    else
-        for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
+    for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
+    if (__builtin_expect(t->laws, 0)) flow_add(due, point, points, L, dim);
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) {
             const row_of_points stretch = points_load(p->stretch[d], point, dim);

@@ -8,12 +8,11 @@
 typedef real points_anywhere __attribute__((vector_size(POINTS * sizeof(real)), aligned(sizeof(real)), may_alias));
 
 /* Points whose return mapping is due. They are collected from several cells, since a cell has fewer points than a
- * vector has lanes. Their stresses are stored by flow_return alone. */
+ * vector has lanes. Their trial stresses are those of the particles. */
 enum { FLOW_ROOM = LANES + POINTS };
 struct flow_points {
     int n;                                /* fewer than LANES between cells */
     int32_t point[FLOW_ROOM];             /* numbers of the points */
-    real stress[SYM_MAX][FLOW_ROOM];      /* trial stresses [Pa] */
     real L[DIM_MAX * DIM_MAX][FLOW_ROOM]; /* velocity gradients of the step [1/s] */
 };
 
@@ -101,10 +100,11 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
         p->temperature ? lanes_gather(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Stores the state of lane l to point i, except its stress. */
+/* Stores the state of lane l to point i. */
 static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *m, const struct law_points *e, int l,
                                      int64_t i, const int dim)
 {
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) p->stress[c][i] = e->s[law_place[dim][c]][l];
     for (int c = 0; c < dim * (dim + 1) / 2 && p->back_stress[0]; c++)
         p->back_stress[c][i] = e->back[law_place[dim][c]][l];
     if (m->space == SPACE_PLANE_STRAIN) p->out_of_plane[i] = e->s[2][l] - m->poisson * (e->s[0][l] + e->s[1][l]);
@@ -118,14 +118,13 @@ static ALWAYS_INLINE void flow_remove(struct flow_points *due, int n, const int 
     due->n -= n;
     if (due->n == 0) return;
     for (int k = 0; k < due->n; k++) due->point[k] = due->point[n + k];
-    for (int c = 0; c < dim * (dim + 1) / 2; c++)
-        *(points_anywhere *)due->stress[c] = *(const points_anywhere *)(due->stress[c] + n);
     for (int k = 0; k < dim * dim; k++) *(points_anywhere *)due->L[k] = *(const points_anywhere *)(due->L[k] + n);
 }
 
 /* Maps the trial stresses of the first points of `due`, at most LANES, back to their yield surfaces if their materials
  * have flow laws, stores stress, plastic strain, plastic work, back stress and temperature, and removes the points.
- * Their volumes must have been stored. Points of several materials: law by law. */
+ * Their volumes and trial stresses must have been stored. Points of several materials: law by law. Points without a law
+ * keep what is stored: plain yielding may have returned them since. */
 static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_data *t, struct flow_points *due,
                                      const int dim)
 {
@@ -137,7 +136,7 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
     unsigned left = (1u << n) - 1;
     for (int l = 0; l < LANES; l++) point[l] = due->point[int_min(l, n - 1)];
     for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(due->L[k]);
-    for (int c = 0; c < parts; c++) stress[c] = lanes_load(due->stress[c]);
+    for (int c = 0; c < parts; c++) stress[c] = lanes_gather(p->stress[c], point);
     flow_motion_of(&motion, L, t->dt, t->elastic[p->material[point[0]]].space, dim);
     while (left) {
         const struct elastic *m = &t->elastic[p->material[point[__builtin_ctz(left)]]];
@@ -148,22 +147,18 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
         flow_load(p, m, point, stress, &motion, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         law_update(m->law, &e, m->space, LAW_EXPLICIT);
-        for (int c = 0; c < parts; c++) stress[c] = lanes_choose(e.active, e.s[law_place[dim][c]], stress[c]);
         for (int l = 0; l < n; l++)
             if (own >> l & 1) flow_store(p, m, &e, l, point[l], dim);
     }
-    for (int l = 0; l < n; l++)
-        for (int c = 0; c < parts; c++) p->stress[c][point[l]] = stress[c][l];
     flow_remove(due, n, dim);
 }
 
-/* Adds n points to those whose return mapping is due. point: their numbers, filled up to AT_ONCE; stress: their trial
- * stresses [Pa]; L: their velocity gradients [1/s]. */
-static ALWAYS_INLINE void flow_add(struct flow_points *due, const int32_t *point, int n, const row_of_points *stress,
-                                   const row_of_points *L, const int dim)
+/* Adds n points to those whose return mapping is due. point: their numbers, filled up to AT_ONCE; L: their velocity
+ * gradients [1/s]. */
+static ALWAYS_INLINE void flow_add(struct flow_points *due, const int32_t *point, int n, const row_of_points *L,
+                                   const int dim)
 {
     for (int k = 0; k < AT_ONCE(dim); k++) due->point[due->n + k] = point[k];
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) *(points_anywhere *)(due->stress[c] + due->n) = stress[c];
     for (int k = 0; k < dim * dim; k++) *(points_anywhere *)(due->L[k] + due->n) = L[k];
     due->n += n;
 }

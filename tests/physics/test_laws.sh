@@ -59,4 +59,43 @@ for space in "plane strain" "plane stress"; do
         same "$space, $material: after a restart" "$work/$name" "$work/stopped$name"
     done
 done
+
+# ---- two bodies that do not meet: each as if it were alone -------------------------------------------------------------------------
+
+# One yields by yield_stress and yield_hardening, the other by Voce's law. Their places and the step give all runs one grid and one time.
+plain="{name: plain, material: plain, shape: {box: {from: [0, 0], to: [10 mm, 4 mm]}}, velocity: [-100 m/s, 20 m/s]}"
+voce="{name: voce, material: voce, shape: {box: {from: [0, 12 mm], to: [10 mm, 16 mm]}}, velocity: [-80 m/s, 0]}"
+steel="young: 200 GPa, poisson: 0.3, density: 7800"
+of_plain="{name: plain, $steel, yield_stress: 300 MPa, yield_hardening: 2 GPa}"
+of_voce="{name: voce, $steel, yield_stress: 200 MPa, hardening: {voce: {saturation: 150 MPa, rate: 20}}}"
+# bodies NAME BODIES MATERIALS HEIGHT: runs bodies of these materials, with a probe at a height [mm].
+bodies()
+{
+    scene $1 <<END
+space: plane strain
+thickness: 3 mm
+duration: 6 us
+method: mpm
+materials: [$3]
+bodies: [$2]
+particles: {spacing: 0.25 mm}
+time: {step: 0.1 us}
+boundary: [{name: wall, mirror: {axis: x, at: 0}}]
+output: {frames: 0, samples: 20}
+probes: [{point: {at: [0.25 mm, $4 mm]}}]
+END
+    calm "$work/$1" "$work/$1.yaml"
+}
+bodies both "$plain, $voce" "$of_plain, $of_voce" 2.125
+bodies plain "$plain" "$of_plain" 2.125
+bodies voce "$voce" "$of_voce" 14.125
+# Grids of other extent: round-off alone.
+for energy in plastic kinetic strain; do
+    near "two bodies: energy.$energy" "$(f both energy.$energy)" "$(compute "$(f plain energy.$energy) + $(f voce energy.$energy)")" 1e-8
+done
+for figure in stress_xx displacement_x; do
+    near "two bodies: $figure" "$(f both probes.point.$figure)" "$(f plain probes.point.$figure)" 1e-8
+done
+between "two bodies: the plain one yields" "$(f plain energy.plastic)" 1e-3 1e3
+between "two bodies: the other one yields" "$(f voce energy.plastic)" 1e-3 1e3
 finish
