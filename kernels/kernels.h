@@ -28,17 +28,13 @@ struct elastic {
     real c11, c12, shear; /* stiffnesses C11, C12 and shear modulus of the space [Pa] */
     real trigger; /* sigma_1 at which a point is marked for conversion, INFINITY: never; where strength scatters: of the
                      weakest point [Pa] */
-    real trigger_mean;     /* sigma_1 of conversion of a point of strength 1; equals `trigger` without scatter [Pa] */
-    real yield, hardening; /* yield stress sigma_y, 0: elastic; hardening modulus H (mpm/plastic.h) [Pa] */
-    real poisson;          /* Poisson's ratio in plane strain, where the material yields [1] */
+    real trigger_mean; /* sigma_1 of conversion of a point of strength 1; equals `trigger` without scatter [Pa] */
+    real poisson;      /* Poisson's ratio in plane strain, where the material yields [1] */
     enum space space;
-    const struct law *law; /* flow law of the material, which then replaces yield and hardening; NULL: none */
-    enum law_mode mode;    /* how the flow law is solved */
+    const struct law *law; /* law by which the material yields; NULL: it is elastic */
+    enum law_mode mode;    /* how the law is solved */
     bool mean_dilatation;  /* the points of a cell have its mean dilatation (mpm/dilatation.h, mesh/mesh_law.h) */
 };
-
-/* Returns true if the material yields, by linear hardening or by a flow law. */
-static inline bool elastic_yields(const struct elastic *m) { return m->yield > 0 || m->law; }
 
 /* Returns the largest principal stress at which material point i, of material m, is marked for conversion to a
  * peridynamic particle [Pa]: m->trigger, or, where strength is random, m->trigger_mean times the strength of the
@@ -85,7 +81,7 @@ struct transfer_data {
     real half_width;               /* l_p of uGIMP: half the particle's reference edge [m] */
     real dt;                       /* [s] */
     real dt_velocity;              /* step of the velocities: dt, but dt/2 in the first step (leap-frog start) [s] */
-    bool laws;                     /* at least one material has a flow law (elastic.law) */
+    bool laws;                     /* at least one material yields */
     bool mean_dilatation;  /* at least one material has the mean dilatation of cells (elastic.mean_dilatation) */
     bool momentum_only;    /* transfers momentum only: grid-coupled peridynamic particles, which have no stress */
     const uint8_t *bonded; /* [n] not 0: the material point has bonds; NULL: none has */

@@ -112,7 +112,7 @@ static void g2p_call(const struct job *j, struct run *e, bool yields)
 {
     struct elastic material = e->tables.elastic[0];
     struct transfer_data t = e->grid->transfer;
-    if (!yields) material.yield = 0;
+    if (!yields) material.law = NULL, t.laws = false;
     t.elastic = &material;
     g2p_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &t);
 }
@@ -120,7 +120,7 @@ static void g2p_call(const struct job *j, struct run *e, bool yields)
 /* Stresses all points beyond their yield stress: a call maps their stress back. */
 static void points_stress(struct run *e)
 {
-    const real yield = e->tables.elastic[0].yield;
+    const real yield = e->tables.elastic[0].law->yield;
     for (int64_t i = 0; i < e->part.n; i++) e->part.plastic_strain[i] = 0;
     for (int c = 0; c < symmetric_component_count(e->part.dim); c++)
         for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;

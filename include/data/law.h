@@ -1,5 +1,5 @@
-/* Laws by which metals yield beyond linear hardening: the yield stress as a function of plastic strain, rate and
- * temperature (flow law), kinematic hardening, and adiabatic heating. Constants given by the scene, and those derived
+/* Laws by which material points yield: the yield stress as a function of plastic strain, rate and temperature (flow
+ * law), kinematic hardening, and adiabatic heating. Constants given by the scene, and those derived
  * from them. The functions of the laws: kernels/laws. */
 #ifndef CLEAVE_LAW
 #define CLEAVE_LAW
@@ -30,7 +30,7 @@ struct flow_curve {
 
 /* The law of one material. */
 struct law {
-    bool given; /* false: the material has no law of this kind, and the other members have no meaning */
+    bool given; /* false: elastic, or a material of bonds alone; the other members have no meaning */
     enum flow flow;
     real hardening; /* linear: modulus H [Pa] */
     struct {

@@ -27,7 +27,7 @@ struct material {
         real linear, quadratic;
     } viscosity;                     /* coefficients of bulk viscosity in rapid compression (step/viscosity.h) [1] */
     struct strength_scatter scatter; /* random field of its critical stretch */
-    struct law law;                  /* hardening beyond linear, kinematic hardening, Johnson-Cook */
+    struct law law;                  /* by which its material points yield */
     /* values derived by material_compute_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
     real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */
@@ -85,7 +85,7 @@ enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
 /* Returns the stress in monotonic uniaxial loading at the given strain [1] [Pa]: Young's modulus times strain up to the
- * yield stress, then with the slope m->yield_tangent. */
+ * yield stress, then with the slope m->yield_tangent; for materials without another hardening law. */
 real material_stress_at(const struct material *m, real strain);
 
 /* Computes the members of m that follow from those given by the scene: hardening modulus, elastic constants and wave

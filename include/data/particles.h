@@ -58,12 +58,13 @@ struct particles {
     real *gradient[DIM_MAX *
                    DIM_MAX]; /* velocity gradient dv_a/dx_b at [a dim + b], only APIC (Jiang et al. 2015) [1/s] */
     real *stretch[DIM_MAX];  /* axial stretch, only cpGIMP [1] */
-    real *plastic_strain;    /* accumulated equivalent plastic strain; only if a material yields [1] */
-    real *out_of_plane;      /* sigma_zz - nu (sigma_xx + sigma_yy), only with WITH_OUT_OF_PLANE [Pa] */
+    /* only if a material yields: accumulated equivalent plastic strain [1]; plastic work per reference volume, booked
+     * step by step (laws/law_update.h) [J/m^3] */
+    real *plastic_strain, *plastic_work;
+    real *out_of_plane; /* sigma_zz - nu (sigma_xx + sigma_yy), only with WITH_OUT_OF_PLANE [Pa] */
     /* points of a mesh: plastic stress correction, C : strain less the stress, in the axes of their cell; only with
      * WITH_PLASTIC_CORRECTION [Pa] */
     real *plastic_correction[SYM_MAX];
-    real *plastic_work;         /* per reference volume, of points with a law (law.h); only with WITH_LAW [J/m^3] */
     real *back_stress[SYM_MAX]; /* deviatoric, of kinematic hardening; only with WITH_BACK_STRESS [Pa] */
     real *temperature;          /* only with WITH_TEMPERATURE [K] */
     /* points of a mesh with a flow law: stress at the end of the last step, in the axes of their cell; only with
@@ -154,11 +155,10 @@ enum {
     WITH_ROTATIONS = 64,
     WITH_STRENGTH = 128,
     WITH_PLASTIC_CORRECTION = 256,
-    WITH_LAW = 512,
-    WITH_BACK_STRESS = 1024,
-    WITH_TEMPERATURE = 2048,
-    WITH_MESH_STRESS = 4096,
-    WITH_EVERYTHING = 8191
+    WITH_BACK_STRESS = 512,
+    WITH_TEMPERATURE = 1024,
+    WITH_MESH_STRESS = 2048,
+    WITH_EVERYTHING = 4095
 };
 
 /* Description of one array of struct particles, or of one array per component. Loops over a table of these descriptions

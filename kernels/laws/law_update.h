@@ -32,7 +32,7 @@ static const int law_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 
  * is that of the mean of the stresses at its start and end, each times its volume: with the elastic energy 1/2 s : C^-1
  * : s the energy balance of leap-frog steps then closes to round-off. That of a load step is the integral along the
  * path on which the trial stress grows in proportion, without recall a potential of the state; `before` and the volumes
- * are not read. */
-KERNEL(void, law_update, (const struct law *law, struct law_points *p, enum space space, enum law_mode mode));
+ * are not read. Returns the bits of the active points that yield; the others are left as they are. */
+KERNEL(unsigned, law_update, (const struct law *law, struct law_points *p, enum space space, enum law_mode mode));
 
 #endif

@@ -115,7 +115,7 @@ static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct me
                                      const bool finite)
 {
     const struct mesh *mesh = s->mesh;
-    const bool flows = mesh_points_can_yield(s->p) && elastic_yields(&s->elastic[run->material]);
+    const bool flows = mesh_points_can_yield(s->p) && s->elastic[run->material].law;
     lanes sum = lanes_broadcast(0);
     real flowed = 0;
     for (int64_t k = 0; k < run->cells; k += LANES) {

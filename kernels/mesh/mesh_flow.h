@@ -1,21 +1,19 @@
-/* Forces and energy of cells whose points yield, by return mapping at each point: of linear hardening in load steps
- * (mpm/plastic.h), of flow laws in load steps and in explicit steps (mesh_laws.h).
+/* Forces and energy of cells whose points yield, by return mapping at each point (mesh_laws.h).
  *
  * In load steps forces follow from one incremental energy. In explicit steps forces are those of the plastic state at
  * the end of the last step.
  *
  * With the plastic state a, r of the last equilibrium, the strain e of a point has the energy per volume
  *
- *     w(e) = min over dp, da >= |dp|_eq of  1/2 s : C^-1 : s + (sigma_y + H a) da + H da^2/2,   s = C : (e - dp) - r
+ *     w(e) = min over dp, da >= |dp|_eq of  1/2 s : C^-1 : s + int sigma_y da,   s = C : (e - dp) - r
  *
- * (Ortiz & Stainier 1999, rate independent; flow laws have other integrals of the yield stress). Its derivative by e is
- * the stress s at the end of the step, as left by return mapping. r, the plastic stress correction, is the elastic
+ * with the integral of the yield stress from a to a + da (Ortiz & Stainier 1999, rate independent). Its derivative by e
+ * is the stress s at the end of the step, as left by return mapping. r, the plastic stress correction, is the elastic
  * stress C : e less the stress, in the axes of the cell, where Biot's strain splits additively. Sums over points
  * replace the closed forms of mesh_law.h; the moment of the stresses is balanced as there. */
 #ifndef CLEAVE_KERNELS_MESH_FLOW
 #define CLEAVE_KERNELS_MESH_FLOW
 
-#include "kernels/mpm/plastic.h"
 #include "mesh_law.h"
 #include "mesh_laws.h"
 #include "mesh_point.h"
@@ -24,30 +22,13 @@
  * be NULL: false. */
 static ALWAYS_INLINE bool mesh_points_can_yield(const struct particles *p) { return p && p->plastic_correction[0]; }
 
-/* Applies return mapping to the stress s of material point i: projects the trial stress C : e - r onto the yield
- * surface and updates plastic strain and plastic stress correction r of the point. s: symmetric components [Pa],
- * changed in place; m: constants of its material. */
-static ALWAYS_INLINE void point_return_mapping(const struct particles *p, const struct elastic *m, int64_t i, real *s,
-                                               const int dim)
-{
-    real trial[SYM_MAX], zz = p->out_of_plane ? p->out_of_plane[i] : 0;
-    for (int k = 0; k < symmetric_component_count(dim); k++) trial[k] = s[k];
-    const real more = plastic_return(m, s, p->plastic_strain[i], &zz);
-    if (more == 0) return;
-    p->plastic_strain[i] += more;
-    for (int k = 0; k < symmetric_component_count(dim); k++) p->plastic_correction[k][i] += trial[k] - s[k];
-    if (p->out_of_plane) p->out_of_plane[i] = zz;
-}
-
-/* Computes the stress s of material point i at the strain e. e: dim x dim, row by row, of which the symmetric part
- * counts; s: receives symmetric components [Pa]; m: constants of its material; flows: true to apply return mapping and
- * update the plastic state, false to keep the plastic state. */
+/* Computes the trial stress s of material point i at the strain e, that at its present plastic state. e: dim x dim, row
+ * by row, of which the symmetric part counts; s: receives symmetric components [Pa]; m: constants of its material. */
 static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const struct elastic *m, int64_t i,
-                                               const real *e, real *s, const int dim, const bool flows)
+                                               const real *e, real *s, const int dim)
 {
     point_hooke_stress(m, e, s, dim);
     for (int k = 0; k < symmetric_component_count(dim); k++) s[k] -= p->plastic_correction[k][i];
-    if (flows && m->yield > 0) point_return_mapping(p, m, i, s, dim);
 }
 
 /* Returns the elastic energy per volume of material point i under the stress s [J/m^3]. In plane strain of a material
@@ -60,7 +41,7 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
     for (int k = 0; k < dim; k++) sum += s[k], squares += s[k] * s[k];
     for (int k = dim; k < symmetric_component_count(dim); k++) shears += s[k] * s[k];
     const real mean = m->c12 / (m->c11 + (dim - 1) * m->c12);
-    const real across = p->out_of_plane && elastic_yields(m) ? p->out_of_plane[i] : 0;
+    const real across = p->out_of_plane && m->law ? p->out_of_plane[i] : 0;
     return 0.5 * (squares - mean * sum * sum) / (m->c11 - m->c12) + (dim > 1 ? 0.5 * shears / m->shear : 0) +
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
@@ -103,7 +84,7 @@ static ALWAYS_INLINE bool cells_dilate(const struct mesh *mesh, const struct par
 /* Computes the stresses of the points number q of eight cells, one cell in each vector lane. cell: eight cell indices,
  * -1 for a lane without cell; s: strain of the cells; change: added to the normal strains of the points [1], NULL:
  * nothing; m: elastic constants of all materials; stress: receives symmetric components [Pa], 0 in lanes without a
- * point. If flows is true, applies return mapping (flow laws: in load steps), updates the plastic state of the points
+ * point. If flows is true, applies return mapping in load steps, updates the plastic state of the points
  * and returns 0. If it is false, returns the sum of the elastic energies per volume of the points [J/m^3]. */
 static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, const struct particles *p,
                                                      const struct elastic *m, const int32_t *cell,
@@ -122,7 +103,7 @@ static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, co
         if (i < 0) continue;
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < dim; b++) strain[a * dim + b] = e[a][b][l];
-        point_compute_stress(p, &m[p->material[i]], i, strain, own, dim, flows);
+        point_compute_stress(p, &m[p->material[i]], i, strain, own, dim);
         for (int k = 0; k < symmetric_component_count(dim); k++) stress[k][l] = own[k];
         if (m[p->material[i]].law && m[p->material[i]].mode == LAW_LOAD_STEP) with_law |= 1u << l;
         if (!flows) sum += point_elastic_energy_density(p, &m[p->material[i]], i, own, dim);

@@ -110,7 +110,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
                                                        int64_t band, const struct elastic *m)                          \
     {                                                                                                                  \
         for (int64_t r = mesh->band[band]; r < mesh->band[band + 1]; r++)                                              \
-            if (mesh_points_can_yield(p) && elastic_yields(&m[mesh->run[r].material]))                                 \
+            if (mesh_points_can_yield(p) && m[mesh->run[r].material].law)                                              \
                 run_flow_##D##_##FINITE(mesh, p, &mesh->run[r], m);                                                    \
             else                                                                                                       \
                 run_force(mesh, p, &mesh->run[r], m, D, FINITE, false);                                                \

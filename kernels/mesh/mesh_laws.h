@@ -61,7 +61,8 @@ static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elas
         p->temperature ? lanes_of_listed(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Stores the state of lane l to point i, and its stress in `stress`, whose trial value it replaces. */
+/* Stores the state of lane l, which has yielded, to point i, and its stress in `stress`, whose trial value it
+ * replaces. */
 static ALWAYS_INLINE void law_store(const struct particles *p, const struct elastic *m, const struct law_points *e,
                                     int l, int64_t i, lanes *stress, const int dim)
 {
@@ -69,7 +70,6 @@ static ALWAYS_INLINE void law_store(const struct particles *p, const struct elas
         const int c = law_place[dim][k];
         p->plastic_correction[k][i] += stress[k][l] - e->s[c][l];
         stress[k][l] = e->s[c][l];
-        if (p->mesh_stress[0]) p->mesh_stress[k][i] = e->s[c][l];
         if (p->back_stress[0]) p->back_stress[k][i] = e->back[c][l];
     }
     if (m->space == SPACE_PLANE_STRAIN) p->out_of_plane[i] = e->s[2][l] - m->law->poisson * (e->s[0][l] + e->s[1][l]);
@@ -94,9 +94,12 @@ static NEVER_INLINE void place_laws(const struct mesh *mesh, const struct partic
         left &= ~own;
         laws_load(p, &m[material], point, stress, dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
-        law_update(m[material].law, &e, m[material].space, m[material].mode);
-        for (int l = 0; l < LANES; l++)
-            if (own >> l & 1) law_store(p, &m[material], &e, l, point[l], stress, dim);
+        const unsigned flowed = law_update(m[material].law, &e, m[material].space, m[material].mode);
+        for (int l = 0; l < LANES; l++) {
+            if (flowed >> l & 1) law_store(p, &m[material], &e, l, point[l], stress, dim);
+            for (int k = 0; k < symmetric_component_count(dim) && p->mesh_stress[0] && own >> l & 1; k++)
+                p->mesh_stress[k][point[l]] = stress[k][l];
+        }
     }
 }
 

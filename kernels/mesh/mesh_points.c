@@ -224,7 +224,7 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
     const int n = symmetric_component_count(dim);
     real s[SYM_MAX], S[9], T[9], det = 1;
     if (mesh_points_can_yield(p))
-        point_compute_stress(p, m, i, e, s, dim, false);
+        point_compute_stress(p, m, i, e, s, dim);
     else
         point_hooke_stress(m, e, s, dim);
     if (!finite) {

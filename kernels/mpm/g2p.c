@@ -12,7 +12,6 @@
  * gains 40 % with v2 (bench/stability/limits_motion.c). Each point is written by one thread. */
 #include "kernels/kernels.h"
 #include "dilatation.h"
-#include "plastic.h"
 #include "points_flow.h"
 #include "scatter.h"
 #include "shape.h"
@@ -26,13 +25,11 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
 {
     const struct elastic *first = &t->elastic[p->material[point[0]]];
     struct elastic_points m = {points_broadcast(first->c11), points_broadcast(first->c12),
-                               points_broadcast(first->shear), points_broadcast(first->trigger),
-                               points_broadcast(first->yield)};
+                               points_broadcast(first->shear), points_broadcast(first->trigger)};
     for (int k = 1; k < AT_ONCE(dim); k++) {
         const struct elastic *own = &t->elastic[p->material[point[k]]];
         if (own == first) continue;
-        m.c11[k] = own->c11, m.c12[k] = own->c12, m.shear[k] = own->shear;
-        m.trigger[k] = own->trigger, m.yield[k] = own->yield;
+        m.c11[k] = own->c11, m.c12[k] = own->c12, m.shear[k] = own->shear, m.trigger[k] = own->trigger;
     }
     return m;
 }
@@ -41,7 +38,7 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
  * sets FLAG_STRESSED where the largest principal stress exceeds the conversion stress. The volume follows the trace of
  * the strain in the space; in plane stress the strain through the thickness is left out (below 1 % strain it changes
  * the volume by less than 0.5 %). m: elastic constants by lane; point: numbers of the points, of which there are
- * `points`. With flow laws the points go to `due`, too (points_flow.h). */
+ * `points`. Where materials yield the points go to `due`, too (points_flow.h). */
 static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, struct flow_points *due,
                                         const struct elastic_points *m, const int32_t *point, int points,
                                         const row_of_points *L, const int dim, const enum shape shape)
@@ -96,68 +93,6 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
         for (int c = 0; c < ROTATION; c++) next[c][k] *= inverse;
     }
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
-}
-
-/* Clears FLAG_STRESSED of point i of material m, which has yielded, if its largest principal stress does not exceed the
- * conversion stress. stress: after the return mapping [Pa]. */
-static ALWAYS_INLINE void point_unmark(struct particles *p, const struct elastic *m, int64_t i, const real *stress,
-                                       const int dim)
-{
-    if (!(p->flag[i] & FLAG_STRESSED)) return;
-    const real trigger = point_conversion_stress(m, p, i);
-    if (!(stress_principal_bound(stress, dim) > trigger && stress_largest_principal(stress, dim) > trigger))
-        p->flag[i] &= (uint8_t)~FLAG_STRESSED;
-}
-
-/* Applies return mapping to point i: the part of its stress beyond the yield surface becomes plastic strain. Clears
- * FLAG_STRESSED if the resulting stress does not exceed the conversion stress. Works on stored values after all other
- * updates, so that points that cannot yield keep their values in registers. */
-static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, const int dim)
-{
-    const int n = dim * (dim + 1) / 2;
-    const bool keeps_zz = dim == 2 && m->space == SPACE_PLANE_STRAIN;
-    real stress[SYM_MAX], zz = keeps_zz ? p->out_of_plane[i] : 0;
-    for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
-    const real more = plastic_return(m, stress, p->plastic_strain[i], &zz);
-    if (more == 0) return;
-    p->plastic_strain[i] += more;
-    if (keeps_zz) p->out_of_plane[i] = zz;
-    for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
-    point_unmark(p, m, i, stress, dim);
-}
-
-/* Applies the radial return in space (return_solid of plastic.c) to POINTS points at once, as point_yield does to one.
- * point: their indices; the last may be repeated. elastic: constants by material. Not inlined, so that the code for
- * elastic points contains none of it. */
-static NEVER_INLINE void points_yield(struct particles *p, const struct elastic *elastic, const int32_t *point)
-{
-    enum { dim = 3 };
-    row_of_points s[SYM_MAX], bound, hardening, rate, q; /* rate: 3 G + H */
-    for (int k = 0; k < POINTS; k++) {
-        const struct elastic *m = &elastic[p->material[point[k]]];
-        bound[k] = m->yield > 0 ? m->yield + m->hardening * p->plastic_strain[point[k]] : INFINITY;
-        hardening[k] = m->hardening, rate[k] = 3 * m->shear + m->hardening;
-    }
-    for (int c = 0; c < SYM_MAX; c++) s[c] = points_load(p->stress[c], point, dim);
-    const row_of_points mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
-    const row_of_points off = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
-    const row_of_points q2 = 1.5 * (a * a + b * b + c * c) + 3 * off;
-    const row_of_points yields =
-        (row_of_points)((q2 > bound * bound) & (points_mask)points_broadcast(-1)); /* -1: yields */
-    const int any = points_sign_bits(yields);
-    if (!any) return;
-    for (int k = 0; k < POINTS; k++) q[k] = sqrt(q2[k]);
-    const row_of_points more = (q - bound) / rate, left = (bound + hardening * more) / q;
-    const row_of_points strain = points_load(p->plastic_strain, point, dim);
-    const row_of_points returned[SYM_MAX] = {mean + left * a, mean + left * b, mean + left * c,
-                                             s[3] * left,     s[4] * left,     s[5] * left};
-    points_store(p->plastic_strain, point, points_choose(yields, strain + more, strain), dim);
-    for (int k = 0; k < SYM_MAX; k++) points_store(p->stress[k], point, points_choose(yields, returned[k], s[k]), dim);
-    for (int k = 0; k < POINTS; k++) {
-        const real own[SYM_MAX] = {returned[0][k], returned[1][k], returned[2][k],
-                                   returned[3][k], returned[4][k], returned[5][k]};
-        if (any >> k & 1) point_unmark(p, &elastic[p->material[point[k]]], point[k], own, dim);
-    }
 }
 
 /* Adds the displacements `step` [m] to the positions of the points of stencil s. Returns a bit mask: bit k is set if
@@ -267,8 +202,8 @@ static ALWAYS_INLINE void points_dilate_more(row_of_points *L, const real *chang
 }
 
 /* Updates the n listed points (n <= AT_ONCE) of cell c: position, stress, volume, and with APIC velocity and its
- * gradient. due: receives points with flow laws; dilatation: change of the rate of dilatation of each point [1/s],
- * NULL: none. Returns the number of points that have left the cell. */
+ * gradient. due: receives the points where materials yield; dilatation: change of the rate of dilatation of each point
+ * [1/s], NULL: none. Returns the number of points that have left the cell. */
 static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, struct flow_points *due, const int32_t *list, int n,
                                     const real *dilatation, const int dim, const enum shape shape,
@@ -288,10 +223,6 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, s.point, L, t->dt, dim);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
     const int moved = points_move(g, c, p, &s, velocity, dim);
-    const bool yields = __builtin_expect(points_sign_bits(points_broadcast(0) - m.yield), 0); /* -0 would have a sign */
-    if (yields && dim == 3) points_yield(p, t->elastic, s.point);
-    for (int k = 0; k < n && yields && dim < 3; k++)
-        if (m.yield[k] > 0) point_yield(p, &t->elastic[p->material[list[k]]], list[k], dim);
     if (__builtin_expect(due->n >= LANES, 0)) flow_return(p, t, due, dim);
     return __builtin_popcount(moved & ((1 << n) - 1));
 }

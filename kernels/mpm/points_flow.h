@@ -1,4 +1,4 @@
-/* Return mapping of material points with flow laws at the end of g2p. */
+/* Return mapping of material points that yield, at the end of g2p. */
 #ifndef CLEAVE_KERNELS_POINTS_FLOW
 #define CLEAVE_KERNELS_POINTS_FLOW
 
@@ -100,16 +100,36 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
         p->temperature ? lanes_gather(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Stores the state of lane l to point i. */
+/* Clears FLAG_STRESSED of point i of material m, which has yielded, if its largest principal stress does not exceed the
+ * conversion stress. stress: after the return mapping [Pa]. */
+static ALWAYS_INLINE void point_unmark(struct particles *p, const struct elastic *m, int64_t i, const real *stress,
+                                       const int dim)
+{
+    if (!(p->flag[i] & FLAG_STRESSED)) return;
+    const real trigger = point_conversion_stress(m, p, i);
+    if (!(stress_principal_bound(stress, dim) > trigger && stress_largest_principal(stress, dim) > trigger))
+        p->flag[i] &= (uint8_t)~FLAG_STRESSED;
+}
+
+/* Stores the state of lane l, which has yielded, to point i. */
 static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *m, const struct law_points *e, int l,
                                      int64_t i, const int dim)
 {
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) p->stress[c][i] = e->s[law_place[dim][c]][l];
-    for (int c = 0; c < dim * (dim + 1) / 2 && p->back_stress[0]; c++)
-        p->back_stress[c][i] = e->back[law_place[dim][c]][l];
+    real stress[SYM_MAX];
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) p->stress[c][i] = stress[c] = e->s[law_place[dim][c]][l];
     if (m->space == SPACE_PLANE_STRAIN) p->out_of_plane[i] = e->s[2][l] - m->poisson * (e->s[0][l] + e->s[1][l]);
     p->plastic_strain[i] = e->a[l], p->plastic_work[i] = e->work[l];
     if (p->temperature) p->temperature[i] = e->temperature[l];
+    point_unmark(p, m, i, stress, dim);
+}
+
+/* Stores the back stresses of the lanes whose bits are set, which turn with their points. */
+static NEVER_INLINE void flow_store_back(struct particles *p, const struct law_points *e, unsigned lanes_set,
+                                         const int32_t *point, const int dim)
+{
+    for (int l = 0; l < LANES; l++)
+        for (int c = 0; c < dim * (dim + 1) / 2 && lanes_set >> l & 1; c++)
+            p->back_stress[c][point[l]] = e->back[law_place[dim][c]][l];
 }
 
 /* Removes the first n points of `due`, at most LANES; at most POINTS others must follow. */
@@ -122,9 +142,9 @@ static ALWAYS_INLINE void flow_remove(struct flow_points *due, int n, const int 
 }
 
 /* Maps the trial stresses of the first points of `due`, at most LANES, back to their yield surfaces if their materials
- * have flow laws, stores stress, plastic strain, plastic work, back stress and temperature, and removes the points.
- * Their volumes and trial stresses must have been stored. Points of several materials: law by law. Points without a law
- * keep what is stored: plain yielding may have returned them since. */
+ * yield, stores stress, plastic strain, plastic work, back stress and temperature of those that do, clears their
+ * FLAG_STRESSED if the resulting stress does not exceed the conversion stress, and removes the points. Their volumes
+ * and trial stresses must have been stored. Points of several materials: law by law. */
 static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_data *t, struct flow_points *due,
                                      const int dim)
 {
@@ -146,9 +166,10 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
         if (!m->law) continue;
         flow_load(p, m, point, stress, &motion, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
-        law_update(m->law, &e, m->space, LAW_EXPLICIT);
-        for (int l = 0; l < n; l++)
-            if (own >> l & 1) flow_store(p, m, &e, l, point[l], dim);
+        const unsigned flowed = law_update(m->law, &e, m->space, LAW_EXPLICIT);
+        if (p->back_stress[0]) flow_store_back(p, &e, own, point, dim);
+        for (int l = 0; l < n && flowed; l++)
+            if (flowed >> l & 1) flow_store(p, m, &e, l, point[l], dim);
     }
     flow_remove(due, n, dim);
 }

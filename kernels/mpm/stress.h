@@ -132,7 +132,7 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w
 
 /* Elastic constants (struct elastic) of a few points. */
 struct elastic_points {
-    row_of_points c11, c12, shear, trigger, yield; /* [Pa] */
+    row_of_points c11, c12, shear, trigger; /* [Pa] */
 };
 
 /* Updates the stresses s of a few points (one per lane) for a time step dt [s]: rotation by the spin, then Hooke's law.

@@ -111,6 +111,18 @@ static ALWAYS_INLINE lanes_mask lanes_mask_from_bits(uint8_t bits)
     return (lanes_mask) - (-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
 }
 
+/* Returns the bits of the lanes that are set in the mask. */
+static ALWAYS_INLINE unsigned lanes_mask_bits(lanes_mask mask)
+{
+#ifdef __AVX512F__
+    return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask);
+#else
+    unsigned bits = 0;
+    for (int l = 0; l < LANES; l++) bits |= (unsigned)(mask[l] & 1) << l;
+    return bits;
+#endif
+}
+
 /* Returns a in lanes whose bit is set, else 0. */
 static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 {

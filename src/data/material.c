@@ -82,7 +82,7 @@ static real rayleigh_speed(real longitudinal, real shear)
 real material_stress_at(const struct material *m, real strain)
 {
     const real elastic = m->young * strain;
-    if (!material_yields(m) || m->law.given || elastic <= m->yield_stress) return elastic;
+    if (!material_yields(m) || elastic <= m->yield_stress) return elastic;
     return m->yield_stress + m->yield_tangent * (strain - m->yield_stress / m->young);
 }
 

@@ -26,7 +26,6 @@ static int if_plastic_correction(int dim, int optional)
 {
     return optional & WITH_PLASTIC_CORRECTION ? symmetric_component_count(dim) : 0;
 }
-static int if_law(int dim, int optional) { return (void)dim, optional & WITH_LAW ? 1 : 0; }
 static int if_back_stress(int dim, int optional)
 {
     return optional & WITH_BACK_STRESS ? symmetric_component_count(dim) : 0;
@@ -61,7 +60,7 @@ const struct particle_field particle_fields[] = {
     TRIAL(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
     ROW("relief", plastic_correction, real, if_plastic_correction, "Pa",
         "plastic stress correction: elastic stress less stress, of points of a mesh", true),
-    TRIAL(plastic_work, real, if_law, "J/m^3", "plastic work per reference volume"),
+    TRIAL(plastic_work, real, if_plastic, "J/m^3", "plastic work per reference volume"),
     TRIAL(back_stress, real, if_back_stress, "Pa", "back stress of kinematic hardening"),
     TRIAL(temperature, real, if_temperature, "K", "temperature"),
     TRIAL(mesh_stress, real, if_mesh_stress, "Pa", "stress of points of a mesh in the axes of their cell"),

@@ -105,9 +105,6 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                               .mean_dilatation = material_averages_dilatation(given, s->space),
                                               .trigger = conversion_trigger(s, given),
                                               .trigger_mean = conversion_trigger(s, given)};
-        if (!material_yields(given) || given->law.given) continue;
-        tables->elastic[m].yield = given->yield_stress;
-        tables->elastic[m].hardening = given->yield_hardening;
     }
     make_limits(s, tables, source);
     make_yields(s, tables, source);
@@ -304,7 +301,7 @@ static void tables_free(struct material_tables *t)
 static int law_arrays(const struct law *law)
 {
     if (!law->given) return 0;
-    return WITH_LAW | (law->kinematic.modulus > 0 ? WITH_BACK_STRESS : 0) |
+    return WITH_PLASTIC | (law->kinematic.modulus > 0 ? WITH_BACK_STRESS : 0) |
            (law_heats_material(law) ? WITH_TEMPERATURE : 0);
 }
 
@@ -315,9 +312,8 @@ static int optional_arrays(const struct scene *s)
     const int meshed = scene_has_load_steps(s)   ? WITH_PLASTIC_CORRECTION
                        : scene_yields_on_mesh(s) ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS
                                                  : 0;
-    for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
-        if (material_yields(&s->material[m])) optional |= WITH_PLASTIC | meshed;
-    for (int m = 0; m < s->materials; m++) optional |= law_arrays(&s->material[m].law);
+    for (int m = 0; m < s->materials; m++)
+        if (s->material[m].law.given) optional |= meshed | law_arrays(&s->material[m].law);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;
     if (s->method != METHOD_MPM && scene_strength_scatters(s)) optional |= WITH_STRENGTH;

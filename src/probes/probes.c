@@ -340,7 +340,7 @@ void probes_sample_begin(struct probes *s, const struct observed_run *o)
             probe_reaction(q, o->loads, dim, value, value + dim);
             break;
         case PROBE_POINT:
-            particle_readings(o->part, q->list[0], value);
+            particle_readings(o, q->list[0], value);
             break;
         case PROBE_ENERGY:
             probes_sample_energy(q, o, value);

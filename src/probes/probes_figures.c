@@ -22,7 +22,7 @@ static int stresses_count(const struct particles *p)
     return symmetric_component_count(p->dim) + (p->plane_strain != NULL);
 }
 
-/* Returns the number of readings of flow laws: plastic strain, and the temperature of materials that heat. */
+/* Returns the number of readings where materials yield: plastic strain, and the temperature of those that heat. */
 static int law_readings_count(const struct particles *p)
 {
     return (p->plastic_work != NULL) + (p->temperature != NULL);
@@ -53,14 +53,23 @@ struct column reading_column(const struct particles *p, int k)
     return c;
 }
 
-void particle_readings(const struct particles *p, int64_t i, real *value)
+/* Returns the plastic strain of particle i: of a peridynamic one the mean plastic path of its bonds, as in frames. */
+static real plastic_strain_reading(const struct observed_run *o, int64_t i)
 {
+    const struct bonds *b = o->bonds;
+    const bool by_bonds = o->part->kind[i] == KIND_PD && b->plastic_path && b->row_of[i] >= 0;
+    return by_bonds ? bond_row_plastic_path(b, b->row_of[i]) : o->part->plastic_strain[i];
+}
+
+void particle_readings(const struct observed_run *o, int64_t i, real *value)
+{
+    const struct particles *p = o->part;
     for (int d = 0; d < p->dim; d++) *value++ = p->x[d][i] - p->X[d][i];
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
     for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][i];
     if (p->plane_strain) *value++ = particle_plane_strain_stress(p, i);
     *value++ = p->damage[i];
-    if (p->plastic_work) *value++ = p->plastic_strain[i];
+    if (p->plastic_work) *value++ = plastic_strain_reading(o, i);
     if (p->temperature) *value++ = p->temperature[i];
 }
 
@@ -283,7 +292,7 @@ static void figures_point(const struct emitter *e)
 {
     const struct particles *p = e->o->part;
     real value[READINGS_MAX];
-    particle_readings(p, e->q->list[0], value);
+    particle_readings(e->o, e->q->list[0], value);
     for (int k = 0; k < p->dim && e->sampled; k++) value[p->dim + k] = e->sampled[p->dim + k];
     for (int k = 0; k < readings_count(p); k++) probes_figures_put(e, reading_column(p, k).name, value[k]);
 }
@@ -296,7 +305,7 @@ static void figures_line(const struct emitter *e)
     for (int k = 0; k < READINGS_MAX; k++) low[k] = INFINITY, high[k] = -INFINITY;
     for (int64_t m = 0; m < e->q->n; m++) {
         if (e->q->list[m] < 0) continue;
-        particle_readings(p, e->q->list[m], value);
+        particle_readings(e->o, e->q->list[m], value);
         for (int k = 0; k < readings_count(p); k++)
             low[k] = real_min(low[k], value[k]), high[k] = real_max(high[k], value[k]);
     }

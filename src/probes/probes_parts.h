@@ -55,21 +55,21 @@ struct probe {
 
 /* ---- readings of a single particle: POINT and LINE --------------------------------------------------------------- */
 
-/* Readings of a particle: displacement, velocity, stress (in plane strain also zz), damage; where materials have flow
- * laws also plastic strain, and temperature if they heat. */
+/* Readings of a particle: displacement, velocity, stress (in plane strain also zz), damage; where materials
+ * yield also plastic strain, and temperature if they heat. */
 enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 3 };
 
 /* Returns the number of values that a POINT or LINE probe reports of a particle: components of displacement, velocity
- * and stress, the damage, and what flow laws add. The number depends on the dimension and the arrays of p. */
+ * and stress, the damage, and what yielding adds. The number depends on the dimension and the arrays of p. */
 int readings_count(const struct particles *p);
 
 /* Returns the name and unit of value `number` of those that a POINT or LINE probe reports of a particle, 0 <= number <
  * readings_count(p). */
 struct column reading_column(const struct particles *p, int number);
 
-/* Computes the readings of particle i and stores them in value[readings_count(p)], in the
- * order of reading_column. */
-void particle_readings(const struct particles *p, int64_t i, real *value);
+/* Computes the readings of particle i of the run and stores them in value[readings_count(o->part)], in the order of
+ * reading_column. */
+void particle_readings(const struct observed_run *o, int64_t i, real *value);
 
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 

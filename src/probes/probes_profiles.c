@@ -19,8 +19,9 @@ static void profile_header(FILE *file, const struct particles *p)
 }
 
 /* Writes a row of the profile of a LINE probe for each station inside a body. */
-static void profile_rows(FILE *file, const struct probe *q, const struct particles *p)
+static void profile_rows(FILE *file, const struct probe *q, const struct observed_run *o)
 {
+    const struct particles *p = o->part;
     real X[DIM_MAX], start[DIM_MAX], value[READINGS_MAX];
     station_position(q, p->dim, 0, start);
     for (int64_t k = 0; k < q->n; k++) {
@@ -30,7 +31,7 @@ static void profile_rows(FILE *file, const struct probe *q, const struct particl
         for (int d = 0; d < p->dim; d++) s2 += square(X[d] - start[d]);
         fprintf(file, "%.9g", sqrt(s2));
         for (int d = 0; d < p->dim; d++) fprintf(file, ",%.9g", X[d]);
-        particle_readings(p, q->list[k], value);
+        particle_readings(o, q->list[k], value);
         for (int m = 0; m < readings_count(p); m++) fprintf(file, ",%.9g", value[m]);
         fputc('\n', file);
     }
@@ -60,7 +61,7 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
         return;
     }
     profile_header(file, o->part);
-    profile_rows(file, q, o->part);
+    profile_rows(file, q, o);
 }
 
 /* Writes the file name `<probe>_NNNNNN.csv` of the profile at a frame. A slash in the name of the probe becomes an

@@ -245,19 +245,14 @@ real points_strain_energy(const struct particles *p, const struct material *m, c
     return points_strain_energy_of_list(p, m, partial, p->list_free, p->n_free);
 }
 
-/* Returns the plastic work of the k-th listed particle [J]: V times the integral of (sigma_y + H a) da; of materials
- * with a flow law the work that their steps have booked (kernels/laws/law_update.h). */
+/* Returns the plastic work of the k-th listed particle that its steps have booked [J]. */
 static real plastic_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
     const struct particles *p = s->p;
-    int64_t i = s->list[k];
-    const struct material *m = &s->m[p->material[i]];
-    const real a = p->plastic_strain[i];
-    if (a == 0) return 0;
-    if (m->law.given) return point_mpm_fraction(s->partial, s->p->dim, i) * p->plastic_work[i] * p->volume0[i];
-    const real volume = p->flag[i] & FLAG_MESHED ? p->volume0[i] : p->volume[i];
-    return point_mpm_fraction(s->partial, s->p->dim, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+    const int64_t i = s->list[k];
+    if (p->plastic_work[i] == 0) return 0;
+    return point_mpm_fraction(s->partial, s->p->dim, i) * p->plastic_work[i] * p->volume0[i];
 }
 
 real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial)

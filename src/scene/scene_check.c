@@ -331,20 +331,6 @@ bool scene_yields_on_mesh(const struct scene *s)
     return any && scene_is_dynamic(s) && s->method == METHOD_MPM;
 }
 
-/* Completes a scene whose bodies yield in the reference frame in explicit steps: cells have one time step, and linear
- * hardening is a flow law, which books plastic work step by step. */
-static void resolve_yielding(struct scene *s)
-{
-    if (!scene_yields_on_mesh(s)) return;
-    if (s->levels == LEVELS_AUTO) s->levels = 0;
-    for (int m = 0; m < s->materials; m++) {
-        struct material *own = &s->material[m];
-        if (!material_yields(own) || own->law.given) continue;
-        own->law.given = true, own->law.flow = FLOW_LINEAR, own->law.hardening = own->yield_hardening;
-        material_compute_constants(own, s->space);
-    }
-}
-
 /* Changes bodies with frame auto to the current frame if the keys of the scene require it. If no body is left at
  * auto, keys with a meaning in the current frame only (mpm.shape, mpm.transfer, interface_damping) are marked as
  * given, so that scene_echo.c writes them. They must not be written while a body is at auto, since a scene that
@@ -362,7 +348,7 @@ void resolve_frames(struct scene *s)
         }
         open |= body->frame == FRAME_AUTO;
     }
-    resolve_yielding(s);
+    if (s->levels == LEVELS_AUTO && scene_yields_on_mesh(s)) s->levels = 0; /* cells have one time step */
     if (open) return;
     s->has_shape = s->has_transfer = s->has_interface_damping = true;
     if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;

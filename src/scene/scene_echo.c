@@ -259,7 +259,7 @@ static void write_curve(struct writer *w, const struct flow_curve *c)
     fputs("]  # 1, Pa\n", w->out);
 }
 
-/* Writes the law by which a material yields, if it has one. Linear hardening is that of yield_tangent, if given. */
+/* Writes the law by which a material yields, if it has one other than linear hardening by yield_tangent. */
 static void write_material_law(struct writer *w, const struct material *m)
 {
     const struct law *law = &m->law;
@@ -269,7 +269,7 @@ static void write_material_law(struct writer *w, const struct material *m)
     snprintf(group, sizeof group, "material.hardening.%s", word ? word : "");
     if (!word)
         write_mapping(w, "johnson_cook", "material.johnson_cook", law);
-    else if (law->flow != FLOW_LINEAR || !(m->yield_tangent > 0)) {
+    else if (law->flow != FLOW_LINEAR || law->hardening != m->yield_hardening) {
         write_key(w, "hardening");
         fputc('\n', w->out);
         w->indent += 2;

@@ -141,15 +141,14 @@ status read_law(struct reader *r, const struct yaml_node *n, struct material *m)
                            *first = hardening ? hardening : johnson_cook;
     if (hardening) TRY(read_hardening_law(r, n, hardening, law));
     if (johnson_cook) TRY(read_johnson_cook(r, n, johnson_cook, law));
-    if (kinematic) {
-        TRY(read_group(r, kinematic, kinematic, "material.kinematic", law));
-        if (!law->given)
-            law->flow = FLOW_LINEAR, law->hardening = m->young * m->yield_tangent / (m->young - m->yield_tangent);
-        law->given = true;
+    if (!first) first = kinematic;
+    if (kinematic) TRY(read_group(r, kinematic, kinematic, "material.kinematic", law));
+    if (!law->given && (kinematic || (material_yields(m) && r->scene->method != METHOD_PD))) {
+        law->given = true, law->flow = FLOW_LINEAR;
+        law->hardening = m->young * m->yield_tangent / (m->young - m->yield_tangent);
     }
     TRY(read_heat(r, n, law));
-    if (!law->given) return OK;
-    if (!first) first = kinematic;
+    if (!first) return OK;
     TRY(check_first_yield(r, n, first, m));
     return check_law_place(r, first);
 }

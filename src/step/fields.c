@@ -109,24 +109,19 @@ static void gradients_make(const struct run *e, real **H)
 
 /* ---- plastic work and levels ------------------------------------------------------------------------------------- */
 
-/* Returns the plastic work per volume [n, J/m^3], NULL if nothing yields: sigma_y a + H a^2/2 of material points,
- * with the equivalent plastic strain a and the hardening modulus H, or the booked work of a flow law; the work of its
- * bonds over the volume of a peridynamic particle. The caller frees it. */
-static real *plastic_work_make(const struct particles *p, const struct bonds *b, const struct material *material)
+/* Returns the plastic work per volume [n, J/m^3], NULL if nothing yields: of material points the work that their steps
+ * have booked, of peridynamic particles the work of their bonds over their volume. The caller frees it. */
+static real *plastic_work_make(const struct particles *p, const struct bonds *b)
 {
     if (!p->plastic_strain && !b->plastic_path) return NULL;
     real *work = NEW("report.plastic_work", p->n, real);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
-        const struct material *m = &material[p->material[i]];
-        const real a = p->plastic_strain ? p->plastic_strain[i] : 0;
         const bool bonds = p->kind[i] == KIND_PD && b->plastic_path && b->row_of[i] >= 0;
         if (bonds)
             work[i] = bond_row_plastic_work(b, b->row_of[i]) / p->volume0[i];
-        else if (m->law.given)
+        else if (p->plastic_work)
             work[i] = p->plastic_work[i];
-        else if (a > 0)
-            work[i] = (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
     }
     return work;
 }
@@ -174,8 +169,7 @@ void frame_fields_compute(struct run *e, unsigned requested, struct frame_extra 
 {
     extra->asked = requested, extra->material = e->scene->material, extra->space = e->scene->space;
     if (requested & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
-    if (requested & ASK_PLASTIC_WORK)
-        extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds, e->scene->material);
+    if (requested & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds);
     extra->state.plastic_strain = plastic_strain_make(&e->part, &e->bonds);
     if (requested & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
     if (!extra->more) return;

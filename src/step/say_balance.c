@@ -12,9 +12,9 @@
 
 #define ENERGY_DOUBTFUL                                                                                                \
     0.05 /* relative error of the energy balance that is reported: 10 times the largest in inputs/ */
-#define YIELD_DOUBTFUL                                                                                                 \
-    0.01 /* relative gain that is reported of bodies that yield by yield_stress and yield_tangent: 3 times the largest \
-            in inputs/ */
+#define FLOW_DOUBTFUL                                                                                                  \
+    0.01 /* relative error of the energy balance that is reported of points that flow on the grid: bars of 30 spacings \
+            that hit a wall have up to that */
 #define FAST_TIP 5 /* [spacings] least growth of a tip whose speed is judged: shorter ones have not settled */
 #define DAMPED_DOUBTFUL                                                                                                \
     0.1 /* share of energy taken by interface damping that is reported: 3 times the largest in inputs/ */
@@ -106,30 +106,18 @@ void warn_of_fast_tips(const struct crack_tips *t, const struct scene *s, struct
     warnings_add_and_print(to, text);
 }
 
-/* Returns the material of a scene that yields by yield_stress and yield_tangent, NULL if none does. Its plastic work is
- * that of implicit Euler steps, sigma_(n+1) d eps_p, where the motion makes the work of the mean stress of a step. */
-static const struct material *yielding_material(const struct scene *s)
+/* Warns of an error of the energy balance [1] of material points that flow on the grid, with what makes it smaller. dt:
+ * time step [s]. */
+static void say_flow_error(const struct particles *p, const struct scene *s, real dt, real error, struct warnings *to)
 {
-    const struct material *found = NULL;
-    for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
-        if (material_yields(&s->material[m]) && !s->material[m].law.given) found = &s->material[m];
-    return found;
-}
-
-/* Warns of energy gained without work of loads in a body that yields, with what makes it less. m: its material; error:
- * relative error of the energy balance [1]. */
-static void say_yield_gain(const struct scene *s, const struct material *m, real error, struct warnings *to)
-{
-    char text[480], law[120] = "";
-    if (s->method == METHOD_MPM && scene_is_dynamic(s))
-        snprintf(law, sizeof law, ", and material.hardening: {linear: {modulus: %.4g}} counts it more exactly",
-                 m->yield_hardening);
-    snprintf(text, sizeof text,
-             "%.2g %% of the energy is gained without work of loads (energy.balance_error %.2g): the plastic work of "
-             "yield_stress and yield_tangent is counted with the stress at the end of each step; time.safety: %.2g "
-             "halves the "
-             "error%s",
-             100 * error, error, 0.5 * s->safety, law);
+    char text[360];
+    if (!p->plastic_strain || p->n_free == 0 || !scene_is_dynamic(s)) return;
+    if (!(fabs(error) > FLOW_DOUBTFUL) || fabs(error) > ENERGY_DOUBTFUL) return;
+    snprintf(
+        text, sizeof text,
+        "%.2g %% of the energy is %s (energy.balance_error %.2g): transfers between the grid and points that flow err "
+        "with the time step; half of it (time.step: %.2g s, or time.safety) leaves some 0.6 times as much or less",
+        100 * fabs(error), error < 0 ? "lost" : "gained without work of loads", error, 0.5 * dt);
     warnings_add_and_print(to, text);
 }
 
@@ -145,10 +133,7 @@ void warn_of_imbalance(struct run *e)
     say_released(e->scene, w, &e->warnings);
     if (zone_damps(e->scene, e->coupling) && !round_off) say_damped(e->damped / w->energy_scale, &e->warnings);
     if (shock_text(e->scene, w, text, sizeof text)) warnings_add_and_print(&e->warnings, text);
-    const struct material *yields = yielding_material(e->scene);
-    if (!scene_is_dynamic(e->scene) || round_off) yields = NULL;
-    if (yields && error > YIELD_DOUBTFUL && error <= ENERGY_DOUBTFUL)
-        say_yield_gain(e->scene, yields, error, &e->warnings);
+    if (!round_off) say_flow_error(&e->part, e->scene, e->clock.dt, error, &e->warnings);
     if (scene_is_single_equilibrium(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
     snprintf(
         text, sizeof text,

@@ -117,7 +117,10 @@ for run in wave_stress wave_stress_apic; do
 done
 
 # A material that never yields is elastic to the last digit (above Poisson's ratio 0.4 both have one dilatation in a cell).
-holds "never: yields nowhere" cmp "$work/elastic/history.csv" "$work/never/history.csv"
+awk -F, -v OFS=, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /plastic_strain/) at = k }
+    { if (at && NR > 1 && $at != 0) exit 1; for (k = at; k && k < NF; k++) $k = $(k + 1); if (at) NF--; print }' \
+    "$work/never/history.csv" >"$work/never.csv"
+holds "never: yields nowhere" cmp "$work/elastic/history.csv" "$work/never.csv"
 is "never: plastic work" "$(f never energy.plastic)" 0
 
 # ---- threads and restart -------------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 #include "tests/support/near.h"
 
 #include "tests/support/cloud.h"
-#include "kernels/mpm/plastic.h"
+#include "tests/support/law_step.h"
 #include "tests/support/sets.h"
 #include "kernels/mpm/stress.h"
 #include "probes/diagnostics.h"
@@ -15,7 +15,14 @@
 #define YIELD 1e-3
 
 struct point {
-    real s[SYM_MAX], a, zz;
+    real s[SYM_MAX], a, zz, work;
+};
+
+/* A material with linear hardening: yield stress and hardening modulus, and what kernels know of it. */
+struct metal {
+    real yield, hardening;
+    struct elastic elastic;
+    struct law law;
 };
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
@@ -32,50 +39,50 @@ static struct material material(enum space space, real poisson, real hardening)
     return m;
 }
 
-static struct elastic constants(const struct material *m, enum space space)
+static struct metal constants(const struct material *m, enum space space)
 {
-    return (struct elastic){.c11 = m->c11,
-                            .c12 = m->c12,
-                            .shear = m->shear,
-                            .yield = m->yield_stress,
-                            .space = space,
-                            .hardening = m->yield_hardening,
-                            .poisson = m->poisson};
+    struct metal metal = {.yield = m->yield_stress, .hardening = m->yield_hardening};
+    metal.elastic =
+        (struct elastic){.c11 = m->c11, .c12 = m->c12, .shear = m->shear, .space = space, .poisson = m->poisson};
+    metal.law = (struct law){.given = true, .flow = FLOW_LINEAR, .hardening = m->yield_hardening};
+    law_compute_constants(&metal.law, m->yield_stress, m->young, m->poisson, m->shear, m->density);
+    return metal;
 }
 
-static struct elastic steel(enum space space, real hardening)
+static struct metal steel(enum space space, real hardening)
 {
     struct material m = material(space, 0.3, hardening);
     return constants(&m, space);
 }
 
 /* Performs a step of strain L dt, as in g2p.c. Returns the increment of plastic strain. */
-static real step(struct point *p, const struct elastic *m, const real *L)
+static real step(struct point *p, const struct metal *metal, const real *L)
 {
+    const struct elastic *m = &metal->elastic;
     const int dim = space_dim(m->space);
+    real before[SYM_MAX];
     const struct elastic_points constants = {
         .c11 = points_broadcast(m->c11), .c12 = points_broadcast(m->c12), .shear = points_broadcast(m->shear)};
     row_of_points stress[SYM_MAX], gradient[DIM_MAX * DIM_MAX];
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = points_broadcast(p->s[c]);
     for (int k = 0; k < dim * dim; k++) gradient[k] = points_broadcast(L[k]);
     stress_update(stress, gradient, &constants, 1, dim);
+    memcpy(before, p->s, sizeof before);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) p->s[c] = stress[c][0];
-    const real more = plastic_return(m, p->s, p->a, &p->zz);
-    p->a += more;
-    return more;
+    return law_step(&metal->law, m->space, before, p->s, &p->a, &p->work, &p->zz);
 }
 
 /* Computes the six components of a point's stress in any space. */
-static void whole_stress(const struct point *p, const struct elastic *m, real *s)
+static void whole_stress(const struct point *p, const struct metal *m, real *s)
 {
     memset(s, 0, SYM_MAX * sizeof *s);
-    if (m->space == SPACE_SOLID)
+    if (m->elastic.space == SPACE_SOLID)
         memcpy(s, p->s, SYM_MAX * sizeof *s);
     else
         s[0] = p->s[0];
-    if (space_dim(m->space) != 2) return;
+    if (space_dim(m->elastic.space) != 2) return;
     s[1] = p->s[1], s[3] = p->s[2];
-    if (m->space == SPACE_PLANE_STRAIN) s[2] = m->poisson * (s[0] + s[1]) + p->zz;
+    if (m->elastic.space == SPACE_PLANE_STRAIN) s[2] = m->elastic.poisson * (s[0] + s[1]) + p->zz;
 }
 
 /* Returns the von Mises stress sqrt(((xx - yy)^2 + (yy - zz)^2 + (zz - xx)^2)/2 + 3 (xy^2 + yz^2 + zx^2)). */
@@ -85,7 +92,7 @@ static real equivalent(const real *s)
                 3 * (square(s[3]) + square(s[4]) + square(s[5])));
 }
 
-static real equivalent_of(const struct point *p, const struct elastic *m)
+static real equivalent_of(const struct point *p, const struct metal *m)
 {
     real s[SYM_MAX];
     whole_stress(p, m, s);
@@ -104,7 +111,7 @@ static void strain_of(const real *s, real poisson, real *strain)
 /* Checks the conditions: the result is on the yield surface, reached along its normal there, with non-negative plastic
  * strain; only trial stresses beyond the surface change. The strain removed from the trial stress is da dq/dsigma. In
  * plane strain eps_zz is unchanged. */
-static void check_return(const struct elastic *m, const struct point *trial, const struct point *p, real more)
+static void check_return(const struct metal *m, const struct point *trial, const struct point *p, real more)
 {
     real before[SYM_MAX], after[SYM_MAX], strain[SYM_MAX];
     whole_stress(trial, m, before);
@@ -118,18 +125,18 @@ static void check_return(const struct elastic *m, const struct point *trial, con
     assert_true(more > 0); /* the dissipation q da is positive */
     assert_near(q, bound + m->hardening * more, CLOSE * size);
     for (int c = 0; c < SYM_MAX; c++) before[c] -= after[c];
-    strain_of(before, m->poisson, strain);
+    strain_of(before, m->elastic.poisson, strain);
     const real mean = (after[0] + after[1] + after[2]) / 3;
     /* Under a pressure of `size` the direction of a deviator q is known to their ratio in roundings. */
     const real slack = CLOSE * size + 1e-15 * size / q * more;
-    const int n = symmetric_component_count(space_dim(m->space));
+    const int n = symmetric_component_count(space_dim(m->elastic.space));
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
     for (int c = 0; c < n; c++) {
-        const int k = place[space_dim(m->space)][c];
+        const int k = place[space_dim(m->elastic.space)][c];
         const real normal = 1.5 * (after[k] - (k < 3 ? mean : 0)) / q;
         assert_near(strain[k], more * normal, slack);
     }
-    if (m->space == SPACE_PLANE_STRAIN) assert_near(strain[2], more * 1.5 * (after[2] - mean) / q, slack);
+    if (m->elastic.space == SPACE_PLANE_STRAIN) assert_near(strain[2], more * 1.5 * (after[2] - mean) / q, slack);
 }
 
 /* Trial stresses from inside the surface to a million times its size, with weak and strong hardening. */
@@ -141,7 +148,7 @@ static void test_conditions(void **state)
     for (int s = 0; s < 4; s++)
         for (int k = 0; k < 16; k++) {
             const struct material given = material(spaces[s], poisson[k / 4], hardening[k % 4]);
-            const struct elastic m = constants(&given, spaces[s]);
+            const struct metal m = constants(&given, spaces[s]);
             for (int n = 0; n < 2000; n++) {
                 struct point trial = {.a = n % 2 ? cloud_between(&seed, 0, 0.01) : 0};
                 const real size = YIELD * pow(10, cloud_between(&seed, -1, 6));
@@ -149,7 +156,7 @@ static void test_conditions(void **state)
                     trial.s[c] = size * cloud_between(&seed, -1, 1) * pow(10, -cloud_between(&seed, 0, 3) * (n % 3));
                 if (spaces[s] == SPACE_PLANE_STRAIN) trial.zz = YIELD * cloud_between(&seed, -1, 1);
                 struct point p = trial;
-                check_return(&m, &trial, &p, plastic_return(&m, p.s, p.a, &p.zz));
+                check_return(&m, &trial, &p, law_step(&m.law, spaces[s], NULL, p.s, &p.a, &p.work, &p.zz));
             }
         }
 }
@@ -160,9 +167,9 @@ static void test_unloading(void **state)
     (void)state;
     uint64_t seed = 6;
     for (int s = 0; s < 4; s++) {
-        const struct elastic m = steel(spaces[s], 0.1);
-        struct elastic never = m;
-        never.yield = INFINITY;
+        const struct metal m = steel(spaces[s], 0.1);
+        struct metal never = m;
+        never.law.yield = INFINITY;
         for (int n = 0; n < 100; n++) {
             const int dim = space_dim(spaces[s]);
             struct point p = {.a = 0};
@@ -183,7 +190,7 @@ static void test_rotation(void **state)
 {
     (void)state;
     for (int s = 1; s < 4; s++) {
-        const struct elastic m = steel(spaces[s], 0.1);
+        const struct metal m = steel(spaces[s], 0.1);
         struct point p = {.a = 0};
         const real pull2[] = {9e-3, 4e-3, 2e-3, -3e-3}, pull3[] = {9e-3, 4e-3, 1e-3, 2e-3, -3e-3, 2e-3, 0, 5e-3, 1e-3};
         const real spin2[] = {0, 0.02, -0.02, 0}, spin3[] = {0, 0.02, 0.01, -0.02, 0, -0.03, -0.01, 0.03, 0};
@@ -238,7 +245,7 @@ static void test_plane_strain_is_solid(void **state)
 {
     (void)state;
     uint64_t seed = 7;
-    const struct elastic flat = steel(SPACE_PLANE_STRAIN, 0.2), solid = steel(SPACE_SOLID, 0.2);
+    const struct metal flat = steel(SPACE_PLANE_STRAIN, 0.2), solid = steel(SPACE_SOLID, 0.2);
     struct point p = {.a = 0}, q = {.a = 0};
     for (int n = 0; n < 200; n++) {
         real L[4];
@@ -255,7 +262,7 @@ static void test_plane_strain_is_solid(void **state)
 }
 
 /* Performs a 3D step with eps_zz such that sigma_zz = 0, by bisection. */
-static void step_free(struct point *q, const struct elastic *m, const real *L)
+static void step_free(struct point *q, const struct metal *m, const real *L)
 {
     real low = -1, high = 1;
     struct point p = *q;
@@ -272,7 +279,7 @@ static void test_plane_stress_is_solid(void **state)
 {
     (void)state;
     uint64_t seed = 8;
-    const struct elastic flat = steel(SPACE_PLANE_STRESS, 0.2), solid = steel(SPACE_SOLID, 0.2);
+    const struct metal flat = steel(SPACE_PLANE_STRESS, 0.2), solid = steel(SPACE_SOLID, 0.2);
     struct point p = {.a = 0}, q = {.a = 0};
     for (int n = 0; n < 200; n++) {
         real L[4];
@@ -294,7 +301,7 @@ static void test_plane_stress_is_solid(void **state)
 static void test_bilinear_law(void **state)
 {
     (void)state;
-    const struct elastic m = steel(SPACE_LINE, 1); /* E_t = 1/2 */
+    const struct metal m = steel(SPACE_LINE, 1); /* E_t = 1/2 */
     struct point p = {.a = 0};
     static const struct {
         real strain, stress;
@@ -315,15 +322,15 @@ static void test_pure_shear(void **state)
 {
     (void)state;
     for (int s = 1; s < 4; s++) {
-        const struct elastic m = steel(spaces[s], 0.3);
-        const real first = YIELD / sqrt(3), slope = m.shear * m.hardening / (3 * m.shear + m.hardening);
+        const struct metal m = steel(spaces[s], 0.3);
+        const real first = YIELD / sqrt(3), slope = m.elastic.shear * m.hardening / (3 * m.elastic.shear + m.hardening);
         const bool solid = spaces[s] == SPACE_SOLID;
         struct point p = {.a = 0};
-        const real d = first / m.shear / 20, flat[] = {0, d / 2, d / 2, 0};
+        const real d = first / m.elastic.shear / 20, flat[] = {0, d / 2, d / 2, 0};
         const real whole[] = {0, d / 2, 0, d / 2, 0, 0, 0, 0, 0};
         for (int n = 1; n <= 100; n++) {
             step(&p, &m, solid ? whole : flat);
-            const real expected = n <= 20 ? m.shear * d * n : first + slope * d * (n - 20);
+            const real expected = n <= 20 ? m.elastic.shear * d * n : first + slope * d * (n - 20);
             assert_near(p.s[solid ? 3 : 2], expected, CLOSE * YIELD);
             if (n < 20) assert_exact(p.a, 0);
             if (n > 20) assert_true(p.a > 0);
@@ -337,8 +344,8 @@ static void test_uniaxial_strain(void **state)
     (void)state;
     for (int s = 2; s < 4; s++)
         for (int hard = 0; hard < 2; hard++) {
-            const struct elastic m = steel(spaces[s], 0.3 * hard);
-            const real K = 1 / (3 * (1 - 2 * 0.3)), G = m.shear, d = -YIELD / 10;
+            const struct metal m = steel(spaces[s], 0.3 * hard);
+            const real K = 1 / (3 * (1 - 2 * 0.3)), G = m.elastic.shear, d = -YIELD / 10;
             const real flat[] = {d, 0, 0, 0}, whole[] = {d, 0, 0, 0, 0, 0, 0, 0, 0};
             struct point p = {.a = 0};
             for (int n = 1; n <= 100; n++) {
@@ -357,7 +364,7 @@ static void test_uniaxial_strain(void **state)
 static void test_biaxial(void **state)
 {
     (void)state;
-    const struct elastic m = steel(SPACE_PLANE_STRESS, 0.3);
+    const struct metal m = steel(SPACE_PLANE_STRESS, 0.3);
     struct point p = {.a = 0};
     const real d = YIELD / 10, L[] = {d, 0, 0, d}, biaxial = 1 / (1 - 0.3);
     for (int n = 1; n <= 100; n++) {
@@ -374,7 +381,7 @@ static void test_biaxial(void **state)
 static void test_uniaxial_stress(void **state)
 {
     (void)state;
-    const struct elastic m = steel(SPACE_PLANE_STRESS, 1); /* E_t = 1/2 */
+    const struct metal m = steel(SPACE_PLANE_STRESS, 1); /* E_t = 1/2 */
     struct point p = {.a = 0};
     for (int n = 1; n <= 50; n++) {
         real low = -YIELD, high = YIELD, L[] = {YIELD / 10, 0, 0, 0};
@@ -400,7 +407,7 @@ static real balance_energy(const struct point *p, const struct material *m, enum
     struct particles body;
     particles_make(&body, dim, 1, WITH_PLASTIC | (space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0));
     for (int c = 0; c < symmetric_component_count(dim); c++) body.stress[c][0] = p->s[c];
-    body.volume[0] = 1, body.plastic_strain[0] = p->a;
+    body.volume[0] = body.volume0[0] = 1, body.plastic_work[0] = p->work;
     if (body.out_of_plane) body.out_of_plane[0] = p->zz;
     const real energy = points_strain_energy(&body, m, partial) + points_plastic_work(&body, m, partial);
     particles_free(&body);
@@ -417,7 +424,7 @@ static void test_work_is_booked(void **state)
     for (int s = 0; s < 4; s++) {
         const int dim = space_dim(spaces[s]), n = symmetric_component_count(dim), steps = 2000;
         const struct material given = material(spaces[s], 0.3, 0.2);
-        const struct elastic m = constants(&given, spaces[s]);
+        const struct metal m = constants(&given, spaces[s]);
         struct point p = {.a = 0};
         real work = 0;
         for (int k = 0; k < 2 * steps; k++) {

@@ -6,7 +6,7 @@
 #include "data/material.h"
 
 enum { FLOWED = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_PLASTIC_CORRECTION };
-enum { LAWS = WITH_LAW | WITH_BACK_STRESS, STATES = 3 + 2 * SYM_MAX };
+enum { STATES = 3 + 2 * SYM_MAX };
 static const enum space flow_spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
 /* Returns true if the points of a cell have one dilatation in a space. */
@@ -21,9 +21,11 @@ static void flow_block_make(struct block *b, enum space space, real yield, int o
     if (space != SPACE_PLANE_STRAIN) memory_free(b->c.p.out_of_plane), b->c.p.out_of_plane = NULL;
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         struct elastic *k = &b->elastic[m];
+        const struct material *own = &b->c.material[m];
         const real shear = space == SPACE_LINE ? 0.4 * k->c11 : k->shear;
-        k->yield = yield * shear, k->hardening = m > 0 ? 0.1 * shear : 0;
-        k->poisson = b->c.material[m].poisson;
+        b->law[m] = (struct law){.given = true, .flow = FLOW_LINEAR, .hardening = m > 0 ? 0.1 * shear : 0};
+        law_compute_constants(&b->law[m], yield * shear, own->young, own->poisson, k->shear, own->density);
+        k->law = &b->law[m], k->mode = LAW_LOAD_STEP, k->poisson = own->poisson;
     }
 }
 
@@ -31,16 +33,12 @@ static void flow_block_make(struct block *b, enum space space, real yield, int o
  * with recall, if given. mode: of the law; explicit steps have laws alone. */
 static void law_block_make(struct block *b, enum space space, real recall, enum law_mode mode)
 {
-    flow_block_make(b, space, 0.05, LAWS | (mode == LAW_EXPLICIT ? WITH_MESH_STRESS : 0));
+    flow_block_make(b, space, 0.05, WITH_BACK_STRESS | (mode == LAW_EXPLICIT ? WITH_MESH_STRESS : 0));
     for (int m = 0; m < (mode == LAW_EXPLICIT ? CLOUD_MATERIALS : 1); m++) {
-        struct elastic *k = &b->elastic[m];
-        const struct material *own = &b->c.material[m];
         struct law *law = &b->law[m];
-        const real shear = space == SPACE_LINE ? 0 : k->shear;
-        *law = (struct law){.given = true, .flow = FLOW_VOCE, .voce = {0.6 * k->yield, 20}};
-        law->kinematic.modulus = 3 * k->yield, law->kinematic.recall = recall;
-        law_compute_constants(law, k->yield, own->young, own->poisson, shear, own->density);
-        k->law = law, k->mode = mode, k->yield = k->hardening = 0;
+        law->flow = FLOW_VOCE, law->voce.saturation = 0.6 * law->yield, law->voce.rate = 20;
+        law->kinematic.modulus = 3 * law->yield, law->kinematic.recall = recall;
+        b->elastic[m].mode = mode;
     }
 }
 
@@ -73,10 +71,7 @@ static real incremental_energy(struct block *b, real *kept, bool finite)
     states_copy(b, kept, true);
     forces(b, finite);
     for (int64_t i = 0; i < b->c.p.n; i++) {
-        const struct elastic *m = &b->elastic[b->c.p.material[i]];
-        const real a = b->c.p.plastic_strain[i];
-        const real work = m->law ? b->c.p.plastic_work[i] : (m->yield + 0.5 * m->hardening * a) * a;
-        if (b->mesh.place[i] >= 0) sum += b->mesh.volume * work;
+        if (b->mesh.place[i] >= 0) sum += b->mesh.volume * b->c.p.plastic_work[i];
     }
     return sum + mesh_strain(&b->mesh, &b->c.p, b->elastic, finite);
 }

@@ -300,7 +300,7 @@ static void yielding_bar(void **state)
                  "space: line\nduration: 40 us\nmethod: %s\nmaterial: {young: %g, density: %g, yield_stress: %g,"
                  " yield_tangent: %g}\nbody: {box: {from: [-0.5], to: [0.5]}}\nparticles: {spacing: 0.01}\n"
                  "pd: {calibration: lattice}\ninitial: [{velocity_gradient: [100]}]\n"
-                 "output: {fields: [plastic_work, strain, speed], frames: 1}\n",
+                 "output: {fields: [plastic_work, strain, speed], frames: 1}\ntime: {step: 0.2 us}\n",
                  method[k], YOUNG, DENSITY, yield, tangent);
         if (k == 0) memmove(strstr(text, "pd: {"), strstr(text, "initial"), strlen(strstr(text, "initial")) + 1);
         run_text(text, false);

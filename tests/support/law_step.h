@@ -1,0 +1,33 @@
+/* One explicit step of one point through law_update (kernels/laws). */
+#ifndef CLEAVE_TESTS_LAW_STEP
+#define CLEAVE_TESTS_LAW_STEP
+
+#include "kernels/laws/law_update.h"
+
+/* Maps a trial stress [Pa] back to the yield surface, in place. before: stress at the start of the step, NULL: 0 [Pa];
+ * both have the components of particles.stress. *a, *work: plastic strain [1] and work [J/m^3], updated; *zz, in plane
+ * strain only: sigma_zz - nu (sigma_xx + sigma_yy) [Pa], updated. Returns the increment of plastic strain [1]. */
+static inline real law_step(const struct law *law, enum space space, const real *before, real *stress, real *a,
+                            real *work, real *zz)
+{
+    const int dim = space_dim(space), n = symmetric_component_count(dim);
+    const real start = *a, nu = law->poisson;
+    struct law_points p = {.active = lanes_mask_from_bits(8)};
+    for (int c = 0; c < SYM_MAX; c++) p.s[c] = p.before[c] = p.back[c] = lanes_broadcast(0);
+    for (int c = 0; c < n; c++) {
+        p.s[law_place[dim][c]] = lanes_broadcast(stress[c]);
+        if (before) p.before[law_place[dim][c]] = lanes_broadcast(before[c]);
+    }
+    if (space == SPACE_PLANE_STRAIN) p.s[2] = nu * (p.s[0] + p.s[1]) + *zz;
+    if (space == SPACE_PLANE_STRAIN) p.before[2] = nu * (p.before[0] + p.before[1]) + *zz;
+    p.volume = p.volume_before = p.rate = lanes_broadcast(1), p.temperature = lanes_broadcast(300);
+    p.a = lanes_broadcast(*a), p.work = lanes_broadcast(*work);
+    const unsigned flowed = law_update(law, &p, space, LAW_EXPLICIT);
+    if (!(flowed >> 3 & 1)) return 0;
+    for (int c = 0; c < n; c++) stress[c] = p.s[law_place[dim][c]][3];
+    if (space == SPACE_PLANE_STRAIN) *zz = p.s[2][3] - nu * (p.s[0][3] + p.s[1][3]);
+    *a = p.a[3], *work = p.work[3];
+    return *a - start;
+}
+
+#endif
