@@ -250,7 +250,9 @@ static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_po
     const lanes work =
         mode == LAW_EXPLICIT ? trapezoid(p, strain, space) : path_work(law, p, back, more, strain, space);
     p->work += work;
-    p->temperature += law->heating * work;
+    /* Strength falls to 0 at T_melt, where heating ends; a large step would pass it with the strength of its start. */
+    if (law->heating > 0)
+        p->temperature = lanes_min(p->temperature + law->heating * work, lanes_broadcast(law->johnson_cook.T_melt));
     return lanes_mask_bits(yields);
 }
 

@@ -204,6 +204,27 @@ static void test_energy(void **state)
             }
 }
 
+/* Metal that flows until it melts, in large steps: its temperature ends at T_melt, where it has no strength. */
+static void test_melting(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 4; s++)
+        for (int mode = LAW_EXPLICIT; mode <= LAW_LOAD_STEP; mode++) {
+            struct law m = laws_steel(FLOW_JOHNSON_COOK);
+            struct law_points p = laws_points_at_rest();
+            const real strain[SYM_MAX] = {0.11, spaces[s] == SPACE_LINE ? 0 : -0.11, 0, 0.03};
+            m.johnson_cook.T_melt = 407, m.specific_heat = 383, m.taylor_quinney = 0.9;
+            m = laws_material(m, 200e9, 0.3, 0, 7800);
+            for (int k = 0; k < 300; k++) {
+                laws_add_trial_stress(&m, &p, strain, spaces[s]);
+                law_update(&m, &p, spaces[s], (enum law_mode)mode);
+                assert_true(p.temperature[2] <= 407);
+            }
+            assert_near(p.temperature[2], 407, 0.1);
+            for (int c = 0; c < SYM_MAX; c++) assert_near(p.s[c][2], 0, 1e-3 * m.yield);
+        }
+}
+
 /* Closed forms. The reasons of the tolerances: the digits of the expected values; explicit steps of 1e-6 over 1/gamma;
  * the direction of flow in plane strain changes by 1e-5/1e-3 over a step; Johnson-Cook: steps of 1e-4, at which the
  * temperature is that of the start. */
@@ -228,7 +249,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_functions),   cmocka_unit_test(test_flow_laws),   cmocka_unit_test(test_load_steps),
         cmocka_unit_test(test_steep_power), cmocka_unit_test(test_path_energy), cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_elements),
+        cmocka_unit_test(test_elements),    cmocka_unit_test(test_melting),
     };
     return cmocka_run_group_tests_name("laws", tests, NULL, NULL);
 }
