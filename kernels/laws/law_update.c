@@ -247,6 +247,7 @@ static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_po
     p->a += more;
     for (int c = 0; c < SYM_MAX; c++) back[c] = p->back[c];
     flow_apply(law, p, xi, t, left, strain, space);
+    if (first_differs && p->thins) p->volume *= 1.0 + (space == SPACE_LINE ? -strain[0] : strain[2]);
     const lanes work =
         mode == LAW_EXPLICIT ? trapezoid(p, strain, space) : path_work(law, p, back, more, strain, space);
     p->work += work;

@@ -21,7 +21,8 @@ struct law_points {
     lanes back[SYM_MAX];         /* back stress X, deviatoric, rotated by the spin of the step; updated [Pa] */
     lanes temperature;           /* updated [K] */
     lanes work;                  /* plastic work per reference volume, updated [J/m^3] */
-    lanes_mask active;           /* lanes whose points have this law; the others are left as they are */
+    bool thins; /* plane stress and 1D: the volume follows the plastic strain across, which keeps it; explicit steps */
+    lanes_mask active; /* lanes whose points have this law; the others are left as they are */
 };
 
 /* Index of component c of particles.stress among the components of struct law_points, which has all six. */

@@ -54,7 +54,7 @@ static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elas
         e->s[2] = m->law->poisson * (e->s[0] + e->s[1]) + across;
         e->before[2] = m->law->poisson * (e->before[0] + e->before[1]) + across;
     }
-    e->volume_before = e->volume = lanes_broadcast(1);
+    e->volume_before = e->volume = lanes_broadcast(1), e->thins = false;
     e->rate = law_rate(m, e, dt);
     e->a = lanes_of_listed(p->plastic_strain, point), e->work = lanes_of_listed(p->plastic_work, point);
     e->temperature =

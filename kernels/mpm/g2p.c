@@ -36,9 +36,10 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
 
 /* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points from their velocity gradients L [1/s], and
  * sets FLAG_STRESSED where the largest principal stress exceeds the conversion stress. The volume follows the trace of
- * the strain in the space; in plane stress the strain through the thickness is left out (below 1 % strain it changes
- * the volume by less than 0.5 %). m: elastic constants by lane; point: numbers of the points, of which there are
- * `points`. Where materials yield the points go to `due`, too (points_flow.h). */
+ * the strain in the space; in plane stress the elastic strain through the thickness is left out (below 1 % strain it
+ * changes the volume by less than 0.5 %), the plastic one is added with the return mapping. m: elastic constants by
+ * lane; point: numbers of the points, of which there are `points`. Where materials yield the points go to `due`, too
+ * (points_flow.h). */
 static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, struct flow_points *due,
                                         const struct elastic_points *m, const int32_t *point, int points,
                                         const row_of_points *L, const int dim, const enum shape shape)

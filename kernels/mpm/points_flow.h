@@ -93,7 +93,7 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
     }
     if (p->back_stress[0]) flow_load_back(p, point, motion, e, dim);
     e->volume = lanes_gather(p->volume, point) / lanes_gather(p->volume0, point);
-    e->volume_before = e->volume / (1.0 + motion->trace);
+    e->volume_before = e->volume / (1.0 + motion->trace), e->thins = true;
     e->a = lanes_gather(p->plastic_strain, point), e->work = lanes_gather(p->plastic_work, point);
     e->rate = motion->rate;
     e->temperature =
@@ -117,6 +117,7 @@ static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *
 {
     real stress[SYM_MAX];
     for (int c = 0; c < dim * (dim + 1) / 2; c++) p->stress[c][i] = stress[c] = e->s[law_place[dim][c]][l];
+    if (m->space == SPACE_PLANE_STRESS || m->space == SPACE_LINE) p->volume[i] = e->volume[l] * p->volume0[i];
     if (m->space == SPACE_PLANE_STRAIN) p->out_of_plane[i] = e->s[2][l] - m->poisson * (e->s[0][l] + e->s[1][l]);
     p->plastic_strain[i] = e->a[l], p->plastic_work[i] = e->work[l];
     if (p->temperature) p->temperature[i] = e->temperature[l];

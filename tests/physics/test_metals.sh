@@ -218,6 +218,38 @@ calm "$work/bent_hot" "$work/bent.yaml" -s steps.number=16 -s 'space=plane strai
 between "bent, hot: temperature [K]" "$(column "$work/bent_hot" point.temperature 1)" 293.16 310
 apart "bent, hot: energy balance" "$(f bent_hot energy.balance_error)" 0 2e-3
 
+# ---- a sheet that becomes thinner ----------------------------------------------------------------------------------------------
+
+# Cauchy stress at a strain of 15 %: that of the block whose faces are free.
+scene block <<'END'
+space: solid
+duration: 1 s
+solver: static
+steps: {number: 20}
+method: mpm
+mpm: {frame: reference}
+material: {young: 2 GPa, poisson: 0.3, density: 7800, yield_stress: 20 MPa, yield_hardening: 40 MPa}
+body: {box: {from: [0, 0, 0], to: [8 mm, 4 mm, 2 mm]}}
+particles: {spacing: 0.5 mm}
+boundary:
+  - {name: pull, displacement: ["0.15*x", free, free], region: {box: {from: [6 mm, -1 mm, -1 mm], to: [9 mm, 9 mm, 9 mm]}}, time: {ramp: {until: 1 s}}}
+  - {name: left, mirror: {axis: x, at: 0}}
+  - {name: low, mirror: {axis: y, at: 0}}
+  - {name: back, mirror: {axis: z, at: 0}}
+probes: [{point: {at: [2.25 mm, 1.75 mm, 0.75 mm]}}, {reaction: {name: force, boundary: pull}}]
+output: {frames: 0, samples: 20}
+END
+flat()
+{
+    sed -e 's/^space: .*/space: plane stress\nthickness: 2 mm/; /name: back/d; s/, free, free\]/, free]/; s/\(from\|to\|at\): \(\[[^],]*,[^],]*\),[^],]*\]/\1: \2]/g' "$work/block.yaml"
+}
+flat >"$work/sheet_of_block.yaml"
+for one in block sheet_of_block; do
+    warned "$one: strain" "$work/pulled_$one" 'plastic strain has reached' "$work/$one.yaml"
+done
+near "sheet: stress of the block" "$(f pulled_sheet_of_block probes.point.stress_xx)" "$(f pulled_block probes.point.stress_xx)" 1e-5
+near "sheet: plastic strain of the block" "$(f pulled_sheet_of_block probes.point.plastic_strain)" "$(f pulled_block probes.point.plastic_strain)" 1e-5
+
 # ---- refusals ------------------------------------------------------------------------------------------------------------------
 
 refused "coarse cells" "$work/no" 'materials that yield need mpm.levels: 0 there' "$work/beam.yaml" -s mpm.levels=2
