@@ -1,6 +1,6 @@
-/* Room `geometry`: reads shapes from external files: surfaces (STL), finite-element meshes (Gmsh, Abaqus), and images
- * and image stacks (PNG, TIFF). It uses the structures of `data` that classify points as inside or outside a shape;
- * scenes call it.
+/* Room `geometry`: reads shapes from external files: surfaces (STL), finite-element meshes (Gmsh, Abaqus, Exodus II),
+ * and images and image stacks (PNG, TIFF). It uses the structures of `data` that classify points as inside or outside a
+ * shape; scenes call it.
  *
  * Input is not trusted: counts are checked against the file size, numbers must be finite, and errors are reported in
  * one line with the file name and line. */
@@ -23,11 +23,11 @@ struct geometry {
     struct geometry_set *set;
 };
 
-/* Reads a body and its named parts from a .stl, .msh or .inp file into g; the extension selects the format. scale:
- * metres per unit of the file. dim 2: elements are triangles and quadrilaterals of equal z. chord_tolerance: largest
- * distance between a curved edge of a second-order element and its chords [m]; NAN: 1/256 of the largest sagitta.
- * Returns REFUSED, with a message, for a wrong format, a file without a body, or a surface so open that inside and
- * outside cannot be distinguished; then nothing need be freed. Release with geometry_free. */
+/* Reads a body and its named parts from a .stl, .msh, .inp or Exodus II file into g; the extension selects the format.
+ * scale: metres per unit of the file. dim 2: elements are triangles and quadrilaterals of equal z. chord_tolerance:
+ * largest distance between a curved edge of a second-order element and its chords [m]; NAN: 1/256 of the largest
+ * sagitta. Returns REFUSED, with a message, for a wrong format, a file without a body, or a surface so open that inside
+ * and outside cannot be distinguished; then nothing need be freed. Release with geometry_free. */
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance);
 
 /* Returns the named part of g called `name`, ignoring case, or NULL if there is none. */

@@ -111,4 +111,16 @@ bool hdf_has_attribute(struct hdf *f, const char *group, const char *name);
  * *value. group: path of the group or dataset. Another size or a failed read is stored in f->failed. */
 void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, void *value);
 
+/* ---- files of other programs, by HDF5's own handles -------------------------------------------------------------- */
+
+/* Returns true if `name` is a soft or external link of the file or group; does not follow the link. */
+bool hdf_is_linked(hid_t file, const char *name);
+
+/* Returns true if the data of the dataset are stored in its file, neither in an external file nor as a virtual
+ * dataset. */
+bool hdf_lies_inside(hid_t set);
+
+/* Reads the attribute `name` of the dataset `set` as text of at most `capacity` bytes; "" if there is no such text. */
+void hdf_read_text_attribute(hid_t file, const char *set, const char *name, char *text, size_t capacity);
+
 #endif

@@ -1,4 +1,4 @@
-/* Reads lists of particles from files. Only output*.c, checkpoint.c and particle_list*.c use HDF5.
+/* Reads lists of particles from files. Only output*.c, checkpoint.c, particle_list*.c and exodus_hdf5.c use HDF5.
  *
  * CSV: a header line names the columns, in any order, with units in brackets (SI if there are none). Each further line
  * is one particle. Fields are separated by commas, semicolons, tabs or blanks. Empty lines and lines that begin with #
@@ -16,6 +16,9 @@
  * Other columns are not read, and a note names them. Points:0 .. Points:2 of ParaView are x, y, z. Column names may be
  * quoted, preceded by `header:` (PeriLab), or written in a comment (Peridigm; its five columns need no names).
  *
+ * Exodus II (particle_list_exodus.c): elements of one node, as Peridigm reads and writes them: the node is the
+ * position, the attribute `volume` the volume, the block the material.
+ *
  * HDF5: datasets positions (n x dim; in 1D also n), volumes, mass, density (n), velocities (n x dim), material, body
  * (n), each with an attribute `unit`. Only positions is required. */
 #ifndef CLEAVE_PARTICLE_LIST
@@ -32,9 +35,18 @@ struct particle_list_head {
     char note[256];               /* columns that are not read, and defaults of missing ones; "": none */
 };
 
+/* What a scene says about a list that the file does not. */
+struct particle_list_form {
+    real scale; /* length that the number 1 is in coordinates without a unit of their own [m], in volumes its cube;
+                 * 0: 1 m */
+    const char *columns; /* names of the columns of a file without them, separated by commas; borrowed; NULL: the file
+                          * names them */
+};
+
 /* Particles read from a file. Arrays have n entries; an array is NULL if the file has no such column. */
 struct particle_list {
     struct particle_list_head head;
+    struct particle_list_form form;
     int64_t n;
     int dim;
     real *X[DIM_MAX];              /* [m] */
@@ -48,13 +60,15 @@ struct particle_list {
 };
 
 /* Reads a particle list in `dim` dimensions, in the format that the file name extension implies: .csv, .tsv, .txt,
- * .dat, or .h5, .hdf5, .hdf. Returns REFUSED for an invalid value, with file and line or file and entry in the message;
- * nothing has to be released then. An empty list is no error here. Release with particle_list_free. */
-status particle_list_read(struct particle_list *l, const char *path, int dim);
+ * .dat, or .h5, .hdf5, .hdf, or that of an Exodus II file. Returns REFUSED for an invalid value, with file and line or
+ * file and entry in the message; nothing has to be released then. An empty list is no error here. Release with
+ * particle_list_free. */
+status particle_list_read(struct particle_list *l, const char *path, const struct particle_list_form *form, int dim);
 
-/* Reads only the names of the columns of a particle list file, for `dim` dimensions, and stores in *head what the list
- * contains. Returns REFUSED, with a message, as particle_list_read does. */
-status particle_list_read_head(struct particle_list_head *head, const char *path, int dim);
+/* Reads only the names of the columns of a particle list file as particle_list_read does, and stores in *head what the
+ * list contains. Returns REFUSED, with a message, as particle_list_read does. */
+status particle_list_read_head(struct particle_list_head *head, const char *path, const struct particle_list_form *form,
+                               int dim);
 
 /* Returns true if the file name extension is one of a particle list. */
 bool is_particle_list_name(const char *path);

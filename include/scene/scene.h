@@ -42,6 +42,8 @@ struct scene_body {
     struct region shape;            /* region that is filled with a lattice, unless `file` is given */
     char *file;                     /* path of a particle list (.csv, .h5); NULL: none */
     uint64_t contents;              /* hash of this file; 0: not read */
+    struct particle_list_form form; /* what the scene says about this file */
+    char *columns;                  /* its columns, if the scene names them; NULL: it does not */
     struct particle_list_head list; /* columns of this file */
     char place[PLACE_LENGTH];       /* location in the scene file, of the list if there is one, for messages */
     real velocity[DIM_MAX];         /* initial velocity [m/s] */

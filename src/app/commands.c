@@ -24,7 +24,7 @@ const struct command commands[] = {
     {"converge", CONVERGE_WORDS, "every figure of a scene with its error bar", command_converge},
     {"plot", PLOT_WORDS, "pictures of a finished or running run; of a scene before it runs", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
-    {"export", EXPORT_WORDS, "the peridynamics of a scene as input of LAMMPS", command_export},
+    {"export", EXPORT_WORDS, "a scene as input of LAMMPS, or a scene or a run as an Exodus II file", command_export},
     {"bench", "[NAME...] [--quick] [--readme]", "measures; without a name it lists what there is", command_bench},
     {"help", "[KEY|scene|units|expression|run|theory|trust]",
      "every scene key; units; formulas; a run; the equations; what a run promises", command_help},

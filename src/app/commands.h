@@ -30,7 +30,7 @@ extern const int commands_count;
     "[-o FILE] [--overwrite]"
 #define EXPORT_WORDS                                                                                                   \
     "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different] "                       \
-    "[--overwrite]"
+    "[--overwrite], or exodus SCENE|DIR -o FILE [-s KEY=VALUE]... [--overwrite]"
 
 status command_run(int argc, char **argv);
 status command_sweep(int argc, char **argv);

@@ -1,4 +1,4 @@
-/* Implements `cleave export lammps SCENE -o DIR`: writes the peridynamics of a scene as input of LAMMPS. */
+/* Implements `cleave export`: scenes as input of LAMMPS, scenes and runs as Exodus II files. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +9,12 @@
 #include "export/export.h"
 
 static const char usage[] = "export " EXPORT_WORDS;
+
+/* Programs and formats to which scenes are exported. */
+static const struct target {
+    const char *name;
+    status (*write)(const struct export_request *);
+} targets[] = {{"lammps", export_lammps}, {"exodus", export_exodus}};
 
 /* Reads the options that only `export` has into r and removes them from argv; the remaining words are read like those
  * of `run`. REFUSED for an unknown --style, and for --resume and -q. */
@@ -36,15 +42,20 @@ status command_export(int argc, char **argv)
 {
     struct export_request request = {0};
     struct run_arguments a;
-    if (argc < 2 || strcmp(argv[1], "lammps") != 0)
-        return status_set(REFUSED, "export: lammps is expected; usage: cleave %s", usage);
+    const struct target *target = NULL;
+    for (size_t k = 0; k < COUNT_OF(targets) && argc > 1; k++)
+        if (strcmp(argv[1], targets[k].name) == 0) target = &targets[k];
+    if (!target) return status_set(REFUSED, "export: lammps or exodus is expected; usage: cleave %s", usage);
+    const bool lammps = target->write == export_lammps;
     TRY(export_words(&request, &argc, argv));
+    if (!lammps && (request.bond_style || request.allow_different))
+        return status_set(REFUSED, "export: --style and --allow-different are for lammps; usage: cleave %s", usage);
     TRY(arguments_read(&a, argc, argv, usage));
     team_set_threads(a.threads);
     request.scene = a.scene, request.folder = a.folder;
     request.override = a.override, request.overrides = a.overrides;
     status result =
-        a.folder ? export_lammps(&request) : status_set(REFUSED, "export: -o DIR is missing; usage: cleave %s", usage);
+        a.folder ? target->write(&request) : status_set(REFUSED, "export: -o is missing; usage: cleave %s", usage);
     arguments_free(&a);
     return result;
 }

@@ -35,7 +35,8 @@ static const struct entry options[] = {
      "writes the results to this folder (default: results/NAME_sweep or results/NAME_converge). A folder that contains "
      "another study is refused.",
      "sweep converge"},
-    {"-o DIR", "writes the input of LAMMPS to this folder.", "export"},
+    {"-o DIR", "writes the input of LAMMPS to this folder; exodus: to a file whose name ends in .exo, .e or .g.",
+     "export"},
     {"-o FILE",
      "writes the picture to this file or folder (default: pictures/ of the run; with --scene, results/NAME_scene.png).",
      "plot"},

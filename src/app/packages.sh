@@ -22,6 +22,7 @@ missing()
     library libpng || echo "libpng"
     library libtiff-4 || echo "libtiff"
     [ "${1:-}" != tests ] || library cmocka || echo "cmocka (for the tests)"
+    [ "${1:-}" != tests ] || library netcdf || echo "netCDF (for the tests)"
     [ "${1:-}" != tests ] || ! have apt-get || reads_frames || echo "h5py of Python (for a test)"
     [ "${1:-}" != tests ] || lays_out || echo "clang-format 14 (for a test)"
     [ "${1:-}" != tests ] || ! have apt-get || reads_schemas || echo "jsonschema and yaml of Python (for a test)"
@@ -38,16 +39,16 @@ as_root() {
 
 if have apt-get; then
     packages="gcc libc6-dev pkg-config libhdf5-dev libhwloc-dev libyaml-dev libpng-dev libtiff-dev gnuplot-nox"
-    tests="libcmocka-dev python3-h5py python3-jsonschema python3-yaml"
+    tests="libcmocka-dev libnetcdf-dev python3-h5py python3-jsonschema python3-yaml"
     ! is_bookworm || tests="$tests clang-format-14"
     install() { as_root apt-get update -q && as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $packages; }
 elif have dnf; then
     packages="gcc pkgconf-pkg-config hdf5-devel hwloc-devel libyaml-devel libpng-devel libtiff-devel gnuplot"
-    tests=libcmocka-devel
+    tests="libcmocka-devel netcdf-devel"
     install() { as_root dnf install -qy $packages; }
 elif have brew; then
     packages="gcc pkg-config hdf5 hwloc libyaml libpng libtiff gnuplot"
-    tests=cmocka
+    tests="cmocka netcdf"
     install() { brew install -q $packages; }
 else
     echo "Cleave needs what this machine lacks: $lacking; no apt-get, dnf or brew here: install it by hand" >&2

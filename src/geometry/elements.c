@@ -30,6 +30,16 @@ const struct element_edges element_edges[ELEMENT_KINDS] = {
         {12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
 };
 
+int element_edge_between(enum element_kind kind, int i, int j)
+{
+    const struct element_edges *edges = &element_edges[kind];
+    for (int k = 0; k < edges->n; k++)
+        if ((edges->corner[k][0] == i && edges->corner[k][1] == j) ||
+            (edges->corner[k][0] == j && edges->corner[k][1] == i))
+            return k;
+    return -1;
+}
+
 int32_t element_mesh_append_node(struct element_mesh *m, const real *X, int64_t label)
 {
     GROW("mesh.node", m->node, m->nodes + 1);

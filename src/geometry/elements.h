@@ -47,6 +47,9 @@ struct element_edges {
 };
 extern const struct element_edges element_edges[ELEMENT_KINDS];
 
+/* Returns the index of the edge between corners i and j of an element of this kind; -1 if there is no such edge. */
+int element_edge_between(enum element_kind kind, int i, int j);
+
 /* A named set of nodes or elements. */
 struct element_set {
     char name[NAME_MAX_LENGTH];
@@ -137,6 +140,10 @@ status gmsh_read(struct element_mesh *m, struct source *file);
 /* Reads the Abaqus input deck `file` into the empty mesh m. Returns REFUSED, with a message that contains the line, if
  * the file is malformed. The caller releases m with element_mesh_free, also after a failure. */
 status abaqus_read(struct element_mesh *m, struct source *file);
+
+/* Reads the Exodus II file `file` into the empty mesh m. Returns REFUSED, with a message, if the file is malformed or
+ * contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a failure. */
+status exodus_read(struct element_mesh *m, struct source *file);
 
 /* Reads the text or binary STL file into the empty mesh m; corners of triangles nearer to each other than a millionth
  * of the extent become one node. Returns REFUSED, with a message, if the file is malformed. The caller releases m with

@@ -72,17 +72,6 @@ static real builder_volume(const struct surface_builder *b, int64_t first)
     return sum;
 }
 
-/* Returns the index of the edge between corners i and j of an element of this kind; -1 if there is no such edge. */
-static int edge_between(enum element_kind kind, int i, int j)
-{
-    const struct element_edges *edges = &element_edges[kind];
-    for (int k = 0; k < edges->n; k++)
-        if ((edges->corner[k][0] == i && edges->corner[k][1] == j) ||
-            (edges->corner[k][0] == j && edges->corner[k][1] == i))
-            return k;
-    return -1;
-}
-
 /* Returns one side of an element with its n corners, the middle nodes of its edges, and the node at its centre.
  * corner[n]: numbers of the corners in the element. centre: number of the middle node of the side, or -1. turned:
  * reverses the orientation of the side. */
@@ -94,7 +83,7 @@ static struct patch patch_of(const struct surface_builder *b, const struct eleme
     for (int c = 0; c < n; c++) {
         const int from = turned ? corner[n - 1 - c] : corner[c],
                   to = turned ? corner[(2 * n - 2 - c) % n] : corner[(c + 1) % n];
-        const int edge = n > 1 ? edge_between(e->kind, from, to) : -1;
+        const int edge = n > 1 ? element_edge_between(e->kind, from, to) : -1;
         p.corner[c] = e->node[from];
         if (middle && edge >= 0) p.middle[c] = middle[edge];
     }

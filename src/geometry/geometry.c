@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "elements.h"
+#include "geometry/exodus_file.h"
 
 #define DOUBT_MOST 0.02 /* share of sample points that may be neither inside nor outside */
 #define FARTHEST 1e30   /* [m] squares and triple products stay finite */
@@ -14,7 +15,7 @@
 static const struct format {
     const char *ending;
     status (*read)(struct element_mesh *, struct source *);
-} formats[] = {{".stl", stl_read}, {".msh", gmsh_read}, {".inp", abaqus_read}};
+} formats[] = {{".stl", stl_read}, {".msh", gmsh_read}, {".inp", abaqus_read}}, exodus = {".exo", exodus_read};
 
 /* Returns the format for a path, ignoring case; NULL: unknown extension. */
 static const struct format *format_of(const char *path)
@@ -22,7 +23,7 @@ static const struct format *format_of(const char *path)
     const size_t length = strlen(path);
     for (size_t k = 0; k < COUNT_OF(formats); k++)
         if (length > 4 && strcasecmp(path + length - 4, formats[k].ending) == 0) return &formats[k];
-    return NULL;
+    return is_exodus_name(path) ? &exodus : NULL;
 }
 
 /* Returns REFUSED if the surface encloses nothing, or is so open that inside and outside cannot be told apart. */
@@ -55,7 +56,8 @@ static status read_elements(struct geometry *g, const char *path, int dim, real 
     const struct format *format = format_of(path);
     struct element_mesh m = {0};
     struct source source;
-    if (!format) return status_set(REFUSED, "%s: a file that ends in .stl, .msh or .inp is expected", path);
+    if (!format)
+        return status_set(REFUSED, "%s: a file that ends in .stl, .msh, .inp or .exo (.e, .g) is expected", path);
     TRY(source_open(&source, path));
     status s = format->read(&m, &source);
     source_close(&source);

@@ -377,3 +377,37 @@ void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum
     if (!f->failed) (void)(good(f, H5Aread(at, hdf_native(type), value)) && good(f, H5Aclose(at)));
     H5Sclose(space);
 }
+
+/* ---- files of other programs ------------------------------------------------------------------------------------- */
+
+bool hdf_lies_inside(hid_t set)
+{
+    hid_t made = H5Dget_create_plist(set);
+    const bool inside = H5Pget_layout(made) != H5D_VIRTUAL && H5Pget_external_count(made) == 0;
+    H5Pclose(made);
+    return inside;
+}
+
+bool hdf_is_linked(hid_t file, const char *name)
+{
+    H5L_info_t link;
+    return H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 && link.type != H5L_TYPE_HARD;
+}
+
+void hdf_read_text_attribute(hid_t file, const char *set, const char *name, char *text, size_t capacity)
+{
+    text[0] = '\0';
+    if (H5Aexists_by_name(file, set, name, H5P_DEFAULT) <= 0) return;
+    hid_t held = H5Aopen_by_name(file, set, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(held);
+    char *long_text = NULL;
+    if (H5Tget_class(type) == H5T_STRING && H5Aget_storage_size(held) > 0) {
+        if (H5Tis_variable_str(type) > 0) {
+            if (H5Aread(held, type, &long_text) >= 0 && long_text) snprintf(text, capacity, "%s", long_text);
+            if (long_text) H5free_memory(long_text);
+        } else if (H5Tget_size(type) < capacity && H5Aread(held, type, text) >= 0) {
+            text[H5Tget_size(type)] = '\0';
+        }
+    }
+    H5Tclose(type);
+    H5Aclose(held);
+}

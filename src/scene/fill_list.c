@@ -123,7 +123,7 @@ status particle_draft_add_list(struct particle_draft *d, int body)
 {
     const int64_t first = d->n;
     struct particle_list list;
-    TRY(particle_list_read(&list, d->scene->body[body].file, d->scene->dim));
+    TRY(particle_list_read(&list, d->scene->body[body].file, &d->scene->body[body].form, d->scene->dim));
     status s = take_list(d, body, &list);
     particle_list_free(&list);
     if (s == OK && d->scene->body[body].list.lattice) take_lattice(d, first);

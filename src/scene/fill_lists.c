@@ -158,7 +158,7 @@ static status refuse_list(const struct crowd *c, const char *format, ...) __attr
 static status refuse_list(const struct crowd *c, const char *format, ...)
 {
     const struct scene_body *b = &c->s->body[c->body];
-    char why[384];
+    char why[480];
     va_list more;
     va_start(more, format);
     vsnprintf(why, sizeof why, format, more);
@@ -178,7 +178,8 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
         return refuse_list(
             c,
             "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: particles of the list are "
-            "%.4g m apart; a list in m is expected%s, or a particles.spacing of about %.2g m",
+            "%.4g m apart; a list in m is expected%s, or its unit as in particles: {file: .., unit: mm}, or a "
+            "particles.spacing of about %.2g m",
             c->n > LOOKED_AT ? "about " : "", 100 * v->lone, c->reach / spacing, spacing, v->apart,
             unit_guess(v->apart / spacing, by_volume), v->apart);
     if (v->apart < CLOSE_LEAST * spacing)

@@ -13,6 +13,8 @@
 #include "base/crash_message.h"
 #include "base/memory.h"
 #include "base/team.h"
+#include "geometry/exodus_file.h"
+#include "output/output_hdf5.h"
 #include "particle_list_parts.h"
 #include "scene_internal.h"
 
@@ -92,6 +94,12 @@ bool unit_factor(real *factor, const char *unit, enum unit of, char *message, si
     return number_read(factor, number, of, false, message, capacity);
 }
 
+real column_default_factor(const struct particle_list *l, int column)
+{
+    const real scale = l->form.scale > 0 ? l->form.scale : 1;
+    return column <= COLUMN_Z ? scale : column == COLUMN_VOLUME ? scale * scale * scale : 1;
+}
+
 enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without bonds [numbers] */
 
 status list_check_memory(const char *path, int64_t n)
@@ -142,34 +150,18 @@ static status table_check(const struct table *t, const char *path, const char *n
     return list_check_memory(path, t->rows);
 }
 
-/* Returns true if the data of a dataset are stored in this file, neither in an external file nor as a virtual
- * dataset. */
-static bool lies_inside(hid_t set)
-{
-    hid_t made = H5Dget_create_plist(set);
-    const bool inside = H5Pget_layout(made) != H5D_VIRTUAL && H5Pget_external_count(made) == 0;
-    H5Pclose(made);
-    return inside;
-}
-
-/* Returns true if `name` is a soft or external link; does not follow the link. */
-static bool is_linked(hid_t file, const char *name)
-{
-    H5L_info_t link;
-    return H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 && link.type != H5L_TYPE_HARD;
-}
-
 /* Reads a dataset of numbers into t->value, [rows][columns]; the caller frees it. REFUSED for links, for data in other
  * files, and for datasets that are no list of numbers. */
 static status table_read(hid_t file, const char *path, const char *name, struct table *t)
 {
-    if (is_linked(file, name))
+    if (hdf_is_linked(file, name))
         return status_set(REFUSED, "%s: %s is a link; a dataset of this file is expected", path, name);
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
     if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset", path, name);
     bool good = table_shape(set, t);
     status checked = good ? table_check(t, path, name) : OK;
-    if (good && !lies_inside(set)) checked = status_set(REFUSED, "%s: %s has its numbers in other files", path, name);
+    if (good && !hdf_lies_inside(set))
+        checked = status_set(REFUSED, "%s: %s has its numbers in other files", path, name);
     if (checked != OK) {
         H5Dclose(set);
         return checked;
@@ -200,25 +192,6 @@ static status table_take(struct particle_list *l, int column, const struct table
     return OK;
 }
 
-/* Reads the attribute `unit` of a dataset as text; "" if there is no such text. */
-static void unit_read_attribute(hid_t file, const char *name, char text[UNIT_TEXT])
-{
-    text[0] = '\0';
-    if (H5Aexists_by_name(file, name, "unit", H5P_DEFAULT) <= 0) return;
-    hid_t unit = H5Aopen_by_name(file, name, "unit", H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(unit);
-    char *long_text = NULL;
-    if (H5Tget_class(type) == H5T_STRING && H5Aget_storage_size(unit) > 0) {
-        if (H5Tis_variable_str(type) > 0) {
-            if (H5Aread(unit, type, &long_text) >= 0 && long_text) snprintf(text, UNIT_TEXT, "%s", long_text);
-            if (long_text) H5free_memory(long_text);
-        } else if (H5Tget_size(type) < UNIT_TEXT && H5Aread(unit, type, text) >= 0) {
-            text[H5Tget_size(type)] = '\0';
-        }
-    }
-    H5Tclose(type);
-    H5Aclose(unit);
-}
-
 /* Reads a dataset as `count` columns of the list, from `column` on. The positions set the number of entries;
  * positions and velocities may have more components than the space. */
 static status hdf5_column(struct particle_list *l, hid_t file, const char *path, const char *name, int column,
@@ -228,12 +201,13 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
     struct table t = {0};
     TRY(table_read(file, path, name, &t));
     status s = OK;
-    unit_read_attribute(file, name, unit);
+    hdf_read_text_attribute(file, name, "unit", unit, UNIT_TEXT);
+    if (!unit[0]) t.factor = column_default_factor(l, column);
     if (column == COLUMN_X) l->n = t.rows;
     if (t.rows != l->n || (count > 1 || column < COLUMN_VOLUME ? t.columns < count : t.columns != count))
         s = status_set(REFUSED, "%s: dataset %s has %lld x %lld numbers; %lld x %d are expected", path, name,
                        (long long)t.rows, (long long)t.columns, (long long)l->n, count);
-    else if (!unit_factor(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
+    else if (unit[0] && !unit_factor(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
     if (t.columns > count)
         list_note_append(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
@@ -288,7 +262,7 @@ static bool ends_with(const char *path, const char *ending)
     return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
-enum { NO_LIST, LIST_CSV, LIST_HDF5 };
+enum { NO_LIST, LIST_CSV, LIST_HDF5, LIST_EXODUS };
 
 /* Returns the format that the file name extension implies. */
 static int list_format(const char *path)
@@ -296,31 +270,41 @@ static int list_format(const char *path)
     static const char *const endings[] = {".csv", ".tsv", ".txt", ".dat", ".h5", ".hdf5", ".hdf"};
     for (size_t k = 0; k < COUNT_OF(endings); k++)
         if (ends_with(path, endings[k])) return k < 4 ? LIST_CSV : LIST_HDF5;
-    return NO_LIST;
+    return is_exodus_name(path) ? LIST_EXODUS : NO_LIST;
 }
 
 bool is_particle_list_name(const char *path) { return list_format(path) != NO_LIST; }
 
 /* Reads a list of any format. head: true to read only the column names. */
-static status list_read(struct particle_list *l, const char *path, int dim, bool head)
+static status list_read(struct particle_list *l, const char *path, const struct particle_list_form *form, int dim,
+                        bool head)
 {
     *l = (struct particle_list){.dim = dim};
+    if (form) l->form = *form;
     struct stat about;
     const int format = list_format(path);
-    if (format == NO_LIST) return status_set(REFUSED, "%s: a particle list is a .csv or an .h5 file", path);
+    if (format == NO_LIST) return status_set(REFUSED, "%s: a particle list is a .csv, .h5 or .exo file", path);
+    if (l->form.columns && format != LIST_CSV)
+        return status_set(REFUSED, "%s: names its columns itself; columns are for files of text", path);
     if (stat(path, &about) != 0) return status_set(REFUSED, "%s: there is no such file", path);
     if (!S_ISREG(about.st_mode)) return status_set(REFUSED, "%s: not a plain file", path);
-    status s = format == LIST_CSV ? list_csv_read(l, path, head) : hdf5_read(l, path);
+    status s = format == LIST_CSV    ? list_csv_read(l, path, head)
+               : format == LIST_HDF5 ? hdf5_read(l, path)
+                                     : list_exodus_read(l, path);
     if (s != OK) particle_list_free(l);
     return s;
 }
 
-status particle_list_read(struct particle_list *l, const char *path, int dim) { return list_read(l, path, dim, false); }
+status particle_list_read(struct particle_list *l, const char *path, const struct particle_list_form *form, int dim)
+{
+    return list_read(l, path, form, dim, false);
+}
 
-status particle_list_read_head(struct particle_list_head *head, const char *path, int dim)
+status particle_list_read_head(struct particle_list_head *head, const char *path, const struct particle_list_form *form,
+                               int dim)
 {
     struct particle_list l;
-    TRY(list_read(&l, path, dim, true));
+    TRY(list_read(&l, path, form, dim, true));
     *head = l.head;
     particle_list_free(&l);
     return OK;

@@ -80,6 +80,7 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
         return csv_fault(&c->in, unit, "%s: [%.40s] %s", list_quantity[k].name, unit, what);
     else
         has[k] = true;
+    if (k != COLUMN_NONE && !*unit) c->factor[c->fields] = column_default_factor(l, k);
     if (k == COLUMN_MATERIAL && names_block(name)) l->head.block = true, c->first[c->fields] = 1;
     c->column[c->fields++] = k;
     return OK;
@@ -111,7 +112,12 @@ static status header_read(struct csv *c, struct particle_list *l)
     char *rest = c->in.text;
     for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
     for (int k = 0; k < l->dim; k++)
-        if (!has[k])
+        if (!has[k] && l->form.columns)
+            return status_set(REFUSED,
+                              "%s: columns: [%s] lack %s; as many as the line of the file has are expected, "
+                              "such as [%s]",
+                              c->in.path, l->form.columns, list_quantity[k].name, names);
+        else if (!has[k])
             return csv_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
                              list_quantity[k].name, names);
     if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
@@ -260,6 +266,23 @@ static status csv_header(struct csv *c, struct particle_list *l)
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
 
+/* Takes the column names from the scene. The first line that is not a comment is the first entry, which shows what
+ * separates fields. */
+static status csv_header_given(struct csv *c, struct particle_list *l)
+{
+    char entry[CSV_LINE_LENGTH];
+    bool more;
+    TRY(csv_read_data_line(&c->in, &more));
+    if (!more) return status_set(REFUSED, "%s: empty; one line for each particle is expected", c->in.path);
+    strcpy(entry, c->in.text);
+    snprintf(c->in.text, sizeof c->in.text, "%s", l->form.columns);
+    TRY(header_read(c, l));
+    strcpy(c->in.text, entry);
+    header_separate(c);
+    c->pending = true;
+    return OK;
+}
+
 /* Provides memory for one more entry, doubling the arrays. */
 static status csv_grow(struct csv *c, struct particle_list *l)
 {
@@ -318,19 +341,21 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     char *rest = c->in.text;
     for (int k = 0; k < c->fields; k++) {
         const char *field = csv_cut_field(&c->in, &rest);
-        if (field == NULL) return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->fields);
+        if (field == NULL)
+            return csv_fault(&c->in, c->in.text, "%d values; the %s %d columns", k,
+                             l->form.columns ? "scene names" : "header names", c->fields);
         if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
     }
     if (rest != NULL)
-        return csv_fault(&c->in, rest,
-                         "more values than the %d columns of the header; numbers have a point, not a comma", c->fields);
+        return csv_fault(&c->in, rest, "more values than the %d columns of the %s; numbers have a point, not a comma",
+                         c->fields, l->form.columns ? "scene" : "header");
     l->line[l->n++] = c->in.line;
     return OK;
 }
 
 static status csv_entries(struct csv *c, struct particle_list *l, bool head)
 {
-    TRY(csv_header(c, l));
+    TRY(l->form.columns ? csv_header_given(c, l) : csv_header(c, l));
     if (head) return OK;
     for (bool more = true;; c->pending = false) {
         if (!c->pending) TRY(csv_read_data_line(&c->in, &more));

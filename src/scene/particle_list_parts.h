@@ -43,6 +43,10 @@ const char *column_value_fault(int column, real value);
  * `unit` is not of this kind, returns false and writes the fault to message[capacity], as the rest of a sentence. */
 bool unit_factor(real *factor, const char *unit, enum unit of, char *message, size_t capacity);
 
+/* Returns the factor to SI units of a number in a column without a unit: in coordinates and volumes that of the form of
+ * the list, else 1. */
+real column_default_factor(const struct particle_list *l, int column);
+
 /* Appends `what` to the note on a list, preceded by `between` if the note is not empty. */
 void list_note_append(struct particle_list_head *head, const char *between, const char *what);
 
@@ -52,6 +56,9 @@ void list_note_columns(struct particle_list_head *head, const bool *has);
 
 /* REFUSED if n particles of a run need more memory than the machine has. */
 status list_check_memory(const char *path, int64_t n);
+
+/* Reads a particle list from an Exodus II file as particle_list_read does. */
+status list_exodus_read(struct particle_list *l, const char *path);
 
 /* Reads a particle list from a CSV file as particle_list_read does. head: true to read only the column names. */
 status list_csv_read(struct particle_list *l, const char *path, bool head);

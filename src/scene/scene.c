@@ -68,6 +68,7 @@ void scene_free(struct scene *s)
         for (int part = 0; part < s->body[k].parts; part++) region_free(&s->body[k].part[part].region);
         memory_free(s->body[k].part);
         memory_free(s->body[k].file);
+        memory_free(s->body[k].columns);
     }
     for (int k = 0; k < s->cracks; k++) memory_free(s->crack[k].corner);
     for (int k = 0; k < s->initials; k++) {

@@ -234,8 +234,10 @@ static bool list_lattice(const struct scene *s, int body)
 {
     struct particle_list list;
     for (int b = 0; b < body; b++)
-        if (s->body[b].file && strcmp(s->body[b].file, s->body[body].file) == 0) return s->body[b].list.lattice;
-    if (particle_list_read(&list, s->body[body].file, s->dim) != OK) return false;
+        if (s->body[b].file && strcmp(s->body[b].file, s->body[body].file) == 0 &&
+            bits_equal(s->body[b].form.scale, s->body[body].form.scale))
+            return s->body[b].list.lattice;
+    if (particle_list_read(&list, s->body[body].file, &s->body[body].form, s->dim) != OK) return false;
     const bool lattice =
         list_is_lattice(&list, s->spacing, lattice_volume(scene_section_factor(s), s->spacing, s->dim));
     particle_list_free(&list);

@@ -314,6 +314,33 @@ void write_file_name(struct writer *w, const char *key, const char *file, uint64
     free(whole);
 }
 
+/* Writes the particle list of a body, with its unit and columns if the scene gives them. */
+static void write_particle_list(struct writer *w, const struct scene_body *b)
+{
+    const bool formed = b->form.scale > 0 || b->form.columns;
+    if (!formed) {
+        write_file_name(w, "particles", b->file, b->contents);
+        return;
+    }
+    write_key(w, "particles");
+    fputc('\n', w->out);
+    w->indent += 2;
+    write_file_name(w, "file", b->file, b->contents);
+    if (b->form.scale > 0) {
+        write_key(w, "scale");
+        fputc(' ', w->out);
+        write_real(w, b->form.scale);
+        fputs("  # m\n", w->out);
+    }
+    if (b->form.columns) {
+        write_key(w, "columns");
+        fprintf(w->out, " [\"");
+        for (const char *c = b->form.columns; *c; c++) *c == ',' ? fputs("\", \"", w->out) : fputc(*c, w->out);
+        fprintf(w->out, "\"]\n");
+    }
+    w->indent -= 2;
+}
+
 static void write_body_parts(struct writer *w, const struct scene_body *b)
 {
     if (!b->parts) return;
@@ -332,7 +359,7 @@ static void write_bodies(struct writer *w)
     for (int k = 0; k < s->bodies + s->rigids; k++) {
         write_item(w);
         write_group(w, "bodies", &s->body[k]);
-        if (s->body[k].file) write_file_name(w, "particles", s->body[k].file, s->body[k].contents);
+        if (s->body[k].file) write_particle_list(w, &s->body[k]);
         write_body_parts(w, &s->body[k]);
     }
 }

@@ -6,6 +6,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "scene_shapes.h"
+
+enum { COLUMNS_TEXT = 1000 }; /* bytes of the names of all columns of a list */
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
@@ -169,14 +172,44 @@ status read_materials(struct reader *r, const struct yaml_node *root)
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Reads the path and the checksum of a particle list. */
-static status read_file(struct reader *r, const struct yaml_node *n, struct scene_body *b)
+/* Reads the names of the columns of a list as one text. */
+static status read_columns(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
+    size_t length = 1;
+    if (n->kind != NODE_LIST || n->n == 0)
+        return fault(r, n, "%s is no list of columns; [x, y, z, volume, block] is expected", node_text(r, n));
+    for (const struct yaml_node *name = n->first; name; name = name->next) {
+        if (name->kind != NODE_SCALAR || strpbrk(name->text, ",;\"'\n"))
+            return fault(r, name, "%s is no name of a column; [x, y, z, volume, block] is expected",
+                         node_text(r, name));
+        length += strlen(name->text) + 1;
+    }
+    if (length > COLUMNS_TEXT) return fault(r, n, "more than %d letters", COLUMNS_TEXT);
+    b->columns = NEW("list.columns", length, char);
+    for (const struct yaml_node *name = n->first; name; name = name->next) {
+        strcat(b->columns, name->text);
+        if (name->next) strcat(b->columns, ",");
+    }
+    b->form.columns = b->columns;
+    return OK;
+}
+
+/* Reads a particle list: its path and checksum, and what the scene says about its unit and columns. */
+static status read_list(struct reader *r, const struct yaml_node *n, struct scene_body *b)
+{
+    const bool mapping = n->kind == NODE_MAP;
+    const struct yaml_node *file = mapping ? yaml_node_find(n, "file") : n;
+    const struct yaml_node *columns = mapping ? yaml_node_find(n, "columns") : NULL;
     fault_write_location(r, n, b->place, sizeof b->place);
-    if (n->kind != NODE_SCALAR || !is_particle_list_name(n->text))
-        return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected", node_text(r, n));
-    TRY(read_path(r, n, "a particle list", &b->file, &b->contents));
-    return r->files ? particle_list_read_head(&b->list, b->file, r->dim) : OK;
+    if (mapping) TRY(read_group(r, n, n, "bodies.particles", b));
+    if (!file) return fault_key_missing(r, n, key_find("bodies.particles", "file"));
+    if (file->kind != NODE_SCALAR || !is_particle_list_name(file->text))
+        return fault(r, file, "%s is no particle list; a file name that ends in .csv, .h5 or .exo is expected",
+                     node_text(r, file));
+    if (mapping) TRY(read_file_unit(r, n, false, &b->form.scale));
+    if (columns) TRY(read_columns(r, columns, b));
+    TRY(read_path(r, file, "a particle list", &b->file, &b->contents));
+    return r->files ? particle_list_read_head(&b->list, b->file, &b->form, r->dim) : OK;
 }
 
 /* Returns REFUSED for keys that a rigid body does not have, and for keys that only a rigid body has. */
@@ -215,7 +248,7 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     TRY(read_body_parts(r, yaml_node_find(n, "parts"), key_find("bodies", "parts"), b));
     if (!shape && !file) return fault_key_missing(r, n, key_find("bodies", "shape"));
     if (shape && file) return fault_keys_exclude(r, shape, file);
-    if (file) TRY(read_file(r, file, b));
+    if (file) TRY(read_list(r, file, b));
     if (!b->rigid && b->material < 0 && r->scene->materials > 1 && !b->list.material)
         return fault_key_missing(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;

@@ -92,6 +92,11 @@ static void write_by_hand(FILE *out, const struct key *k)
         write_numbers(out, k, "number");
     else if (strncmp(form, "solid", 5) == 0)
         fputs("{\"$ref\": \"#/definitions/region\"}", out);
+    else if (strcmp(form, "file name or mapping") == 0) {
+        fputs("{\"$ref\": \"#/definitions/name\"}, ", out);
+        write_object(out, k->path);
+    } else if (strcmp(form, "list of names") == 0)
+        write_list_of(out, "name");
     else if (strncmp(form, "file name or list", 17) == 0)
         fputs("{\"$ref\": \"#/definitions/names\"}", out);
     else if (strncmp(form, "file name", 9) == 0 || strncmp(form, "name", 4) == 0)

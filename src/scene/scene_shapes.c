@@ -154,17 +154,16 @@ static status check_contents(struct reader *r, const struct yaml_node *n, const 
                  words->contents, found);
 }
 
-/* Reads the length unit of the coordinates in the file, from the key unit or scale. */
-static status read_unit(struct reader *r, const struct yaml_node *n, struct shape_words *words)
+status read_file_unit(struct reader *r, const struct yaml_node *n, bool required, real *scale_value)
 {
     const struct yaml_node *unit = yaml_node_find(n, "unit"), *scale = yaml_node_find(n, "scale");
     char text[48], what[256];
     if (unit && scale) return fault_keys_exclude(r, unit, scale);
-    if (!unit && !scale)
+    if (!unit && !scale && required)
         return fault(r, n, "unit is missing: its numbers have none; unit: mm, or scale: 25.4 mm, is expected");
     if (!unit) return OK;
     snprintf(text, sizeof text, "1 %.40s", unit->text);
-    if (unit->kind == NODE_SCALAR && number_read(&words->scale, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
+    if (unit->kind == NODE_SCALAR && number_read(scale_value, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
     return fault(r, unit, "%s is no unit of length; mm, m, um, .. is expected, or scale: 25.4 mm", node_text(r, unit));
 }
 
@@ -205,7 +204,7 @@ static status read_geometry(struct reader *r, const struct yaml_node *n, enum sh
     struct shape_file *f = NULL;
     TRY(read_group(r, n, n, group, &words));
     if (!file) return fault_key_missing(r, n, key_find(group, "file"));
-    TRY(read_unit(r, n, &words));
+    TRY(read_file_unit(r, n, true, &words.scale));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
     f = NEW("shape files", 1, struct shape_file);
     *f = (struct shape_file){.kind = kind, .dim = r->dim, .scale = words.scale};

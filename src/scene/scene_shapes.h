@@ -12,6 +12,10 @@ struct shape_words {
     real pixel, slice, origin[DIM_MAX]; /* [m] */
 };
 
+/* Reads the length that the number 1 of a file is from the key `unit` of the mapping n into *scale [m], if n has it.
+ * REFUSED if it is no unit of length, if n has the key `scale`, too, or, if `required`, neither. */
+status read_file_unit(struct reader *r, const struct yaml_node *n, bool required, real *scale);
+
 /* Reads the key `values` into ranges of grey values: a value, a range, or a list of these. */
 status read_grey_values(struct reader *r, const struct yaml_node *n, struct voxel_part *part);
 

@@ -33,7 +33,7 @@ static const struct {
 } targets[] = {
     {"scene", fuzz_scene, 6000}, {"override", fuzz_override, 400},
     {"list", fuzz_list, 3000},   {"checkpoint", fuzz_checkpoint, INPUT_MOST},
-    {"valid", fuzz_valid, 120},
+    {"valid", fuzz_valid, 120},  {"exodus", fuzz_exodus, 8000},
 };
 
 static struct input pool[POOL];
@@ -217,6 +217,13 @@ int main(int argc, char **argv)
         size_t n = 0;
         uint8_t *seed = fuzz_checkpoint_seed(&n);
         if (!seed || n > most) fuzz_fail("no checkpoint to begin with", "");
+        pool_add(seed, n);
+        free(seed);
+    }
+    for (int number = 0; strcmp(argv[1], "exodus") == 0; number++) {
+        size_t n = 0;
+        uint8_t *seed = fuzz_exodus_seed(number, &n);
+        if (!seed) break;
         pool_add(seed, n);
         free(seed);
     }

@@ -9,6 +9,8 @@ void fuzz_scene(const uint8_t *bytes, size_t n);    /* the text of a scene */
 void fuzz_override(const uint8_t *bytes, size_t n); /* lines KEY=VALUE over a good scene */
 /* a particle list in CSV; the first byte is the dimension */
 void fuzz_list(const uint8_t *bytes, size_t n);
+/* an Exodus II file: a mesh, and a list of particles */
+void fuzz_exodus(const uint8_t *bytes, size_t n);
 /* a checkpoint; its footer is corrected */
 void fuzz_checkpoint(const uint8_t *bytes, size_t n);
 /* choices that compose a scene which may be run */
@@ -16,6 +18,9 @@ void fuzz_valid(const uint8_t *bytes, size_t n);
 
 /* Returns a first input for the checkpoint, NULL if none could be created. Release with free. */
 uint8_t *fuzz_checkpoint_seed(size_t *n);
+
+/* Returns first input `number` (from 0) for Exodus II, NULL if there are no more. Release with free. */
+uint8_t *fuzz_exodus_seed(int number, size_t *n);
 
 /* Ends the process with a line. */
 _Noreturn void fuzz_fail(const char *why, const char *words);

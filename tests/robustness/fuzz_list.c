@@ -16,7 +16,7 @@ void fuzz_list(const uint8_t *bytes, size_t n)
         fuzz_fail("cannot write", "fuzz_list.csv");
     close(fd);
     status_set(OK, "%s", "");
-    if (particle_list_read(&l, "fuzz_list.csv", dim) != OK) {
+    if (particle_list_read(&l, "fuzz_list.csv", NULL, dim) != OK) {
         if (!status_message()[0] || strchr(status_message(), '\n'))
             fuzz_fail("refused without a line", status_message());
         return;

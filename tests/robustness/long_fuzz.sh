@@ -52,5 +52,8 @@ fuzz checkpoint & first=$!
 fuzz valid "$work/grown" & second=$!
 wait $first || failures=1
 wait $second || failures=1
-fuzz list "$work/list.csv" || failures=1
+fuzz list "$work/list.csv" & first=$!
+fuzz exodus & second=$!
+wait $first || failures=1
+wait $second || failures=1
 exit $failures

@@ -424,7 +424,7 @@ static void bad_abaqus(void **state)
     refused("bad.inp", 3, "part A is in the assembly twice");
     write_words("bad.inp", "PK\3\4\n, , ,\n");
     refused("bad.inp", 3, "no *NODE");
-    refused("bad.obj", 3, "a file that ends in .stl, .msh or .inp");
+    refused("bad.obj", 3, "a file that ends in .stl, .msh, .inp or .exo");
 }
 
 /* ---- damage ------------------------------------------------------------------------------------------------------ */

@@ -35,7 +35,7 @@ static void lists_of_others_are_read(void **state)
         strcpy(s.material[1].name, "hard");
         list_written(&s, name, text[k]);
         s.body[0].velocity[0] = 1, s.body[0].velocity[1] = 5;
-        assert_ok(particle_list_read_head(&head, name, 2));
+        assert_ok(particle_list_read_head(&head, name, NULL, 2));
         assert_true(head.material && head.mass);
         assert_string_equal(head.note, k == 0 ? "id, z not read" : k == 1 ? "id not read" : "z not read");
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
@@ -50,6 +50,54 @@ static void lists_of_others_are_read(void **state)
         particles_free(&p);
         remove(name);
     }
+}
+
+/* A scene says the unit of coordinates and volumes that name none, and the columns of a file without names. */
+static void scene_says_unit_and_columns(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *columns;
+    } c[] = {{"x,y,volume,block_id,vx\n500,2,3,2,4\n", NULL},
+             {"500 2 3 2 4\n", "x,y,volume,block,vx"},
+             {"# nameless\n500;2;3e-9 ;2;4\n", "x,y,volume [m^3],block,vx"},
+             {"500\t2\t77\t3\t2\t4\n", "x,y,skip,volume,block,vx"}};
+    for (size_t k = 0; k < COUNT_OF(c); k++) {
+        struct setting s;
+        struct particles p;
+        char name[] = "said.txt";
+        setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+        list_written(&s, name, c[k].text);
+        s.body[0].form = (struct particle_list_form){1e-3, c[k].columns};
+        assert_ok(particle_list_read_head(&s.body[0].list, name, &s.body[0].form, 2));
+        assert_true(s.body[0].list.material && s.body[0].list.volumes);
+        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        assert_int_equal(p.n, 1);
+        assert_close(p.X[0][0], 0.5, 1e-15);
+        assert_close(p.X[1][0], 2e-3, 1e-15);
+        assert_close(p.volume0[0], 3e-9, 1e-15);
+        assert_close(p.v[0][0], 4, 1e-15); /* unit is one of lengths */
+        assert_int_equal(p.material[0], 1);
+        particles_free(&p);
+        remove(name);
+    }
+    struct setting s;
+    struct particle_list_head head;
+    char name[] = "said.txt", h5[] = "said.h5";
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+    list_written(&s, name, "500 2 3\n");
+    assert_refused(particle_list_read_head(&head, name, &(struct particle_list_form){0, "x,volume"}, 2),
+                   "said.txt: columns: [x,volume] lack y");
+    struct particle_list l;
+    assert_refused(particle_list_read(&l, name, &(struct particle_list_form){0, "x,y"}, 2),
+                   "said.txt:1:7: more values than the 2 columns of the scene");
+    assert_refused(particle_list_read(&l, name, &(struct particle_list_form){0, "x,y,volume,block"}, 2),
+                   "said.txt:1:1: 3 values; the scene names 4 columns");
+    remove(name);
+    list_written(&s, h5, "x");
+    assert_refused(particle_list_read(&l, h5, &(struct particle_list_form){0, "x,y"}, 2),
+                   "said.h5: names its columns itself");
+    remove(h5);
 }
 
 /* Without a spacing in the scene it follows from the mean volume, in a plate with its thickness; particles closer than
@@ -98,7 +146,7 @@ static void lists_of_programs_are_read(void **state)
         setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
         strcpy(s.material[1].name, "hard");
         list_written(&s, name, text[k]);
-        assert_ok(particle_list_read_head(&head, name, 2));
+        assert_ok(particle_list_read_head(&head, name, NULL, 2));
         assert_true(head.material && head.block == (k != 1 && k != 2) && head.unnamed == (k == 4));
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n, 1);
@@ -122,7 +170,7 @@ static void volumes_have_a_default(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
     list_written(&s, name, "x,y,colour\n0,0,red\n0.5,0,blue\n");
     s.scene.thickness = 0.1;
-    assert_ok(particle_list_read_head(&head, name, 2));
+    assert_ok(particle_list_read_head(&head, name, NULL, 2));
     assert_string_equal(head.note, "colour not read; no volumes: each that of the spacing");
     assert_true(!head.material && !head.mass);
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
@@ -153,7 +201,7 @@ static void mutated_lists_are_bounded(void **state)
         FILE *file = fopen(name, "wb");
         assert_int_equal(fwrite(text, 1, sizeof good - 1, file), sizeof good - 1);
         fclose(file);
-        if (particle_list_read(&l, name, 1 + trial % 3) != OK) {
+        if (particle_list_read(&l, name, NULL, 1 + trial % 3) != OK) {
             assert_null(strchr(status_message(), '\n'));
             continue;
         }
@@ -175,9 +223,9 @@ static int leave_columns(void **state) { return chdir("/") != 0 || rmdir(*state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_of_others_are_read), cmocka_unit_test(spacing_of_volumes),
-                                       cmocka_unit_test(lists_of_programs_are_read),
-                                       cmocka_unit_test(volumes_have_a_default),
-                                       cmocka_unit_test(mutated_lists_are_bounded)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_of_others_are_read), cmocka_unit_test(scene_says_unit_and_columns),
+        cmocka_unit_test(spacing_of_volumes),       cmocka_unit_test(lists_of_programs_are_read),
+        cmocka_unit_test(volumes_have_a_default),   cmocka_unit_test(mutated_lists_are_bounded)};
     return cmocka_run_group_tests(tests, enter_columns, leave_columns);
 }

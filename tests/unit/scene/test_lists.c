@@ -136,7 +136,7 @@ static void bad_lists_are_refused(void **state)
     remove(name);
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "bad.csv: there is no such file");
     s.body[0].file = "points.xyz";
-    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "points.xyz: a particle list is a .csv or an .h5 file");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "points.xyz: a particle list is a .csv, .h5 or .exo file");
 }
 
 static void write_table(hid_t file, const char *name, int rank, const hsize_t *extent, hid_t type, const void *value)
@@ -217,10 +217,10 @@ static void hdf5_lists_have_units(void **state)
         if (part == 3) write_table(file, "density", 1, (hsize_t[]){2}, H5T_NATIVE_DOUBLE, mass);
         H5Fclose(file);
         if (part == 2)
-            assert_refused(particle_list_read_head(&head, name, 2), "positions: its unit kg is a mass; a length");
-        if (part == 3) assert_refused(particle_list_read_head(&head, name, 2), "mass and density are both given");
+            assert_refused(particle_list_read_head(&head, name, NULL, 2), "positions: its unit kg is a mass; a length");
+        if (part == 3) assert_refused(particle_list_read_head(&head, name, NULL, 2), "mass and density are both given");
         if (part >= 2) continue;
-        assert_ok(particle_list_read_head(&head, name, 2));
+        assert_ok(particle_list_read_head(&head, name, NULL, 2));
         assert_string_equal(head.note, "further positions not read; no volumes: each that of the spacing");
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         assert_close(p.X[0][1], 0.5, 1e-15);
@@ -319,7 +319,7 @@ static const struct {
      {10, 1, 0, 0, 1, 0},
      "100 % of its particles have no neighbour within 3.015 "
      "spacings of 0.001 m: particles of the list are 1 m apart; a list in m is expected "
-     "(is it in mm?), or a particles.spacing of about 1 m"},
+     "(is it in mm?), or its unit as in particles: {file: .., unit: mm}, or a particles.spacing of about 1 m"},
     {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1, 0}, "no neighbour within 2 spacings of 0.001 m"},
     {SPACE_PLANE_STRESS,
      BOTH,
@@ -379,7 +379,7 @@ static void units_of_lists_are_told(void **state)
         s.body[0].file = name;
         snprintf(s.body[0].place, sizeof s.body[0].place, "a.yaml:7:3: particles: ");
         write_grains(name, s.scene.dim, &told[k].g);
-        assert_ok(particle_list_read_head(&s.body[0].list, name, s.scene.dim));
+        assert_ok(particle_list_read_head(&s.body[0].list, name, NULL, s.scene.dim));
         if (told[k].says) {
             assert_refused(fill_particles(&p, &s.scene, NULL, 0), told[k].says);
             assert_null(p.X[0]);

@@ -186,7 +186,7 @@ static const struct {
     {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "velocity: [0, 0]",
      "12:5: shape: missing in bodies; a solid or a list of solids is expected"},
     {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "particles: grains.xyz",
-     "13:5: particles: grains.xyz is no particle list; a file name that ends in .csv or .h5 is expected"},
+     "13:5: particles: grains.xyz is no particle list; a file name that ends in .csv, .h5 or .exo is expected"},
     {"cracks:\n", "cracks:\n  - {at: 1}\n", "24:6: at: not in space plane stress; a crack there has from and to"},
     {"from: [0, 25 mm], to", "from: [50 mm, 25 mm], to",
      "24:5: cracks[0]: has no length; from and to are its two ends"},

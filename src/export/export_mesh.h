@@ -1,0 +1,42 @@
+/* The particles of a scene or a run in the order in which meshes of other programs list them. */
+#ifndef CLEAVE_EXPORT_MESH
+#define CLEAVE_EXPORT_MESH
+
+#include "engine/engine.h"
+#include "export/export.h"
+
+/* Particles by material, then by id; the sets on which loads act. */
+struct export_mesh {
+    struct scene scene;
+    struct run *e;
+    int64_t n;
+    int32_t *particle;  /* [n] index in e->part */
+    int32_t *place;     /* [n] position of each particle of e->part in this list */
+    int64_t first[258]; /* first position of material m; [materials]: n */
+};
+
+/* Reads the scene of the request with its overrides, all particles of the body made, and sorts them. Returns REFUSED if
+ * the scene is faulty. Release *m with export_mesh_free, also after a failure. */
+status export_mesh_make(struct export_mesh *m, const struct export_request *request);
+
+/* Returns the name of the set of load k: that of its boundary, unique among loads. */
+struct set_name {
+    char text[NAME_MAX_LENGTH];
+};
+struct set_name export_set_name(const struct export_mesh *m, int k);
+
+/* Returns, allocated, the positions (counted from 1, ascending) of the particles of load k; as many as it has. */
+int32_t *export_set_nodes(const struct export_mesh *m, int k);
+
+/* Releases the memory of *m. */
+void export_mesh_free(struct export_mesh *m);
+
+/* Checks that the file `path` may be written: it is new, or an export that `overwrite` may replace. sign: a text in the
+ * first bytes of exports of this kind. Returns REFUSED otherwise. */
+status export_check_file(const char *path, const char *sign, bool overwrite);
+
+/* Writes a file under a temporary name by put(to, context), syncs and renames it. Returns FAILED, and leaves no file,
+ * if it cannot be written. */
+status export_write_file(const char *path, status (*put)(FILE *to, void *context), void *context);
+
+#endif

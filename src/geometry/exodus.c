@@ -1,0 +1,293 @@
+/* Reads meshes from Exodus II files: blocks of elements, sides and nodes become sets with the names of the file, or
+ * block_1, surface_1, nodelist_1 and so on by their numbers where there are none (as in the library IOSS). */
+#include <stdio.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "elements.h"
+#include "geometry/exodus_file.h"
+
+/* Words with which types of elements that have no volume begin; blocks of them are left out. */
+static const char *const skipped[] = {"SPHERE", "CIRCLE", "BAR",    "BEAM",  "TRUSS", "EDGE", "ROD",
+                                      "LINE",   "POINT",  "SPRING", "JOINT", "NODE",  "RBE"};
+
+/* Words with which types of the other elements begin, with their shapes; the first that fits. */
+static const struct family {
+    const char *name;
+    enum element_kind kind;
+} families[] = {{"TRI", ELEMENT_TRIANGLE}, {"SHELL3", ELEMENT_TRIANGLE}, {"SHELL", ELEMENT_QUAD},
+                {"QUAD", ELEMENT_QUAD},    {"TET", ELEMENT_TETRAHEDRON}, {"PYR", ELEMENT_PYRAMID},
+                {"WEDGE", ELEMENT_PRISM},  {"HEX", ELEMENT_HEXAHEDRON}};
+
+/* Numbers of nodes with which each shape is read: first order, second order without and with nodes amid sides. */
+static const int sizes[ELEMENT_KINDS][3] = {
+    [ELEMENT_TRIANGLE] = {3, 6, 7},  [ELEMENT_QUAD] = {4, 8, 9},    [ELEMENT_TETRAHEDRON] = {4, 10, 11},
+    [ELEMENT_PYRAMID] = {5, 13, 14}, [ELEMENT_PRISM] = {6, 15, 16}, [ELEMENT_HEXAHEDRON] = {8, 20, 27}};
+
+/* For the nodes after the corners: position among the middle nodes of elements.h. -1: interior node, ignored. */
+static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
+    [ELEMENT_TRIANGLE] = {0, 1, 2, 3},
+    [ELEMENT_QUAD] = {0, 1, 2, 3, 4},
+    [ELEMENT_TETRAHEDRON] = {0, 1, 2, 3, 4, 5, -1},
+    [ELEMENT_PYRAMID] = {0, 1, 2, 3, 4, 5, 6, 7, 8},
+    [ELEMENT_PRISM] = {0, 1, 2, 6, 7, 8, 3, 4, 5, -1},
+    [ELEMENT_HEXAHEDRON] = {0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, -1, 12, 13, 17, 15, 14, 16}};
+
+/* For the sides of solid elements: position in element_sides. */
+static const signed char side_at[ELEMENT_KINDS][ELEMENT_SIDES_MAX] = {[ELEMENT_TETRAHEDRON] = {1, 2, 3, 0},
+                                                                      [ELEMENT_PYRAMID] = {1, 2, 3, 4, 0},
+                                                                      [ELEMENT_PRISM] = {2, 3, 4, 0, 1},
+                                                                      [ELEMENT_HEXAHEDRON] = {2, 3, 4, 5, 0, 1}};
+
+/* A file while its mesh is read. */
+struct exodus {
+    struct exodus_file file;
+    struct source *s;
+    struct element_mesh *m;
+    int64_t elements; /* of the file, in the blocks read so far */
+    int32_t *element; /* [elements] index in the mesh of each element of the file; -1: left out */
+};
+
+/* ---- nodes and blocks -------------------------------------------------------------------------------------------- */
+
+/* Appends all nodes. */
+static status nodes_add(struct exodus *x)
+{
+    real *axis[DIM_MAX] = {NULL};
+    status s = exodus_coordinates(&x->file, axis);
+    for (int64_t k = 0; k < x->file.nodes && s == OK; k++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0; d < x->file.dim; d++) X[d] = axis[d][k];
+        s = element_mesh_add_node(x->m, x->s, X, k + 1);
+    }
+    for (int d = 0; d < DIM_MAX; d++) memory_free(axis[d]);
+    return s;
+}
+
+/* Finds the shape of elements by the name of their type and the number of their nodes. *skip: they are left out. */
+static status kind_of(const struct exodus *x, const char *type, int64_t nodes, enum element_kind *kind, bool *skip)
+{
+    *skip = false;
+    for (size_t k = 0; k < COUNT_OF(skipped); k++) *skip = *skip || strncmp(type, skipped[k], strlen(skipped[k])) == 0;
+    if (*skip) return OK;
+    for (size_t k = 0; k < COUNT_OF(families); k++) {
+        if (strncmp(type, families[k].name, strlen(families[k].name)) != 0) continue;
+        *kind = families[k].kind;
+        if (*kind == ELEMENT_QUAD && type[0] == 'S' && (nodes == 3 || nodes == 6)) *kind = ELEMENT_TRIANGLE;
+        for (int order = 0; order < 3; order++)
+            if (nodes == sizes[*kind][order]) return OK;
+        break;
+    }
+    return exodus_fault(&x->file,
+                        "elements of type %s with %lld nodes are not read; triangles and quadrilaterals, tetrahedra, "
+                        "pyramids, wedges and hexahedra of first or second order are",
+                        type, (long long)nodes);
+}
+
+/* Appends an element with the nodes label[nodes], which count from 1. REFUSED if there is no such node. */
+static status element_add(struct exodus *x, enum element_kind kind, const int64_t *label, int nodes)
+{
+    const int corners = element_corners[kind];
+    int32_t node[ELEMENT_CORNERS_MAX], middle[ELEMENT_MIDDLES_MAX];
+    for (int k = 0; k < ELEMENT_MIDDLES_MAX; k++) middle[k] = -1;
+    for (int k = 0; k < nodes; k++) {
+        if (label[k] < 1 || label[k] > x->m->nodes)
+            return exodus_fault(&x->file, "element %lld has node %lld; nodes from 1 to %lld are expected",
+                                (long long)x->elements + 1, (long long)label[k], (long long)x->m->nodes);
+        const int slot = k < corners ? -1 : middle_at[kind][k - corners];
+        if (k < corners) node[k] = (int32_t)(label[k] - 1);
+        if (slot >= 0) middle[slot] = (int32_t)(label[k] - 1);
+    }
+    TRY(element_mesh_add_element(x->m, x->s, kind, node, x->elements + 1));
+    if (nodes > corners) element_mesh_set_middle_nodes(x->m, middle);
+    return OK;
+}
+
+/* Creates the set number `row` of n sets: with its name in the array `names`, else by the word `word` and its number in
+ * the array `numbers`, also where another set has this name. Returns its index in *set. */
+static status set_begin(struct exodus *x, const char *names, const char *numbers, const char *word, int64_t row,
+                        int64_t n, bool of_nodes, int *set)
+{
+    char name[NAME_MAX_LENGTH];
+    int64_t *number = NULL;
+    exodus_name(&x->file, names, 0, row, n, name);
+    bool taken = name[0] == '\0';
+    for (int k = 0; k < x->m->sets; k++) taken = taken || strcasecmp(x->m->set[k].name, name) == 0;
+    if (taken) {
+        if (exodus_has(&x->file, numbers, 0)) TRY(exodus_integers(&x->file, numbers, 0, n, &number));
+        snprintf(name, sizeof name, "%s_%lld", word, (long long)(number ? number[row] : row + 1));
+        memory_free(number);
+    }
+    *set = element_mesh_find_set(x->m, name, of_nodes);
+    return *set >= 0 ? OK : exodus_fault(&x->file, "more than %d blocks and sets", ELEMENT_SETS_MAX);
+}
+
+/* Appends the elements of block `number` (from 1) and makes a set of them. */
+static status block_add(struct exodus *x, int64_t number)
+{
+    char type[NAME_MAX_LENGTH];
+    int64_t elements, nodes, *label = NULL;
+    enum element_kind kind = ELEMENT_POINT;
+    bool skip;
+    int set = -1;
+    if (!exodus_has(&x->file, "connect", number) && exodus_dimension(&x->file, "num_el_in_blk", number) == 0) return OK;
+    TRY(exodus_block(&x->file, number, type, &elements, &nodes));
+    TRY(kind_of(x, type, nodes, &kind, &skip));
+    TRY(exodus_integers(&x->file, "connect", number, elements * nodes, &label));
+    GROW("exodus.elements", x->element, x->elements + elements);
+    status s = skip ? OK : set_begin(x, "eb_names", "eb_prop1", "block", number - 1, x->file.blocks, false, &set);
+    if (skip)
+        snprintf(x->m->skipped, sizeof x->m->skipped, "%.20s%s", type,
+                 strncmp(type, "SPHERE", 6) == 0 ? " (read by particles: FILE)" : "");
+    for (int64_t k = 0; k < elements && s == OK; k++) {
+        x->element[x->elements] = skip ? -1 : (int32_t)x->m->elements;
+        if (!skip) s = element_add(x, kind, label + k * nodes, (int)nodes);
+        if (!skip && s == OK) element_mesh_add_to_set(x->m, set, x->m->elements - 1);
+        x->elements++;
+    }
+    memory_free(label);
+    return s;
+}
+
+/* ---- sets -------------------------------------------------------------------------------------------------------- */
+
+/* Appends edge `edge` of element e, with its middle node, as an element. */
+static status edge_add(struct exodus *x, const struct element *e, int edge)
+{
+    const signed char *corner = element_edges[e->kind].corner[edge];
+    const int32_t node[2] = {e->node[corner[0]], e->node[corner[1]]};
+    const int64_t middle = e->middle;
+    TRY(element_mesh_add_element(x->m, x->s, ELEMENT_LINE, node, -1));
+    if (middle >= 0) element_mesh_set_middle_nodes(x->m, (const int32_t[]){x->m->middle[middle + edge]});
+    return OK;
+}
+
+/* Appends side `side` of the solid element e, with its middle nodes, as an element. */
+static status face_add(struct exodus *x, const struct element *e, int side)
+{
+    const signed char *corner = element_sides[e->kind].corner[side];
+    const int n = corner[3] < 0 ? 3 : 4, edges = element_edges[e->kind].n;
+    int32_t node[4], middle[5];
+    for (int c = 0; c < n; c++) {
+        const int edge = element_edge_between(e->kind, corner[c], corner[(c + 1) % n]);
+        node[c] = e->node[corner[c]];
+        middle[c] = e->middle < 0 ? -1 : x->m->middle[e->middle + edge];
+    }
+    middle[n] = e->middle < 0 ? -1 : x->m->middle[e->middle + edges + side];
+    const bool curved = e->middle >= 0;
+    TRY(element_mesh_add_element(x->m, x->s, n == 3 ? ELEMENT_TRIANGLE : ELEMENT_QUAD, node, -1));
+    if (curved) element_mesh_set_middle_nodes(x->m, middle);
+    return OK;
+}
+
+/* Adds a side, which counts from 1, of the element with index `element` to a set. Sides 1 and 2 of a surface element in
+ * space are its two faces, its edges follow. REFUSED if the element has no such side. */
+static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
+{
+    const struct element e = x->m->element[element];
+    const bool solid = element_dim[e.kind] == 3, shell = !solid && x->file.dim == 3;
+    const int sides = solid ? element_sides[e.kind].n : element_edges[e.kind].n + (shell ? 2 : 0);
+    if (side < 1 || side > sides)
+        return exodus_fault(&x->file, "set %s has side %lld of an element that has %d sides", x->m->set[set].name,
+                            (long long)side, sides);
+    if (shell && side <= 2) {
+        element_mesh_add_to_set(x->m, set, element);
+        return OK;
+    }
+    TRY(solid ? face_add(x, &e, side_at[e.kind][side - 1]) : edge_add(x, &e, (int)side - (shell ? 3 : 1)));
+    element_mesh_add_to_set(x->m, set, x->m->elements - 1);
+    return OK;
+}
+
+/* Returns in *element the index in the mesh of an element of a set; -1: it is left out. REFUSED if there is none. */
+static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
+{
+    if (label < 1 || label > x->elements)
+        return exodus_fault(&x->file, "set %s has element %lld; elements from 1 to %lld are expected",
+                            x->m->set[set].name, (long long)label, (long long)x->elements);
+    *element = x->element[label - 1];
+    return OK;
+}
+
+/* Reads side set `number` (from 1). An empty one has no arrays. */
+static status side_set_add(struct exodus *x, int64_t number)
+{
+    const int64_t n = exodus_dimension(&x->file, "num_side_ss", number);
+    int64_t *element = NULL, *side = NULL, index;
+    int set;
+    if (n == 0) return OK;
+    TRY(set_begin(x, "ss_names", "ss_prop1", "surface", number - 1, x->file.side_sets, false, &set));
+    status s = exodus_integers(&x->file, "elem_ss", number, n, &element);
+    if (s == OK) s = exodus_integers(&x->file, "side_ss", number, n, &side);
+    for (int64_t k = 0; k < n && s == OK; k++) {
+        s = element_of(x, set, element[k], &index);
+        if (s == OK && index >= 0) s = side_add(x, set, index, side[k]);
+    }
+    memory_free(element);
+    memory_free(side);
+    return s;
+}
+
+/* Reads node set `number` (from 1). */
+static status node_set_add(struct exodus *x, int64_t number)
+{
+    const int64_t n = exodus_dimension(&x->file, "num_nod_ns", number);
+    int64_t *node = NULL;
+    int set;
+    if (n == 0) return OK;
+    TRY(set_begin(x, "ns_names", "ns_prop1", "nodelist", number - 1, x->file.node_sets, true, &set));
+    TRY(exodus_integers(&x->file, "node_ns", number, n, &node));
+    status s = OK;
+    for (int64_t k = 0; k < n && s == OK; k++)
+        if (node[k] < 1 || node[k] > x->m->nodes)
+            s = exodus_fault(&x->file, "set %s has node %lld; nodes from 1 to %lld are expected", x->m->set[set].name,
+                             (long long)node[k], (long long)x->m->nodes);
+        else
+            element_mesh_add_to_set(x->m, set, node[k] - 1);
+    memory_free(node);
+    return s;
+}
+
+/* Reads element set `number` (from 1). */
+static status element_set_add(struct exodus *x, int64_t number)
+{
+    const int64_t n = exodus_dimension(&x->file, "num_ele_els", number);
+    int64_t *element = NULL, index;
+    int set;
+    if (n == 0) return OK;
+    TRY(set_begin(x, "els_names", "els_prop1", "elementset", number - 1, x->file.element_sets, false, &set));
+    TRY(exodus_integers(&x->file, "elem_els", number, n, &element));
+    status s = OK;
+    for (int64_t k = 0; k < n && s == OK; k++) {
+        s = element_of(x, set, element[k], &index);
+        if (s == OK && index >= 0) element_mesh_add_to_set(x->m, set, index);
+    }
+    memory_free(element);
+    return s;
+}
+
+/* Reads nodes, blocks and sets. Sides come before nodes, as both often have one name and sides say more. */
+static status mesh_read(struct exodus *x)
+{
+    const struct exodus_file *f = &x->file;
+    if (f->blocks > ELEMENT_SETS_MAX || f->side_sets > ELEMENT_SETS_MAX || f->node_sets > ELEMENT_SETS_MAX ||
+        f->element_sets > ELEMENT_SETS_MAX)
+        return exodus_fault(f, "more than %d blocks and sets", ELEMENT_SETS_MAX);
+    TRY(nodes_add(x));
+    for (int64_t k = 1; k <= f->blocks; k++) TRY(block_add(x, k));
+    for (int64_t k = 1; k <= f->side_sets; k++) TRY(side_set_add(x, k));
+    for (int64_t k = 1; k <= f->element_sets; k++) TRY(element_set_add(x, k));
+    for (int64_t k = 1; k <= f->node_sets; k++) TRY(node_set_add(x, k));
+    return OK;
+}
+
+status exodus_read(struct element_mesh *m, struct source *s)
+{
+    struct exodus x = {.s = s, .m = m};
+    s->binary = true;
+    TRY(exodus_open(&x.file, s->path, s->text, s->length));
+    const status result = mesh_read(&x);
+    exodus_close(&x.file);
+    memory_free(x.element);
+    return result;
+}

@@ -1,0 +1,248 @@
+/* Reads arrays of Exodus II files, of both forms of netCDF. Counts are compared with the length of the file before
+ * memory is allocated. */
+#include "geometry/exodus_file.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "exodus_parts.h"
+#include "source.h"
+
+/* Largest number of bytes of an array per byte of a netCDF-4 file: gzip does not compress equal numbers further. */
+enum { UNPACKED_MOST = 1024 };
+
+status exodus_fault(const struct exodus_file *f, const char *format, ...)
+{
+    char what[256];
+    va_list more;
+    va_start(more, format);
+    vsnprintf(what, sizeof what, format, more);
+    va_end(more);
+    text_replace_controls(what);
+    return status_set(REFUSED, "%s: %s", f->path, what);
+}
+
+bool is_exodus_name(const char *path)
+{
+    static const char *const endings[] = {".exo", ".e", ".ex2", ".exii", ".g", ".gen"};
+    const char *point = strrchr(path, '.');
+    for (size_t k = 0; k < COUNT_OF(endings) && point && point > path; k++)
+        if (strcasecmp(point, endings[k]) == 0) return true;
+    return false;
+}
+
+/* ---- the file ---------------------------------------------------------------------------------------------------- */
+
+/* Opens the arrays of either form of netCDF, by the first bytes of the file. */
+static status arrays_open(struct exodus_file *f)
+{
+    static const char hdf5[] = "\211HDF\r\n\032\n";
+    const uint8_t *text = f->text;
+    if (f->length >= 8 && memcmp(text, hdf5, 8) == 0) return exodus_hdf5_open(f);
+    if (f->length >= 8 && memcmp(text, "CDF", 3) == 0 && (text[3] == 1 || text[3] == 2 || text[3] == 5))
+        return exodus_classic_open(f);
+    return exodus_fault(f, "does not begin as a netCDF file; a file in the format Exodus II is expected");
+}
+
+/* Reads the counts that every mesh has. REFUSED if they are not those of a mesh. */
+static status counts_read(struct exodus_file *f)
+{
+    const int64_t dim = exodus_dimension(f, "num_dim", 0);
+    f->nodes = exodus_dimension(f, "num_nodes", 0);
+    f->blocks = exodus_dimension(f, "num_el_blk", 0);
+    f->node_sets = exodus_dimension(f, "num_node_sets", 0);
+    f->side_sets = exodus_dimension(f, "num_side_sets", 0);
+    f->element_sets = exodus_dimension(f, "num_elem_sets", 0);
+    f->dim = (int)dim;
+    if (dim >= 1 && dim <= DIM_MAX && f->nodes >= 1) return OK;
+    return exodus_fault(f,
+                        "a netCDF file with num_dim = %lld and num_nodes = %lld; a mesh in the format Exodus II is "
+                        "expected",
+                        (long long)dim, (long long)f->nodes);
+}
+
+status exodus_open(struct exodus_file *f, const char *path, const char *text, int64_t length)
+{
+    *f = (struct exodus_file){.path = path, .text = (const uint8_t *)text, .length = length, .hdf5 = -1};
+    status s = arrays_open(f);
+    if (s == OK) s = counts_read(f);
+    if (s != OK) exodus_close(f);
+    return s;
+}
+
+status exodus_open_path(struct exodus_file *f, const char *path)
+{
+    struct source s;
+    TRY(source_open(&s, path));
+    const status opened = exodus_open(f, path, s.text, s.length);
+    if (opened == OK)
+        f->owned = s.text;
+    else
+        source_close(&s);
+    return opened;
+}
+
+void exodus_close(struct exodus_file *f)
+{
+    memory_free(f->owned);
+    if (f->hdf5 >= 0) exodus_hdf5_close(f);
+    memory_free(f->dimension);
+    memory_free(f->array);
+    f->dimension = NULL, f->array = NULL, f->owned = NULL, f->hdf5 = -1;
+}
+
+/* ---- arrays ------------------------------------------------------------------------------------------------------ */
+
+/* Writes a name with its number, if that is not 0. */
+static void name_numbered(char *text, const char *name, int64_t number)
+{
+    if (number > 0)
+        snprintf(text, NAME_MAX_LENGTH, "%s%lld", name, (long long)number);
+    else
+        snprintf(text, NAME_MAX_LENGTH, "%s", name);
+}
+
+int64_t exodus_dimension(const struct exodus_file *f, const char *name, int64_t number)
+{
+    char called[NAME_MAX_LENGTH];
+    name_numbered(called, name, number);
+    if (f->hdf5 >= 0) return exodus_hdf5_dimension(f, called);
+    for (int64_t k = 0; k < f->dimensions; k++)
+        if (strcmp(f->dimension[k].name, called) == 0) return f->dimension[k].length;
+    return 0;
+}
+
+/* Finds an array; returns false if there is none. */
+static bool array_find(const struct exodus_file *f, const char *name, struct exodus_array *a)
+{
+    if (f->hdf5 >= 0) return exodus_hdf5_find(f, name, a);
+    for (int64_t k = 0; k < f->arrays; k++)
+        if (strcmp(f->array[k].name, name) == 0) {
+            *a = f->array[k];
+            return true;
+        }
+    return false;
+}
+
+bool exodus_has(const struct exodus_file *f, const char *name, int64_t number)
+{
+    char called[NAME_MAX_LENGTH];
+    struct exodus_array a;
+    name_numbered(called, name, number);
+    return array_find(f, called, &a);
+}
+
+/* Finds an array of n numbers. REFUSED if it is missing, has another size, or is larger than its file. */
+static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
+{
+    if (!array_find(f, name, a)) return exodus_fault(f, "array %s is missing", name);
+    if (a->type == EXODUS_CHAR) return exodus_fault(f, "array %s holds letters; numbers are expected", name);
+    if (a->extent[0] * a->extent[1] != n)
+        return exodus_fault(f, "array %s has %lld x %lld numbers; %lld are expected", name, (long long)a->extent[0],
+                            (long long)a->extent[1], (long long)n);
+    if (f->hdf5 < 0 || n <= f->length * UNPACKED_MOST) return OK;
+    return exodus_fault(f, "array %s claims %lld numbers, more than the file can contain: it is cut off or damaged",
+                        name, (long long)n);
+}
+
+/* Reads the numbers of an array into one of the two. REFUSED if the file is damaged. */
+static status array_read(const struct exodus_file *f, const struct exodus_array *a, int64_t n, real *reals,
+                         int64_t *integers)
+{
+    if (f->hdf5 < 0)
+        exodus_classic_read(f, a, n, reals, integers);
+    else if (n > 0 && !exodus_hdf5_read(f, a, reals, integers, NULL))
+        return exodus_fault(f, "array %s cannot be read: the file is damaged", a->name);
+    return OK;
+}
+
+status exodus_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t n, real **value)
+{
+    char called[NAME_MAX_LENGTH];
+    struct exodus_array a;
+    *value = NULL;
+    name_numbered(called, name, number);
+    TRY(array_check(f, called, n, &a));
+    real *read = NEW("exodus.numbers", n, real);
+    status s = array_read(f, &a, n, read, NULL);
+    for (int64_t k = 0; k < n && s == OK; k++)
+        if (!isfinite(read[k])) s = exodus_fault(f, "array %s: number %lld is not finite", called, (long long)k + 1);
+    if (s == OK)
+        *value = read;
+    else
+        memory_free(read);
+    return s;
+}
+
+status exodus_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t n, int64_t **value)
+{
+    char called[NAME_MAX_LENGTH];
+    struct exodus_array a;
+    *value = NULL;
+    name_numbered(called, name, number);
+    TRY(array_check(f, called, n, &a));
+    int64_t *read = NEW("exodus.numbers", n, int64_t);
+    const status s = array_read(f, &a, n, NULL, read);
+    if (s == OK)
+        *value = read;
+    else
+        memory_free(read);
+    return s;
+}
+
+status exodus_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
+{
+    static const char *const names[DIM_MAX] = {"coordx", "coordy", "coordz"};
+    real *all;
+    if (!exodus_has(f, "coord", 0)) {
+        for (int d = 0; d < f->dim; d++) TRY(exodus_reals(f, names[d], 0, f->nodes, &axis[d]));
+        return OK;
+    }
+    TRY(exodus_reals(f, "coord", 0, f->nodes * f->dim, &all)); /* as in files of the first versions */
+    for (int d = 0; d < f->dim; d++) {
+        axis[d] = NEW("exodus.numbers", f->nodes, real);
+        array_copy(axis[d], all + d * f->nodes, f->nodes, sizeof *all);
+    }
+    memory_free(all);
+    return OK;
+}
+
+void exodus_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t n, char *text)
+{
+    char called[NAME_MAX_LENGTH], *all = NULL;
+    struct exodus_array a;
+    text[0] = '\0';
+    name_numbered(called, name, number);
+    if (!array_find(f, called, &a) || a.type != EXODUS_CHAR || a.extent[0] != n) return;
+    const int64_t length = a.extent[1];
+    const char *from = f->hdf5 < 0 ? (const char *)f->text + a.at + row * length : NULL;
+    if (!from && n * length <= f->length * UNPACKED_MOST) {
+        all = NEW("exodus.names", n * length, char);
+        if (exodus_hdf5_read(f, &a, NULL, NULL, all)) from = all + row * length;
+    }
+    if (from) snprintf(text, NAME_MAX_LENGTH, "%.*s", (int)length, from);
+    memory_free(all);
+    for (size_t end = strlen(text); end > 0 && text[end - 1] == ' '; end--) text[end - 1] = '\0';
+    text_replace_controls(text);
+}
+
+status exodus_block(const struct exodus_file *f, int64_t number, char *type, int64_t *elements, int64_t *nodes)
+{
+    char called[NAME_MAX_LENGTH];
+    struct exodus_array a;
+    name_numbered(called, "connect", number);
+    if (!array_find(f, called, &a) || a.type == EXODUS_CHAR)
+        return exodus_fault(f, "block %lld has no list of nodes %s; blocks of elements with nodes are expected",
+                            (long long)number, called);
+    if (!a.elements[0])
+        return exodus_fault(f, "block %lld does not name the type of its elements (attribute elem_type of %s)",
+                            (long long)number, called);
+    *elements = a.extent[0], *nodes = a.extent[1];
+    memcpy(type, a.elements, NAME_MAX_LENGTH);
+    for (char *c = type; *c; c++) *c = (char)toupper((unsigned char)*c);
+    return OK;
+}

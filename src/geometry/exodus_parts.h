@@ -1,0 +1,63 @@
+/* What the readers of both forms of netCDF files share. */
+#ifndef CLEAVE_EXODUS_PARTS
+#define CLEAVE_EXODUS_PARTS
+
+#include "geometry/exodus_file.h"
+
+/* A dimension of a classic file; length 0: that of records. */
+struct exodus_dimension {
+    char name[NAME_MAX_LENGTH];
+    int64_t length;
+};
+
+/* Types of numbers as classic files number them. */
+enum exodus_type {
+    EXODUS_BYTE = 1,
+    EXODUS_CHAR,
+    EXODUS_SHORT,
+    EXODUS_INT,
+    EXODUS_FLOAT,
+    EXODUS_DOUBLE,
+    EXODUS_UBYTE,
+    EXODUS_USHORT,
+    EXODUS_UINT,
+    EXODUS_INT64,
+    EXODUS_UINT64,
+    EXODUS_TYPES
+};
+
+/* An array of one or two dimensions. */
+struct exodus_array {
+    char name[NAME_MAX_LENGTH], elements[NAME_MAX_LENGTH]; /* its attribute elem_type; "": none */
+    enum exodus_type type; /* of HDF5 files: EXODUS_CHAR, EXODUS_INT64 or EXODUS_DOUBLE */
+    int64_t extent[2];     /* [1]: 1 if there is one dimension */
+    int64_t at;            /* position in a classic file [byte] */
+};
+
+/* Reads the header of a classic file: its dimensions and arrays; arrays over time and of more than two dimensions are
+ * left out. Returns REFUSED, with a message, if it is damaged or the file is shorter than its arrays. */
+status exodus_classic_open(struct exodus_file *f);
+
+/* Copies n numbers of the array `a` of a classic file to real_value[n], or to whole_value[n] if real_value is NULL. */
+void exodus_classic_read(const struct exodus_file *f, const struct exodus_array *a, int64_t n, real *real_value,
+                         int64_t *whole_value);
+
+/* Opens a netCDF-4 file by its path. Returns REFUSED, with a message, if HDF5 cannot read it. */
+status exodus_hdf5_open(struct exodus_file *f);
+
+/* Closes a netCDF-4 file. */
+void exodus_hdf5_close(struct exodus_file *f);
+
+/* Returns the length of a dimension of a netCDF-4 file, or 0 if there is none of this name. */
+int64_t exodus_hdf5_dimension(const struct exodus_file *f, const char *name);
+
+/* Finds an array of a netCDF-4 file. Returns false if there is none of this name, if it has other than one or two
+ * dimensions, or if its numbers are not in the file. */
+bool exodus_hdf5_find(const struct exodus_file *f, const char *name, struct exodus_array *a);
+
+/* Reads all numbers of the array `a` of a netCDF-4 file into real_value, or whole_value, or letters: that which is not
+ * NULL. Returns false if HDF5 cannot read them. */
+bool exodus_hdf5_read(const struct exodus_file *f, const struct exodus_array *a, real *real_value, int64_t *whole_value,
+                      char *letters);
+
+#endif

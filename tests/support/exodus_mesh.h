@@ -1,0 +1,113 @@
+/* Writes small Exodus II files by the names of arrays in its manual, for tests of their readers. */
+#ifndef CLEAVE_TESTS_EXODUS_MESH
+#define CLEAVE_TESTS_EXODUS_MESH
+
+#include <netcdf.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tests/support/near.h"
+
+/* Calls a function of netCDF, which must succeed. */
+#define NC(call) assert_int_equal(call, NC_NOERR)
+
+/* Defines a dimension that is called `name` followed by `number`, 0: without a number. Returns its id. */
+static inline int exodus_dim(int file, const char *name, int number, size_t length)
+{
+    char called[64];
+    int id;
+    snprintf(called, sizeof called, number ? "%s%d" : "%s", name, number);
+    nc_redef(file); /* a new file is in this mode, which is no fault */
+    NC(nc_def_dim(file, called, length, &id));
+    return id;
+}
+
+/* Writes an array of whole numbers that is called `name` followed by `number` over one or two dimensions. */
+static inline int exodus_put_integers(int file, const char *name, int number, int ranks, const int *dim,
+                                      const int *value)
+{
+    char called[64];
+    int id;
+    snprintf(called, sizeof called, number ? "%s%d" : "%s", name, number);
+    nc_redef(file);
+    NC(nc_def_var(file, called, NC_INT, ranks, dim, &id));
+    nc_enddef(file);
+    if (value) NC(nc_put_var_int(file, id, value));
+    return id;
+}
+
+/* Writes an array of real numbers likewise. */
+static inline void exodus_put_reals(int file, const char *name, int number, int ranks, const int *dim,
+                                    const real *value)
+{
+    char called[64];
+    int id;
+    snprintf(called, sizeof called, number ? "%s%d" : "%s", name, number);
+    nc_redef(file);
+    NC(nc_def_var(file, called, NC_DOUBLE, ranks, dim, &id));
+    nc_enddef(file);
+    NC(nc_put_var_double(file, id, value));
+}
+
+/* Creates a file with n nodes X[n][dim] and the numbers of its blocks and sets. mode: of nc_create. Returns its id, to
+ * be closed with nc_close. */
+static inline int exodus_begin(const char *path, int mode, int dim, int n, const real *X, int blocks, int side_sets,
+                               int node_sets)
+{
+    static const char *const names[] = {"coordx", "coordy", "coordz"};
+    int file;
+    real one[64];
+    NC(nc_create(path, mode | NC_CLOBBER, &file));
+    exodus_dim(file, "num_dim", 0, (size_t)dim);
+    const int nodes = exodus_dim(file, "num_nodes", 0, (size_t)n);
+    exodus_dim(file, "num_el_blk", 0, (size_t)blocks);
+    if (side_sets > 0) exodus_dim(file, "num_side_sets", 0, (size_t)side_sets);
+    if (node_sets > 0) exodus_dim(file, "num_node_sets", 0, (size_t)node_sets);
+    exodus_dim(file, "len_name", 0, 33);
+    for (int d = 0; d < dim; d++) {
+        for (int k = 0; k < n; k++) one[k] = X[k * dim + d];
+        exodus_put_reals(file, names[d], 0, 1, &nodes, one);
+    }
+    return file;
+}
+
+/* Writes a block of elements with the nodes `connect`, from 1. */
+static inline void exodus_put_block(int file, int number, const char *type, int elements, int nodes, const int *connect)
+{
+    const int dim[2] = {exodus_dim(file, "num_el_in_blk", number, (size_t)elements),
+                        exodus_dim(file, "num_nod_per_el", number, (size_t)nodes)};
+    const int id = exodus_put_integers(file, "connect", number, 2, dim, connect);
+    nc_redef(file);
+    NC(nc_put_att_text(file, id, "elem_type", strlen(type), type));
+    nc_enddef(file);
+}
+
+/* Writes n names of blocks or sets: the array `name`, over the dimension `over`. */
+static inline void exodus_put_names(int file, const char *name, const char *over, int n, const char *const *names)
+{
+    int dim[2], id;
+    NC(nc_inq_dimid(file, over, &dim[0]));
+    NC(nc_inq_dimid(file, "len_name", &dim[1]));
+    nc_redef(file);
+    NC(nc_def_var(file, name, NC_CHAR, 2, dim, &id));
+    nc_enddef(file);
+    for (int k = 0; k < n; k++)
+        NC(nc_put_vara_text(file, id, (size_t[]){(size_t)k, 0}, (size_t[]){1, strlen(names[k]) + 1}, names[k]));
+}
+
+/* Writes a side set of n sides. */
+static inline void exodus_put_sides(int file, int number, int n, const int *element, const int *side)
+{
+    const int dim = exodus_dim(file, "num_side_ss", number, (size_t)n);
+    exodus_put_integers(file, "elem_ss", number, 1, &dim, element);
+    exodus_put_integers(file, "side_ss", number, 1, &dim, side);
+}
+
+/* Writes a node set of n nodes. */
+static inline void exodus_put_nodes(int file, int number, int n, const int *node)
+{
+    const int dim = exodus_dim(file, "num_nod_ns", number, (size_t)n);
+    exodus_put_integers(file, "node_ns", number, 1, &dim, node);
+}
+
+#endif
