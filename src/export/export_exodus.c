@@ -105,7 +105,7 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
 }
 
 /* Writes the variables of frame k as a record. */
-static status frame_write(struct exodus_export *x, int k)
+static status exodus_frame_write(struct exodus_export *x, int k)
 {
     const struct export_mesh *m = &x->mesh;
     const struct path path = frame_path(x, k);
@@ -183,7 +183,7 @@ static void sets_define(struct exodus_export *x, const struct shared *d)
     }
 }
 
-/* Defines names and values of variables; those over time come last, in the order of frame_write. */
+/* Defines names and values of variables; those over time come last, in the order of exodus_frame_write. */
 static void variables_define(struct exodus_export *x, const struct shared *d, const int *over)
 {
     struct netcdf_writer *w = &x->w;
@@ -206,7 +206,7 @@ static void variables_define(struct exodus_export *x, const struct shared *d, co
         }
 }
 
-/* Defines all dimensions and arrays, in the order in which body_write and frame_write write them. */
+/* Defines all dimensions and arrays, in the order in which body_write and exodus_frame_write write them. */
 static void all_define(struct exodus_export *x, const struct netcdf_attribute *attribute, int attributes)
 {
     static const char *const axes[] = {"coordx", "coordy", "coordz"};
@@ -344,7 +344,7 @@ static status exodus_put(FILE *to, void *context)
         for (int v = 0; v < x->variables[nodal]; v++) netcdf_text(&x->w, x->variable[nodal][v].name, NAME_WIDTH);
         netcdf_end(&x->w);
     }
-    for (int k = 0; k < x->frames; k++) TRY(frame_write(x, k));
+    for (int k = 0; k < x->frames; k++) TRY(exodus_frame_write(x, k));
     return OK;
 }
 

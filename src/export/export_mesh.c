@@ -25,7 +25,7 @@ static status scene_make_whole(struct export_mesh *m, const struct export_reques
 }
 
 /* Orders keys of material, id and index. */
-static int key_order(const void *a, const void *b)
+static int mesh_key_order(const void *a, const void *b)
 {
     const int64_t *p = a, *q = b;
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
@@ -39,7 +39,7 @@ status export_mesh_make(struct export_mesh *m, const struct export_request *r)
     const struct particles *p = &m->e->part;
     int64_t(*key)[3] = memory_new("export.order", p->n, sizeof *key);
     for (int64_t i = 0; i < p->n; i++) key[i][0] = p->material[i], key[i][1] = p->id[i], key[i][2] = i;
-    array_sort(key, p->n, sizeof *key, key_order);
+    array_sort(key, p->n, sizeof *key, mesh_key_order);
     m->n = p->n;
     m->particle = NEW("export.particles", p->n, int32_t), m->place = NEW("export.places", p->n, int32_t);
     for (int64_t k = 0; k < p->n; k++) {

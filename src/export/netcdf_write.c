@@ -52,7 +52,7 @@ static int64_t array_size(const struct netcdf_writer *w, const struct netcdf_arr
 static void put_bytes(struct netcdf_writer *w, const void *bytes, int64_t n)
 {
     GROW("netcdf.header", w->header, w->length + n);
-    if (n > 0) memcpy(w->header + w->length, bytes, (size_t)n);
+    array_copy(w->header + w->length, bytes, n, 1);
     w->length += n;
 }
 
@@ -74,7 +74,7 @@ static void put_text(struct netcdf_writer *w, const char *text)
 }
 
 /* Appends the tag and the length of a list; an empty one has two zeros. */
-static void put_list(struct netcdf_writer *w, int tag, int n)
+static void put_list_head(struct netcdf_writer *w, int tag, int n)
 {
     put_number(w, n > 0 ? (uint64_t)tag : 0, 4);
     put_number(w, (uint64_t)n, 4);
@@ -104,21 +104,21 @@ static void header_build(struct netcdf_writer *w, int64_t first)
         if (!is_over_records(w, &w->array[k])) at[1] += array_size(w, &w->array[k]);
     put_bytes(w, "CDF\2", 4);
     put_number(w, (uint64_t)w->records, 4);
-    put_list(w, TAG_DIMENSIONS, w->dimensions);
+    put_list_head(w, TAG_DIMENSIONS, w->dimensions);
     for (int k = 0; k < w->dimensions; k++) {
         put_text(w, w->dimension[k].name);
         put_number(w, (uint64_t)w->dimension[k].length, 4);
     }
-    put_list(w, TAG_ATTRIBUTES, w->attributes);
+    put_list_head(w, TAG_ATTRIBUTES, w->attributes);
     for (int k = 0; k < w->attributes; k++) put_attribute(w, &w->attribute[k]);
-    put_list(w, TAG_ARRAYS, w->arrays);
+    put_list_head(w, TAG_ARRAYS, w->arrays);
     for (int k = 0; k < w->arrays; k++) {
         const struct netcdf_array *a = &w->array[k];
         int64_t *place = &at[is_over_records(w, a)];
         put_text(w, a->name);
         put_number(w, (uint64_t)a->ranks, 4);
         for (int d = 0; d < a->ranks; d++) put_number(w, (uint64_t)a->dimension[d], 4);
-        put_list(w, TAG_ATTRIBUTES, a->attribute != NULL);
+        put_list_head(w, TAG_ATTRIBUTES, a->attribute != NULL);
         if (a->attribute) put_attribute(w, &(struct netcdf_attribute){.name = a->attribute, .text = a->text});
         put_number(w, a->type, 4);
         put_number(w, (uint64_t)array_size(w, a), 4);

@@ -123,7 +123,7 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
 }
 
 /* Appends the elements of block `number` (from 1) and makes a set of them. */
-static status block_add(struct exodus *x, int64_t number)
+static status element_block_add(struct exodus *x, int64_t number)
 {
     char type[NAME_MAX_LENGTH];
     int64_t elements, nodes, *label = NULL;
@@ -152,7 +152,7 @@ static status block_add(struct exodus *x, int64_t number)
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
 /* Appends edge `edge` of element e, with its middle node, as an element. */
-static status edge_add(struct exodus *x, const struct element *e, int edge)
+static status side_edge_add(struct exodus *x, const struct element *e, int edge)
 {
     const signed char *corner = element_edges[e->kind].corner[edge];
     const int32_t node[2] = {e->node[corner[0]], e->node[corner[1]]};
@@ -163,7 +163,7 @@ static status edge_add(struct exodus *x, const struct element *e, int edge)
 }
 
 /* Appends side `side` of the solid element e, with its middle nodes, as an element. */
-static status face_add(struct exodus *x, const struct element *e, int side)
+static status side_face_add(struct exodus *x, const struct element *e, int side)
 {
     const signed char *corner = element_sides[e->kind].corner[side];
     const int n = corner[3] < 0 ? 3 : 4, edges = element_edges[e->kind].n;
@@ -194,7 +194,7 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
         element_mesh_add_to_set(x->m, set, element);
         return OK;
     }
-    TRY(solid ? face_add(x, &e, side_at[e.kind][side - 1]) : edge_add(x, &e, (int)side - (shell ? 3 : 1)));
+    TRY(solid ? side_face_add(x, &e, side_at[e.kind][side - 1]) : side_edge_add(x, &e, (int)side - (shell ? 3 : 1)));
     element_mesh_add_to_set(x->m, set, x->m->elements - 1);
     return OK;
 }
@@ -274,7 +274,7 @@ static status mesh_read(struct exodus *x)
         f->element_sets > ELEMENT_SETS_MAX)
         return exodus_fault(f, "more than %d blocks and sets", ELEMENT_SETS_MAX);
     TRY(nodes_add(x));
-    for (int64_t k = 1; k <= f->blocks; k++) TRY(block_add(x, k));
+    for (int64_t k = 1; k <= f->blocks; k++) TRY(element_block_add(x, k));
     for (int64_t k = 1; k <= f->side_sets; k++) TRY(side_set_add(x, k));
     for (int64_t k = 1; k <= f->element_sets; k++) TRY(element_set_add(x, k));
     for (int64_t k = 1; k <= f->node_sets; k++) TRY(node_set_add(x, k));

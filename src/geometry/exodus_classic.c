@@ -106,7 +106,7 @@ static void dimensions_read(struct header *h)
 }
 
 /* Reads one array, and keeps it if it has one or two dimensions, none of them that of records. */
-static void array_read(struct header *h)
+static void header_array(struct header *h)
 {
     struct exodus_array a = {.extent = {1, 1}};
     next_name(h, a.name);
@@ -138,8 +138,9 @@ static status arrays_check(const struct exodus_file *f)
         const struct exodus_array *a = &f->array[k];
         const int64_t bytes = a->extent[0] * a->extent[1]; /* both fit in 32 bits */
         if (a->at <= f->length && bytes <= (f->length - a->at) / type_bytes[a->type]) continue;
-        return exodus_fault(f, "array %s is to have %lld x %lld numbers, but the file ends before: it is cut off",
-                            a->name, (long long)a->extent[0], (long long)a->extent[1]);
+        return status_set(REFUSED,
+                          "%s: array %s is to have %lld x %lld numbers, but the file ends before: it is cut off",
+                          f->path, a->name, (long long)a->extent[0], (long long)a->extent[1]);
     }
     return OK;
 }
@@ -152,10 +153,10 @@ status exodus_classic_open(struct exodus_file *f)
     dimensions_read(&h);
     next_attributes(&h, unused);
     const int64_t n = next_list(&h, TAG_ARRAYS);
-    for (int64_t k = 0; k < n && h.good; k++) array_read(&h);
+    for (int64_t k = 0; k < n && h.good; k++) header_array(&h);
     if (!h.good)
-        return exodus_fault(f, "the header of this netCDF file breaks off or is damaged near byte %lld",
-                            (long long)h.at);
+        return status_set(REFUSED, "%s: the header of this netCDF file breaks off or is damaged near byte %lld",
+                          f->path, (long long)h.at);
     return arrays_check(f);
 }
 

@@ -16,7 +16,7 @@ status exodus_hdf5_open(struct exodus_file *f)
     H5E_END_TRY;
     if (f->hdf5 >= 0) return OK;
     crash_message_set_file(NULL);
-    return exodus_fault(f, "HDF5 cannot read it: it is cut off or damaged");
+    return status_set(REFUSED, "%s: HDF5 cannot read it: it is cut off or damaged", f->path);
 }
 
 void exodus_hdf5_close(struct exodus_file *f)

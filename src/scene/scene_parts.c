@@ -173,7 +173,7 @@ status read_materials(struct reader *r, const struct yaml_node *root)
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
 /* Reads the names of the columns of a list as one text. */
-static status read_columns(struct reader *r, const struct yaml_node *n, struct scene_body *b)
+static status read_list_columns(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     size_t length = 1;
     if (n->kind != NODE_LIST || n->n == 0)
@@ -195,7 +195,7 @@ static status read_columns(struct reader *r, const struct yaml_node *n, struct s
 }
 
 /* Reads a particle list: its path and checksum, and what the scene says about its unit and columns. */
-static status read_list(struct reader *r, const struct yaml_node *n, struct scene_body *b)
+static status read_particle_list(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     const bool mapping = n->kind == NODE_MAP;
     const struct yaml_node *file = mapping ? yaml_node_find(n, "file") : n;
@@ -207,7 +207,7 @@ static status read_list(struct reader *r, const struct yaml_node *n, struct scen
         return fault(r, file, "%s is no particle list; a file name that ends in .csv, .h5 or .exo is expected",
                      node_text(r, file));
     if (mapping) TRY(read_file_unit(r, n, false, &b->form.scale));
-    if (columns) TRY(read_columns(r, columns, b));
+    if (columns) TRY(read_list_columns(r, columns, b));
     TRY(read_path(r, file, "a particle list", &b->file, &b->contents));
     return r->files ? particle_list_read_head(&b->list, b->file, &b->form, r->dim) : OK;
 }
@@ -248,7 +248,7 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     TRY(read_body_parts(r, yaml_node_find(n, "parts"), key_find("bodies", "parts"), b));
     if (!shape && !file) return fault_key_missing(r, n, key_find("bodies", "shape"));
     if (shape && file) return fault_keys_exclude(r, shape, file);
-    if (file) TRY(read_list(r, file, b));
+    if (file) TRY(read_particle_list(r, file, b));
     if (!b->rigid && b->material < 0 && r->scene->materials > 1 && !b->list.material)
         return fault_key_missing(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;

@@ -1,0 +1,100 @@
+/* Columns of particle lists of all formats: their names, units, defaults and limits. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "particle_list_parts.h"
+
+const struct list_quantity list_quantity[COLUMNS] = {
+    {"x", UNIT_LENGTH},        {"y", UNIT_LENGTH},      {"z", UNIT_LENGTH},      {"vx", UNIT_SPEED},
+    {"vy", UNIT_SPEED},        {"vz", UNIT_SPEED},      {"volume", UNIT_VOLUME}, {"mass", UNIT_MASS},
+    {"density", UNIT_DENSITY}, {"material", UNIT_NONE}, {"body", UNIT_NONE},
+};
+
+real **column_array(struct particle_list *l, int column)
+{
+    switch (column) {
+    case COLUMN_VX:
+    case COLUMN_VY:
+    case COLUMN_VZ:
+        return &l->v[column - COLUMN_VX];
+    case COLUMN_VOLUME:
+        return &l->volume;
+    case COLUMN_MASS:
+        return &l->mass;
+    case COLUMN_DENSITY:
+        return &l->density;
+    case COLUMN_MATERIAL:
+        return &l->material;
+    case COLUMN_BODY:
+        return &l->body;
+    default:
+        return &l->X[column];
+    }
+}
+
+bool column_is_unused(int column, int dim)
+{
+    return column <= COLUMN_VZ && column % DIM_MAX >= dim; /* x, y, z, vx, vy, vz */
+}
+
+void list_note_append(struct particle_list_head *head, const char *between, const char *what)
+{
+    const size_t used = strlen(head->note);
+    snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? between : "", what);
+}
+
+void list_note_columns(struct particle_list_head *head, const bool *has)
+{
+    head->material = has[COLUMN_MATERIAL], head->mass = has[COLUMN_MASS] || has[COLUMN_DENSITY];
+    head->volumes = has[COLUMN_VOLUME];
+    if (head->note[0]) list_note_append(head, " ", "not read");
+    if (head->unnamed) list_note_append(head, "; ", "read as x y z block_id volume");
+    if (head->block) list_note_append(head, "; ", "block_id is the material, counted from 1");
+    if (!has[COLUMN_VOLUME]) list_note_append(head, "; ", "no volumes: each that of the spacing");
+}
+
+void particle_list_free(struct particle_list *l)
+{
+    for (int c = 0; c < COLUMNS; c++) memory_free(*column_array(l, c));
+    memory_free(l->line);
+    memory_free(l->material_at);
+    memory_free(l->name);
+    *l = (struct particle_list){0};
+}
+
+const char *column_value_fault(int column, real value)
+{
+    if (!isfinite(value)) return "is not a finite number";
+    if (column >= COLUMN_VOLUME && column <= COLUMN_DENSITY && value <= 0) return "must be larger than 0";
+    if (column >= COLUMN_MATERIAL && (value < 0 || value > UINT8_MAX || value != floor(value)))
+        return "must be a whole number from 0 to 255";
+    return NULL;
+}
+
+bool unit_factor(real *factor, const char *unit, enum unit of, char *message, size_t capacity)
+{
+    char number[UNIT_TEXT + 2];
+    *factor = 1;
+    if (*unit == '\0') return true;
+    snprintf(number, sizeof number, "1 %.*s", UNIT_TEXT - 1, unit);
+    return number_read(factor, number, of, false, message, capacity);
+}
+
+real column_default_factor(const struct particle_list *l, int column)
+{
+    const real scale = l->form.scale > 0 ? l->form.scale : 1;
+    return column <= COLUMN_Z ? scale : column == COLUMN_VOLUME ? scale * scale * scale : 1;
+}
+
+enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without bonds [numbers] */
+
+status list_check_memory(const char *path, int64_t n)
+{
+    const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
+    if (machine_memory_size() <= 0 || bytes <= (real)machine_memory_size()) return OK;
+    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB of memory, and %.2g GB are available (%s)",
+                      path, (real)n, 1e-9 * bytes, 1e-9 * (real)machine_memory_size(), machine_memory_limit_name());
+}
