@@ -81,7 +81,7 @@ $(PROGRAMS:=.o) $(BUILD)/tests/robustness/faults.o: OPTIMISE := -O1
 $(BUILD)/bench/%.o: OPTIMISE := -O2
 
 # Nor do commands, readers of scenes and shapes, studies, exports and the bookkeeping of runs take time when they run.
-COLD     := app engine export geometry scene study
+COLD     := app engine export geometry report scene study
 $(COLD:%=$(BUILD)/src/%/%.o): OPTIMISE := -O1
 
 # The program, and every test with all of the engine, is linked by gold in a third of the time of GNU's usual linker.
@@ -124,6 +124,14 @@ $(BUILD)/new_part.h: inputs/new/stl.stl Makefile
 	@mkdir -p $(@D)
 	@awk '{ printf "\"%s\\n\"\n", $$0 }' $< > $@
 $(BUILD)/src/app/new.o $(BUILD)/fuzz/src/app/new.o: $(BUILD)/new_scenes.h $(BUILD)/new_part.h
+
+# Style, body and script of the page of `cleave report`, as texts of C. Question marks are escaped: C11 has trigraphs.
+SCRIPTED := $(sort $(wildcard src/report/*.js))
+quoted    = { echo 'static const char page_$(1)[] ='; cat $(2) | sed 's/[\\"?]/\\&/g; s/.*/"&\\n"/'; echo ';'; }
+$(BUILD)/report_page.h: src/report/page.css src/report/page.html $(SCRIPTED) Makefile
+	@mkdir -p $(@D)
+	@{ $(call quoted,css,src/report/page.css); $(call quoted,html,src/report/page.html); $(call quoted,js,$(SCRIPTED)); } > $@
+$(BUILD)/src/report/page.o $(BUILD)/fuzz/src/report/page.o: $(BUILD)/report_page.h
 
 # One rule a set: build/kernels/pd/bond_force.avx2.o from kernels/pd/bond_force.c.
 define SET
@@ -178,7 +186,7 @@ fuzz: all
 
 # Faults that can be seen without a run: cppcheck over all files at once, clang-tidy (.clang-tidy) over one file after the other.
 LINTED   ?= $(SOURCES) $(KERNELS)
-lint: $(BUILD)/commit.h $(BUILD)/parts.h $(BUILD)/new_scenes.h $(BUILD)/new_part.h
+lint: $(BUILD)/commit.h $(BUILD)/parts.h $(BUILD)/new_scenes.h $(BUILD)/new_part.h $(BUILD)/report_page.h
 	@BUILD=$(BUILD) LIBFLAGS="$(LIBFLAGS)" sh tests/support/lint.sh $(LINTED)
 
 bench: all

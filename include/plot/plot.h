@@ -56,6 +56,7 @@ struct plot_request {
     enum picture_format format;
     const char *out; /* output file or folder; NULL: DIR/pictures */
     bool overwrite;  /* replace `out` even if Cleave did not draw it */
+    bool quiet;      /* pictures of scenes: do not print what was drawn */
 };
 
 /* Draws all standard pictures of the run in r->folder and prints their names. Returns FAILED if a picture cannot be

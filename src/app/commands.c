@@ -17,12 +17,13 @@ static status no_benches(int argc, char **argv)
 #endif
 
 const struct command commands[] = {
-    {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]", "runs a scene", command_run},
+    {"run", RUN_WORDS, "runs a scene", command_run},
     {"check", CHECK_WORDS, "what a scene would cost and whether it is sound", command_check},
     {"new", "NAME [KIND]", "writes a commented scene to begin with, of a kind; alone it lists the kinds", command_new},
     {"sweep", SWEEP_WORDS, "a study: runs, or lists, every combination", command_sweep},
     {"converge", CONVERGE_WORDS, "every figure of a scene with its error bar", command_converge},
     {"plot", PLOT_WORDS, "pictures of a finished or running run; of a scene before it runs", command_plot},
+    {"report", REPORT_WORDS, "a run or a study as one page for a browser", command_report},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"export", EXPORT_WORDS, "a scene as input of LAMMPS, or a scene or a run as an Exodus II file", command_export},
     {"bench", "[NAME...] [--quick] [--readme]", "measures; without a name it lists what there is", command_bench},

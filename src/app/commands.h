@@ -18,6 +18,7 @@ extern const struct command commands[];
 extern const int commands_count;
 
 /* Forms of arguments that commands also print when a word is wrong. */
+#define RUN_WORDS "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [--report] [-q]"
 #define CHECK_WORDS "SCENE [-s KEY=VALUE]... [-t THREADS] [--no-trial]"
 #define SWEEP_WORDS                                                                                                    \
     "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [-o DIR] [-j RUNS] [-t THREADS] [--list] [--collect] [--overwrite] [-q]"
@@ -28,6 +29,7 @@ extern const int commands_count;
     "DIR [--field NAME] [--times T,...|all|last] [--frames all|last|N] [--slice z=4mm] [--view iso|x+|x-|...|z-] "     \
     "[--format png|svg|pdf|mp4|gif] [-o FILE] [--overwrite], or --scene SCENE [-s KEY=VALUE]... [--view V] "           \
     "[-o FILE] [--overwrite]"
+#define REPORT_WORDS "DIR [-o PAGE.html] [--overwrite] [-q]"
 #define EXPORT_WORDS                                                                                                   \
     "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different] "                       \
     "[--overwrite], or exodus SCENE|DIR -o FILE [-s KEY=VALUE]... [--overwrite]"
@@ -37,6 +39,7 @@ status command_sweep(int argc, char **argv);
 status command_converge(int argc, char **argv);
 status command_check(int argc, char **argv);
 status command_plot(int argc, char **argv);
+status command_report(int argc, char **argv);
 status command_compare(int argc, char **argv);
 status command_new(int argc, char **argv);
 status command_export(int argc, char **argv);
@@ -54,6 +57,9 @@ const volatile sig_atomic_t *stop_signals_install(void);
  * printed. `name` is kept by reference. Only the program's main file contains the commit, so that a new commit does not
  * relink the tests. */
 void version_commit(const char *name);
+
+/* Returns the commit that version_commit has set. */
+const char *version_commit_name(void);
 
 /* Prints one line: version and commit. */
 void version_print(FILE *out);

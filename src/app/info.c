@@ -14,6 +14,8 @@ static const char *commit = "";
 
 void version_commit(const char *name) { commit = name; }
 
+const char *version_commit_name(void) { return commit; }
+
 void version_print(FILE *out)
 {
     fprintf(out, *commit ? "cleave %s (commit %s)\n" : "cleave %s\n", CLEAVE_VERSION, commit);

@@ -16,6 +16,8 @@
 #include "coupling/coupling_part.h"
 #include "step/report.h"
 #include "output/output.h"
+#include "output/output_files.h"
+#include "report/report.h"
 #include "mesh/mesh_part.h"
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
@@ -134,8 +136,9 @@ status command_run(int argc, char **argv)
     const volatile sig_atomic_t *stop = stop_signals_install(); /* before the scene is read, which can take seconds */
     struct run_arguments a;
     struct pilot pilot;
-    TRY(arguments_read(&a, argc, argv,
-                       "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
+    struct path folder = {{0}};
+    const bool page = arguments_remove_option(&argc, argv, "--report");
+    TRY(arguments_read(&a, argc, argv, "run " RUN_WORDS));
     int threads = team_set_threads(a.threads);
     struct scene s = {0};
     struct run e = {0};
@@ -144,9 +147,13 @@ status command_run(int argc, char **argv)
                                      (struct study_options){.quiet = a.quiet, .stop = stop});
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
     engine_free(&e);
+    if (out.folder) snprintf(folder.text, sizeof folder.text, "%s", out.folder);
     output_close(&out);
     scene_free(&s);
     pilot_free(&pilot);
+    if (result == OK && page)
+        result = report_write(
+            &(struct report_request){.folder = folder.text, .commit = version_commit_name(), .quiet = a.quiet});
     arguments_free(&a);
     return result;
 }

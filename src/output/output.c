@@ -12,6 +12,7 @@
 #include "output/checksum.h"
 #include "output/folder_guard.h"
 #include "output/output_files.h"
+#include "output/page_file.h"
 #include "output/picture_file.h"
 #include "output/pictures.h"
 #include "output/summary_read.h"
@@ -348,7 +349,7 @@ static status folder_prepare(const char *folder, const char *scene_text, enum ou
     if (!file_has_contents(scene.text, scene_text, strlen(scene_text))) TRY(file_check_replaceable(scene.text));
     TRY(folder_make(frames.text));
     temporary_remove(folder);
-    if (mode != OUTPUT_RESUME) run_each(folder, file_remove);
+    if (mode != OUTPUT_RESUME) page_file_remove(folder), run_each(folder, file_remove);
     return file_write_whole(scene.text, scene_text, strlen(scene_text));
 }
 

@@ -315,6 +315,7 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c);
     plotted_particles_free(&c);
     TRY(drew);
+    if (r->quiet) return OK;
     const int said =
         printf("%s: %lld particles, %d boundary condition%s, %d pre-crack%s, %d probe%s\n",
                printable_name(path.text).text, (long long)drawn, s->boundaries, s->boundaries == 1 ? "" : "s",

@@ -1,0 +1,23 @@
+/* Room `report`: writes a run or a study as one page for a browser, from the files of its folder alone. It uses the
+ * pictures of the room `plot` and the units of the room `study`; only commands call it. */
+#ifndef CLEAVE_REPORT_PAGE
+#define CLEAVE_REPORT_PAGE
+
+#include "base/base.h"
+
+/* Request for a page. */
+struct report_request {
+    const char *folder; /* folder of a run, a sweep or a convergence study */
+    const char *out;    /* file, or folder for report.html; NULL: FOLDER/report.html */
+    const char *commit; /* commit of this program; "": unknown */
+    bool overwrite;     /* replace a file that is no page of Cleave */
+    bool quiet;         /* do not print the name of the page */
+};
+
+/* Writes the page of the run or study in r->folder: one HTML file that needs no other file and no network. A run may
+ * still be running or interrupted. Prints the name of the page and its size. Returns REFUSED if the folder holds
+ * neither, or if the page would replace a file that is no page of Cleave; FAILED if a file cannot be read or written.
+ */
+status report_write(const struct report_request *r);
+
+#endif

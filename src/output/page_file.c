@@ -1,0 +1,26 @@
+/* Pages of `cleave report` as files. */
+#include "output/page_file.h"
+
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "output/output_files.h"
+
+bool page_file_is_own(const char *path)
+{
+    char begin[sizeof PAGE_BEGINNING - 1];
+    struct stat s;
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) return false;
+    const bool whole = fstat(fd, &s) == 0 && S_ISREG(s.st_mode) && read(fd, begin, sizeof begin) == sizeof begin;
+    close(fd);
+    return whole && memcmp(begin, PAGE_BEGINNING, sizeof begin) == 0;
+}
+
+void page_file_remove(const char *folder)
+{
+    const struct path page = path_join(folder, PAGE_NAME);
+    if (page_file_is_own(page.text)) unlink(page.text);
+}

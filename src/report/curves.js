@@ -1,0 +1,209 @@
+// Curves: axes, and the columns of history.csv, one panel for each unit.
+
+// Returns a plot area with the maps x(value) and y(value) to pixels, and back.
+function axesOf(area, [x0, x1], [y0, y1]) {
+    const x = (v) => area.left + (v - x0) / (x1 - x0) * (area.right - area.left);
+    const y = (v) => area.bottom - (v - y0) / (y1 - y0) * (area.bottom - area.top);
+    return { ...area, x, y, x0, x1, y0, y1, back: (px) => x0 + (px - area.left) / (area.right - area.left) * (x1 - x0) };
+}
+
+function padded(low, high) {
+    if (!(high > low)) return [low - (Math.abs(low) || 1) * 0.5, high + (Math.abs(high) || 1) * 0.5];
+    return [low - 0.05 * (high - low), high + 0.05 * (high - low)];
+}
+
+function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
+    const xs = ticks(a.x0 / xUnit.factor, a.x1 / xUnit.factor, (a.right - a.left) / 90), ys = ticks(a.y0 / yUnit.factor, a.y1 / yUnit.factor, (a.bottom - a.top) / 42);
+    context.lineWidth = 1;
+    context.strokeStyle = "#e8eaee";
+    context.fillStyle = "#5d6675";
+    context.textAlign = "right";
+    for (const v of ys) {
+        const y = a.y(v * yUnit.factor);
+        context.beginPath(), context.moveTo(a.left, y), context.lineTo(a.right, y), context.stroke();
+        context.fillText(tickText(v, ys), a.left - 7, y + 4);
+    }
+    context.textAlign = "center";
+    for (const v of xs) {
+        const x = a.x(v * xUnit.factor);
+        context.beginPath(), context.moveTo(x, a.top), context.lineTo(x, a.bottom), context.stroke();
+        if (xLabel) context.fillText(tickText(v, xs), x, a.bottom + 16);
+    }
+    context.strokeStyle = "#8a93a2";
+    context.beginPath(), context.moveTo(a.left, a.top), context.lineTo(a.left, a.bottom), context.lineTo(a.right, a.bottom), context.stroke();
+    context.fillStyle = "#1d2330";
+    if (xLabel) context.fillText(xLabel, (a.left + a.right) / 2, a.bottom + 35);
+    context.textAlign = "left";
+    context.fillText(yLabel, 6, a.top - 9);
+}
+
+// ---- history --------------------------------------------------------------------------------------------------------
+
+const history_ = { columns: [], shown: [], over: 0, zoom: null, panels: [], at: null };
+
+function readColumns() {
+    history_.columns = page.history.header.split(",").map((cell, k) => {
+        const [, name, unit] = cell.match(/^(.*?)(?: \[(.*)\])?$/), values = arrayOf(page.history.columns[k]);
+        let [low, high] = [Infinity, -Infinity];
+        for (const v of values) if (Number.isFinite(v)) low = Math.min(low, v), high = Math.max(high, v);
+        return { name, unit: unit && unit !== "1" ? unit : "", values, low, high };
+    });
+}
+
+// Columns to begin with: the energies, and the length of the crack if one grows; with load steps the loads.
+function columnsToBegin() {
+    const wanted = history_.columns.filter((c) => c.high > c.low && (c.unit === "J" || c.name === "crack_length"));
+    const loads = history_.columns.filter((c) => c.high > c.low && c.unit === "N").slice(0, 3);
+    return wanted.concat(loads);
+}
+
+function showColumns() {
+    const groups = new Map(), constant = [];
+    history_.columns.forEach((c, k) => {
+        if (k < 2 && /^(time|step|load_step)$/.test(c.name)) return;
+        if (!(c.high > c.low)) return constant.push(c.name + (c.low === c.high ? " = " + quantity(c.low, c.unit) : ""));
+        if (!groups.has(c.unit)) groups.set(c.unit, []);
+        groups.get(c.unit).push(c);
+    });
+    for (const [unit, list] of groups)
+        byId("columns").append(element("div", { className: "chips" }, element("span", { className: "unit" }, unit ? "[" + unit + "]" : "[1]"), ...list.map((c) => {
+            const box = element("input", { type: "checkbox", checked: history_.shown.includes(c), onchange: () => {
+                history_.shown = history_.columns.filter((o) => (o === c ? box.checked : history_.shown.includes(o)));
+                drawCurves();
+            } });
+            c.mark = element("i");
+            return element("label", {}, box, c.mark, c.name);
+        })));
+    const said = [page.history.rows < page.history.listed ? number(page.history.rows) + " of " + number(page.history.listed) + " lines of history.csv." : "",
+        constant.length ? "Constant: " + constant.join(", ") + "." : ""];
+    byId("rows").textContent = said.join(" ");
+}
+
+// The shown columns by their units, one panel each.
+function panelsOf() {
+    const units = [...new Set(history_.shown.map((c) => c.unit))];
+    return units.map((unit) => ({ unit, columns: history_.shown.filter((c) => c.unit === unit) }));
+}
+
+function drawCurves() {
+    const panels = panelsOf(), each = panels.length > 2 ? 170 : 220, over = history_.columns[history_.over];
+    const { context, width, height } = canvasOf(byId("plot"), Math.max(panels.length, 1) * (each + 34) + 44);
+    const zoom = history_.zoom || [over.low, over.high > over.low ? over.high : over.low + 1], xUnit = unitFor(Math.max(Math.abs(over.low), Math.abs(over.high)), over.unit);
+    context.fillStyle = "#fff";
+    context.fillRect(0, 0, width, height);
+    for (const c of history_.columns) if (c.mark) c.mark.style.background = "";
+    panels.forEach((panel, k) => drawPanel(context, panel, over, zoom, xUnit, { left: 76, right: width - 18, top: 28 + k * (each + 34), bottom: k * (each + 34) + each + 16 }, k === panels.length - 1));
+    history_.panels = panels;
+    drawMarks(context, over);
+}
+
+function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
+    let [low, high] = [Infinity, -Infinity];
+    const inside = (k) => over.values[k] >= zoom[0] && over.values[k] <= zoom[1];
+    for (const c of panel.columns) for (let k = 0; k < c.values.length; k++)
+        if (inside(k) && Number.isFinite(c.values[k])) low = Math.min(low, c.values[k]), high = Math.max(high, c.values[k]);
+    if (!(high >= low)) low = 0, high = 1;
+    const unit = unitFor(Math.max(Math.abs(low), Math.abs(high)), panel.unit), a = axesOf(area, zoom, padded(low, high));
+    const names = panel.columns.length === 1 ? panel.columns[0].name.replace(/_/g, " ") : "";
+    drawAxes(context, a, xUnit, unit, lowest ? over.name.replace(/_/g, " ") + (xUnit.name ? " [" + xUnit.name + "]" : "") : "", (names + (unit.name ? " [" + unit.name + "]" : "")).trim());
+    context.save();
+    context.beginPath(), context.rect(a.left, a.top - 2, a.right - a.left, a.bottom - a.top + 4), context.clip();
+    panel.columns.forEach((c, k) => {
+        context.strokeStyle = curveColours[k % curveColours.length];
+        if (c.mark) c.mark.style.background = context.strokeStyle;
+        context.lineWidth = 1.7;
+        context.beginPath();
+        let pen = false;
+        for (let i = 0; i < c.values.length; i++) {
+            if (!Number.isFinite(c.values[i])) pen = false;
+            else context[pen ? "lineTo" : "moveTo"](a.x(over.values[i]), a.y(c.values[i])), pen = true;
+        }
+        context.stroke();
+    });
+    context.restore();
+    if (panel.columns.length > 1) drawKey(context, panel, a);
+    panel.axes = a;
+    panel.shownUnit = unit;
+}
+
+function drawKey(context, panel, a) {
+    let x = a.left + 44;
+    panel.columns.forEach((c, k) => {
+        const name = c.name.replace(/_/g, " ");
+        context.fillStyle = curveColours[k % curveColours.length];
+        context.fillRect(x, a.top - 16, 14, 3);
+        context.fillStyle = "#1d2330";
+        context.fillText(name, x + 19, a.top - 10);
+        x += context.measureText(name).width + 38;
+    });
+}
+
+// Vertical lines: the time of the frame above, the sample under the pointer, the range that is dragged.
+function drawMarks(context, over) {
+    const line = (value, colour) => {
+        for (const { axes: a } of history_.panels) {
+            if (!(value >= a.x0 && value <= a.x1)) continue;
+            context.strokeStyle = colour;
+            context.beginPath(), context.moveTo(a.x(value), a.top), context.lineTo(a.x(value), a.bottom), context.stroke();
+        }
+    };
+    context.lineWidth = 1;
+    if (film && history_.over === 0) line(film.frames[view.frame].t, "#d55e00");
+    if (history_.at !== null) line(over.values[history_.at], "#5d6675");
+    for (const { axes: a } of history_.panels)
+        if (history_.drag) context.fillStyle = "#0a5fa522", context.fillRect(Math.min(...history_.drag), a.top, Math.abs(history_.drag[1] - history_.drag[0]), a.bottom - a.top);
+}
+
+function sampleAt(px) {
+    const over = history_.columns[history_.over], wanted = history_.panels[0].axes.back(px);
+    let best = 0;
+    for (let k = 1; k < over.values.length; k++) if (Math.abs(over.values[k] - wanted) < Math.abs(over.values[best] - wanted)) best = k;
+    return best;
+}
+
+function readValues() {
+    const k = history_.at, over = history_.columns[history_.over];
+    byId("values").textContent = k === null ? "" : [over].concat(history_.shown).map((c) => c.name + " " + quantity(c.values[k], c.unit, 5)).join(" · ");
+}
+
+function listenToCurves() {
+    const canvas = byId("plot"), at = (e) => e.clientX - canvas.getBoundingClientRect().left;
+    canvas.addEventListener("pointerdown", (e) => (history_.drag = [at(e), at(e)], canvas.setPointerCapture(e.pointerId)));
+    canvas.addEventListener("pointermove", (e) => {
+        if (history_.panels.length === 0) return;
+        if (history_.drag) history_.drag[1] = at(e);
+        history_.at = sampleAt(at(e));
+        readValues();
+        drawCurves();
+    });
+    canvas.addEventListener("pointerup", (e) => {
+        const [from, to] = history_.drag || [0, 0];
+        history_.drag = null;
+        if (history_.panels.length === 0) return;
+        const a = history_.panels[0].axes;
+        if (Math.abs(to - from) > 6) history_.zoom = [a.back(Math.min(from, to)), a.back(Math.max(from, to))];
+        else if (film && history_.over === 0) showFrameOf(a.back(at(e)));
+        drawCurves();
+    });
+    canvas.addEventListener("pointerleave", () => (history_.at = null, readValues(), drawCurves()));
+    canvas.addEventListener("dblclick", () => (history_.zoom = null, drawCurves()));
+    byId("unzoom").addEventListener("click", () => (history_.zoom = null, drawCurves()));
+    byId("over").addEventListener("change", () => (history_.over = Number(byId("over").value), history_.zoom = null, drawCurves()));
+}
+
+// Shows the frame nearest to a time.
+function showFrameOf(t) {
+    const off = film.frames.map((f) => Math.abs(f.t - t));
+    stop();
+    setFrame(off.indexOf(Math.min(...off)));
+}
+
+function showCurves() {
+    section("curves");
+    readColumns();
+    history_.shown = columnsToBegin();
+    byId("over").append(...history_.columns.map((c, k) => element("option", { value: k }, c.name)).filter((o, k) => history_.columns[k].high > history_.columns[k].low));
+    showColumns();
+    listenToCurves();
+    drawCurves();
+}

@@ -1,0 +1,313 @@
+/* Reads the frames of a run twice: for particle sets and ranges, then for the values that fit into the page. */
+#include "film.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/arrays.h"
+#include "base/memory.h"
+
+enum { FRAMES_MOST = 61, FRAMES_FEWER = 21, FRAMES_FEWEST = 11, EVERY_MOST = 32 };
+enum { U16_MOST = 65535, I16_MOST = 32767 };
+
+/* Plastic strain above which a particle counts as busy [1]. */
+static const float YIELDED = 1e-4f;
+
+/* ---- particle sets ----------------------------------------------------------------------------------------------- */
+
+static void *copy_of(const void *from, int64_t n, size_t size)
+{
+    void *to = memory_new("report.set", n, size);
+    array_copy(to, from, n, size);
+    return to;
+}
+
+/* Returns true if a frame has the particles of the set. */
+static bool set_is_of(const struct film_set *s, const struct output_frame *frame)
+{
+    bool same = s->n == frame->n && !s->size == !frame->spacing;
+    for (int d = 0; same && d < frame->dim; d++) same = arrays_equal(s->X[d], frame->X[d], s->n, sizeof(float));
+    return same && (!s->size || arrays_equal(s->size, frame->spacing, s->n, sizeof(float)));
+}
+
+static void set_make(struct film_set *s, const struct output_frame *frame)
+{
+    const int64_t n = frame->n;
+    *s = (struct film_set){.n = n};
+    for (int d = 0; d < frame->dim; d++) s->X[d] = copy_of(frame->X[d], n, sizeof(float));
+    if (frame->spacing) s->size = copy_of(frame->spacing, n, sizeof(float));
+    s->material = copy_of(frame->material, n, sizeof(uint8_t));
+    s->body = copy_of(frame->body, n, sizeof(uint8_t));
+    s->busy = NEW("report.busy", n, bool);
+    s->history = NEW("report.history", n, uint32_t);
+    s->level = NEW("report.level", n, uint8_t);
+    s->first = NEW("report.first", n + 1, int32_t);
+    s->member = NEW("report.member", n, int32_t);
+    s->hidden = NEW("report.hidden", n, bool);
+}
+
+static void set_free(struct film_set *s)
+{
+    for (int d = 0; d < DIM_MAX; d++) memory_free(s->X[d]);
+    memory_free(s->size), memory_free(s->material), memory_free(s->body), memory_free(s->busy);
+    memory_free(s->history), memory_free(s->level), memory_free(s->first), memory_free(s->member);
+    memory_free(s->hidden);
+}
+
+/* Marks particles that are damaged or have yielded in this frame, and adds kind and fragment to their history. */
+static void set_mark(struct film_set *s, const struct output_frame *frame, const char *path)
+{
+    int columns = 0;
+    float *strain = NULL;
+    const bool yields = frame_field_read(frame, path, "plastic_strain", &columns, &strain) == OK && columns == 1;
+    for (int64_t i = 0; i < s->n; i++) {
+        const uint32_t fragment = frame->fragment ? (uint32_t)frame->fragment[i] + 2 : 0;
+        s->busy[i] |= frame->damage[i] > 0 || (yields && strain[i] > YIELDED);
+        s->history[i] = (s->history[i] * 31 + frame->kind[i]) * 2654435761u + fragment;
+    }
+    if (columns > 0) memory_free(strain);
+}
+
+/* ---- first reading ----------------------------------------------------------------------------------------------- */
+
+static void frame_scan(struct film *f, struct film_frame *shown, const struct output_frame *frame, const char *path)
+{
+    if (f->sets == 0 || !set_is_of(&f->set[f->sets - 1], frame)) {
+        GROW("report.sets", f->set, f->sets + 1);
+        set_make(&f->set[f->sets++], frame);
+    }
+    f->dim = frame->dim;
+    shown->set = f->sets - 1;
+    shown->step = frame->step;
+    set_mark(&f->set[shown->set], frame, path);
+    for (int d = 0; d < f->dim; d++)
+        for (int64_t i = 0; i < frame->n; i++)
+            if (isfinite(frame->u[d][i])) f->reach[d] = fmax(f->reach[d], fabs((double)frame->u[d][i]));
+    film_fields_scan(f, frame, path);
+}
+
+/* Selects at most `most` of n evenly spread numbers, the first and the last included. Returns the k-th of them. */
+static int spread(int k, int n, int most) { return n <= most ? k : (int)lround((double)k * (n - 1) / (most - 1)); }
+
+status film_read(struct film *f, const char *folder)
+{
+    struct listed_frame *list = NULL;
+    *f = (struct film){.folder = folder, .every = 1};
+    TRY(frames_list(folder, &f->listed, &list));
+    f->frames = f->listed < FRAMES_MOST ? f->listed : FRAMES_MOST;
+    f->frame = NEW("report.frames", f->frames, struct film_frame);
+    status s = OK;
+    for (int k = 0; s == OK && k < f->frames; k++) {
+        struct output_frame frame;
+        f->frame[k].listed = list[spread(k, f->listed, f->frames)];
+        s = run_read_frame(&frame, folder, f->frame[k].listed.number);
+        if (s != OK) break;
+        if (k == 0) f->dim = frame.dim, f->spacing = frame_spacing(&frame), film_fields_list(f);
+        frame_scan(f, &f->frame[k], &frame, run_frame_path(folder, f->frame[k].listed.number).text);
+        frame_free(&frame);
+    }
+    memory_free(list);
+    film_fields_settle(f);
+    if (s != OK) film_free(f);
+    return s;
+}
+
+void film_free(struct film *f)
+{
+    for (int k = 0; k < f->sets; k++) set_free(&f->set[k]);
+    for (int k = 0; k < f->fields; k++) memory_free(f->field[k].sample);
+    memory_free(f->set), memory_free(f->frame);
+    *f = (struct film){0};
+}
+
+/* ---- budget ------------------------------------------------------------------------------------------------------ */
+
+static void frames_use(struct film *f, int most)
+{
+    for (int k = 0; k < f->frames; k++) f->frame[k].used = false;
+    f->used = f->frames < most ? f->frames : most;
+    for (int k = 0; k < f->used; k++) f->frame[spread(k, f->frames, f->used)].used = true;
+}
+
+static void film_group(struct film *f)
+{
+    for (int k = 0; k < f->sets; k++) film_set_group(&f->set[k], f);
+}
+
+static bool fits(const struct film *f, int64_t budget)
+{
+    const int64_t each = 2 * f->dim + film_fields_bytes(f), once = 2 * f->dim + 6;
+    int64_t bytes = 0;
+    for (int k = 0; k < f->sets; k++) bytes += once * f->set[k].shown;
+    for (int k = 0; k < f->frames; k++) bytes += f->frame[k].used ? each * f->set[f->frame[k].set].shown : 0;
+    return bytes <= budget;
+}
+
+void film_fit(struct film *f, int64_t budget)
+{
+    frames_use(f, FRAMES_MOST);
+    film_group(f);
+    f->lacks_extra = !fits(f, budget);
+    if (fits(f, budget)) return;
+    frames_use(f, FRAMES_FEWER);
+    while (!fits(f, budget) && f->levels < FILM_LEVELS) f->levels++, film_group(f);
+    if (!fits(f, budget)) frames_use(f, FRAMES_FEWEST);
+    while (!fits(f, budget)) {
+        f->every *= 2;
+        f->thins_busy = f->every > EVERY_MOST;
+        film_group(f);
+    }
+}
+
+/* ---- second reading ---------------------------------------------------------------------------------------------- */
+
+/* Writes the reference positions of the shown groups along one axis as 16 bits between their least and greatest. */
+static void write_positions(struct page *p, const struct film_set *s, int d)
+{
+    double *mean = NEW("report.mean", s->groups, double), low = INFINITY, high = -INFINITY;
+    uint16_t *stored = NEW("report.stored", s->shown, uint16_t);
+    int64_t n = 0;
+    for (int64_t g = 0; g < s->groups; g++) {
+        for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) mean[g] += (double)s->X[d][s->member[k]];
+        mean[g] /= s->first[g + 1] - s->first[g];
+        low = fmin(low, mean[g]), high = fmax(high, mean[g]);
+    }
+    for (int64_t g = 0; g < s->groups; g++)
+        if (!s->hidden[g]) stored[n++] = (uint16_t)lround(high > low ? U16_MOST * (mean[g] - low) / (high - low) : 0);
+    json_open(&p->json, NULL, '{');
+    json_number(&p->json, "low", low, JSON_TIMING);
+    json_number(&p->json, "high", high, JSON_TIMING);
+    page_add_array(p, "of", PAGE_U16, stored, n);
+    json_close(&p->json, '}');
+    memory_free(stored), memory_free(mean);
+}
+
+/* Writes the displacements of the shown groups along one axis as 16 bits of the largest. */
+static void write_displacements(struct page *p, const struct film *f, const struct film_set *s, const float *u, int d)
+{
+    int16_t *stored = NEW("report.stored", s->shown, int16_t);
+    int64_t n = 0;
+    for (int64_t g = 0; g < s->groups; g++) {
+        double sum = 0;
+        if (s->hidden[g]) continue;
+        for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) sum += (double)u[s->member[k]];
+        const double share = sum / (s->first[g + 1] - s->first[g]) / f->reach[d];
+        stored[n++] = (int16_t)(isfinite(share) ? lround(I16_MOST * fmin(fmax(share, -1), 1)) : 0);
+    }
+    page_add_array(p, NULL, PAGE_I16, stored, n);
+    memory_free(stored);
+}
+
+static void write_sizes(struct page *p, const struct film *f, const struct film_set *s)
+{
+    float *size = NEW("report.size", s->shown, float);
+    int64_t n = 0;
+    for (int64_t g = 0; g < s->groups; g++)
+        if (!s->hidden[g]) size[n++] = (float)film_group_size(s, f, g);
+    if (s->size || f->levels > 0 || f->every > 1) page_add_array(p, "size", PAGE_F32, size, n);
+    memory_free(size);
+}
+
+/* Writes what the frames of a set share. frame: the first of them. */
+static void write_set(struct page *p, const struct film *f, const struct film_set *s, const struct output_frame *frame,
+                      const char *path)
+{
+    json_open(&p->json, NULL, '{');
+    json_count(&p->json, "particles", s->n);
+    json_count(&p->json, "n", s->shown);
+    json_open(&p->json, "X", '[');
+    for (int d = 0; d < f->dim; d++) write_positions(p, s, d);
+    json_close(&p->json, ']');
+    write_sizes(p, f, s);
+    json_open(&p->json, "fixed", '{');
+    for (int k = 0; k < f->fields; k++)
+        if (f->field[k].fixed && film_field_is_shown(f, &f->field[k]))
+            film_field_write(p, &f->field[k], s, frame, path);
+    json_close(&p->json, '}');
+    json_close(&p->json, '}');
+}
+
+static status write_sets(struct page *p, const struct film *f)
+{
+    json_open(&p->json, "sets", '[');
+    for (int k = 0; k < f->sets; k++) {
+        struct output_frame frame;
+        int at = 0;
+        while (f->frame[at].set != k) at++;
+        const int number = f->frame[at].listed.number;
+        TRY(run_read_frame(&frame, f->folder, number));
+        write_set(p, f, &f->set[k], &frame, run_frame_path(f->folder, number).text);
+        frame_free(&frame);
+    }
+    json_close(&p->json, ']');
+    return OK;
+}
+
+static void write_fields(struct page *p, const struct film *f)
+{
+    static const char *const scale[] = {"zero", "signs", "least", "category"};
+    json_open(&p->json, "fields", '[');
+    for (int k = 0; k < f->fields; k++) {
+        const struct film_field *field = &f->field[k];
+        if (!film_field_is_shown(f, field)) continue;
+        json_open(&p->json, NULL, '{');
+        json_text(&p->json, "name", field->of->name);
+        json_text(&p->json, "unit", field->of->unit);
+        json_text(&p->json, "scale", scale[field->of->scale]);
+        json_number(&p->json, "low", field->low, JSON_TIMING);
+        json_number(&p->json, "high", field->high, JSON_TIMING);
+        json_number(&p->json, "least", field->least, JSON_TIMING);
+        json_number(&p->json, "most", field->most, JSON_TIMING);
+        json_close(&p->json, '}');
+    }
+    json_close(&p->json, ']');
+}
+
+static status write_frame(struct page *p, const struct film *f, const struct film_frame *shown)
+{
+    struct output_frame frame;
+    const struct film_set *s = &f->set[shown->set];
+    const struct path path = run_frame_path(f->folder, shown->listed.number);
+    TRY(run_read_frame(&frame, f->folder, shown->listed.number));
+    if (frame.n != s->n) {
+        frame_free(&frame);
+        return status_set(FAILED, "%s changed while it was read; try again", path.text);
+    }
+    json_open(&p->json, NULL, '{');
+    json_count(&p->json, "number", shown->listed.number);
+    json_count(&p->json, "step", shown->step);
+    json_number(&p->json, "t", shown->listed.time, JSON_TIMING);
+    json_count(&p->json, "set", shown->set);
+    json_open(&p->json, "u", '[');
+    for (int d = 0; d < f->dim; d++) write_displacements(p, f, s, frame.u[d], d);
+    json_close(&p->json, ']');
+    json_open(&p->json, "values", '{');
+    for (int k = 0; k < f->fields; k++)
+        if (film_field_is_shown(f, &f->field[k]) && !f->field[k].fixed)
+            film_field_write(p, &f->field[k], s, &frame, path.text);
+    json_close(&p->json, '}');
+    json_close(&p->json, '}');
+    frame_free(&frame);
+    return OK;
+}
+
+status film_write(struct page *p, const struct film *f)
+{
+    json_open(&p->json, "film", '{');
+    json_count(&p->json, "dim", f->dim);
+    json_number(&p->json, "spacing", f->spacing, JSON_TIMING);
+    json_count(&p->json, "listed", f->listed);
+    json_count(&p->json, "levels", f->levels);
+    json_count(&p->json, "every", f->every);
+    json_open(&p->json, "reach", '[');
+    for (int d = 0; d < f->dim; d++) json_number(&p->json, NULL, f->reach[d], JSON_TIMING);
+    json_close(&p->json, ']');
+    write_fields(p, f);
+    TRY(write_sets(p, f));
+    json_open(&p->json, "frames", '[');
+    for (int k = 0; k < f->frames; k++)
+        if (f->frame[k].used) TRY(write_frame(p, f, &f->frame[k]));
+    json_close(&p->json, ']');
+    json_close(&p->json, '}');
+    return OK;
+}

@@ -1,0 +1,415 @@
+// The frames: slider, field, colours, view, cut, readout.
+
+const film = page.film;
+const view = { frame: 0, field: null, low: 0, high: 1, lut: null, codes: null, scale: 1, x: 0, y: 0, centre: null, turn: null, x_of: null };
+const BAR = 104;  // room for the colour bar [CSS pixel]
+const kindNames = ["material points", "peridynamic"];
+
+const rgba = ([red, green, blue]) => (0xff000000 | blue << 16 | green << 8 | red) >>> 0;
+
+// ---- fields ---------------------------------------------------------------------------------------------------------
+
+// Fields that follow from the displacements, which have no arrays of their own.
+function displacementFields() {
+    const most = Math.hypot(...film.reach), axes = ["x", "y", "z"].slice(0, film.dim);
+    if (!(most > 0)) return [];
+    const of = (name, scale, low, high, axis) => ({ name, unit: "m", scale, low, high, least: low, most: high, axis });
+    return [of("displacement", "zero", 0, most, -1)].concat(axes.map((a, d) =>
+        of("displacement_" + a, "signs", -film.reach[d], film.reach[d], d)).filter((f) => f.high > 0));
+}
+
+// Returns the codes 0 .. 254 of a field at the particles of a frame; 255: none.
+function codesOf(field, frame) {
+    const set = film.sets[frame.set];
+    if (set.fixed[field.name]) return arrayOf(set.fixed[field.name]);
+    if (frame.values[field.name]) return arrayOf(frame.values[field.name]);
+    const codes = new Uint8Array(set.n);
+    if (field.axis === undefined) return codes;
+    const u = frame.u.map(arrayOf), factor = film.reach.map((r) => r / 32767);
+    for (let i = 0; i < set.n; i++) {
+        let value = 0;
+        if (field.axis >= 0) value = u[field.axis][i] * factor[field.axis];
+        else for (let d = 0; d < film.dim; d++) value += (u[d][i] * factor[d]) ** 2;
+        if (field.axis < 0) value = Math.sqrt(value);
+        codes[i] = Math.round(254 * (value - field.low) / (field.high - field.low));
+    }
+    return codes;
+}
+
+const damageOf = (frame) => (frame.values.damage ? arrayOf(frame.values.damage) : null);
+const valueOf = (field, code) => field.low + (field.high - field.low) * code / 254;
+
+function nameOf(field, code) {
+    if (field.name === "kind") return kindNames[code] || String(code);
+    if (field.name === "fragment") return code === 65535 ? "no bonds" : "fragment " + code;
+    return ((page.names || {})[field.name] || [])[code] || field.name + " " + code;
+}
+
+function categoryColour(field, code) {
+    if (field.name === "fragment")
+        return code === 65535 ? [40, 40, 44] : code === 0 ? fragmentColours[0] : fragmentColours[1 + (code - 1) % 9];
+    if (field.name === "kind") return code === 1 ? [44, 110, 180] : [226, 223, 216];
+    return partColours[code % partColours.length];
+}
+
+// Makes the table of colours by code, for the limits of the view.
+function makeLut() {
+    const field = view.field, n = field.name === "fragment" ? 65536 : 256, lut = new Uint32Array(n);
+    const stops = field.name === "damage" ? scales.damage : scales[field.scale === "signs" ? "signs" : "zero"];
+    for (let code = 0; code < n; code++)
+        lut[code] = rgba(field.scale === "category" ? categoryColour(field, code)
+            : scaleColour(stops, (valueOf(field, code) - view.low) / (view.high - view.low)));
+    if (field.scale !== "category") lut[255] = rgba([150, 150, 150]);
+    view.lut = lut;
+}
+
+// ---- drawing --------------------------------------------------------------------------------------------------------
+
+const buffer = { image: null, owner: null, depth: null, pixel: null, width: 0, height: 0 };
+
+function bufferOf(context, width, height) {
+    if (buffer.width !== width || buffer.height !== height) {
+        Object.assign(buffer, { width, height, image: context.createImageData(width, height), owner: new Int32Array(width * height), depth: new Float32Array(width * height) });
+        buffer.pixel = new Uint32Array(buffer.image.data.buffer);
+    }
+    buffer.pixel.fill(0xffffffff);
+    buffer.owner.fill(-1);
+    return buffer;
+}
+
+function drawFilm() {
+    const frame = film.frames[view.frame], { context, width, height, ratio } = canvasOf(byId("view"), view.height);
+    context.fillStyle = "#fff";
+    context.fillRect(0, 0, width, height);
+    view.codes = codesOf(view.field, frame);
+    view.x_of = positionsOf(film, frame, view.magnify);
+    if (film.dim === 1) drawProfile(context, width, height, frame);
+    else {
+        const to = bufferOf(context, Math.round((width - BAR) * ratio), Math.round(height * ratio));
+        paintFrame(to, frame, ratio);
+        context.putImageData(to.image, 0, 0);
+        if (film.dim === 2) drawPreCracks(context, width - BAR, height);
+        else drawTriad(context, height);
+        drawScaleBar(context, width - BAR, height);
+        drawColourBar(context, width, height);
+    }
+    context.fillStyle = "#1d2330";
+    context.fillText(timeText(frame), 10, 20);
+}
+
+function paintFrame(to, frame, ratio) {
+    const set = particlesOf(film, film.sets[frame.set]), { lut, codes } = view, damage = damageOf(frame);
+    const dark = byId("cracks").checked && view.field.name !== "damage" && damage;
+    const colour = (i) => (dark && damage[i] > CRACK_CODE ? INK : lut[codes[i]]);
+    if (film.dim === 2) {
+        paintPlane(to, { x: view.x, y: view.y, scale: view.scale * ratio }, set, view.x_of, colour, damage);
+        return;
+    }
+    const axis = Number(byId("cut").value), ghost = byId("ghost").checked && damage;
+    const place = axis < 0 ? 0 : film.box.low[axis] + byId("cut_at").value * (film.box.high[axis] - film.box.low[axis]);
+    const shown = (i) => axis < 0 || set.X[axis][i] <= place;
+    const see = { centre: view.centre, scale: view.scale * ratio, turn: view.turn };
+    paintSpace(to, see, set, view.x_of, ghost ? () => GHOST : colour, shown);
+    if (ghost) paintSpace(to, see, set, view.x_of, (i) => lut[codes[i]], (i) => damage[i] > CRACK_CODE && shown(i));
+}
+
+const timeText = (frame) => {
+    const last = film.frames[film.frames.length - 1].t;
+    const t = unitFor(last, "s");
+    return "t = " + number(frame.t / t.factor) + " " + t.name;
+};
+
+// Pre-cracks, where they were before the run.
+function drawPreCracks(context, width, height) {
+    context.strokeStyle = "#18202a";
+    context.setLineDash([5, 4]);
+    for (const line of page.cracks || []) {
+        context.beginPath();
+        line.forEach(([x, y], k) => context[k ? "lineTo" : "moveTo"](width / 2 + (x - view.x) * view.scale, height / 2 - (y - view.y) * view.scale));
+        context.stroke();
+    }
+    context.setLineDash([]);
+}
+
+function drawTriad(context, height) {
+    const at = [44, height - 70], length = 26;
+    context.lineWidth = 1.6;
+    ["x", "y", "z"].forEach((name, k) => {
+        const tip = [at[0] + length * view.turn[0][k], at[1] - length * view.turn[1][k]];
+        context.strokeStyle = context.fillStyle = ["#b2182b", "#2c8a3d", "#2166ac"][k];
+        context.beginPath();
+        context.moveTo(...at);
+        context.lineTo(...tip);
+        context.stroke();
+        context.fillText(name, tip[0] + 5 * view.turn[0][k] - 3, tip[1] - 7 * view.turn[1][k] + 4);
+    });
+    context.lineWidth = 1;
+}
+
+// A bar of a round length at the lower left.
+function drawScaleBar(context, width, height) {
+    const metre = unitFor(width / view.scale / 2, "m"), raw = width / view.scale / 5 / metre.factor, power = 10 ** Math.floor(Math.log10(raw));
+    const length = [5, 2, 1].map((f) => f * power).find((l) => l <= raw) || power, pixels = length * metre.factor * view.scale;
+    context.fillStyle = "#ffffffcc";
+    context.fillRect(6, height - 38, Math.max(pixels, 60) + 14, 34);
+    context.fillStyle = "#1d2330";
+    context.fillRect(12, height - 14, pixels, 3);
+    context.fillText(number(length) + " " + metre.name, 12, height - 21);
+}
+
+function drawColourBar(context, width, height) {
+    const field = view.field, left = width - BAR + 12, top = 46, tall = Math.min(height - 80, 360);
+    context.fillStyle = "#1d2330";
+    const unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit), words = field.name.replace(/_/g, " ").split(" ");
+    words.forEach((word, k) => words.length < 3 ? context.fillText(word, left, 20 + 15 * k - (words.length > 1 ? 4 : 0), BAR - 14) : 0);
+    if (words.length > 2) context.fillText(words.join(" "), left, 20, BAR - 14);
+    if (field.scale === "category") return drawCategories(context, left, top, height);
+    if (unit.name) context.fillText("[" + unit.name + "]", left, words.length === 2 ? 43 : 36);
+    const stops = field.name === "damage" ? scales.damage : scales[field.scale === "signs" ? "signs" : "zero"];
+    for (let k = 0; k < tall; k++) {
+        context.fillStyle = "rgb(" + scaleColour(stops, 1 - k / tall).join() + ")";
+        context.fillRect(left, top + 6 + k, 15, 1.5);
+    }
+    const list = ticks(view.low / unit.factor, view.high / unit.factor, 6);
+    context.fillStyle = "#1d2330";
+    for (const value of list) {
+        const y = top + 6 + tall * (1 - (value * unit.factor - view.low) / (view.high - view.low));
+        context.fillRect(left + 15, y - 0.5, 4, 1);
+        context.fillText(tickText(value, list), left + 22, y + 4);
+    }
+}
+
+function drawCategories(context, left, top, height) {
+    const seen = new Set(view.codes), list = [...seen].sort((a, b) => a - b);
+    const most = Math.floor((height - top - 20) / 19);
+    list.slice(0, most).forEach((code, k) => {
+        context.fillStyle = "rgb(" + categoryColour(view.field, code).join() + ")";
+        context.fillRect(left, top + 19 * k, 12, 12);
+        context.fillStyle = "#1d2330";
+        context.fillText(nameOf(view.field, code), left + 17, top + 11 + 19 * k, BAR - 32);
+    });
+    context.fillStyle = "#1d2330";
+    if (list.length > most) context.fillText("and " + (list.length - most) + " more", left, top + 11 + 19 * most);
+}
+
+// A bar in one dimension: the field over the position.
+function drawProfile(context, width, height, frame) {
+    const x = view.x_of[0], order = Array.from(x.keys()).sort((a, b) => x[a] - x[b]), field = view.field;
+    const metre = unitFor(film.box.high[0] - film.box.low[0], "m"), unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit);
+    const axes = axesOf({ left: 76, right: width - 20, top: 34, bottom: height - 44 }, [film.box.low[0], film.box.high[0]], padded(view.low, view.high));
+    drawAxes(context, axes, metre, unit, "x [" + metre.name + "]", field.name.replace(/_/g, " ") + (unit.name ? " [" + unit.name + "]" : ""));
+    context.fillStyle = curveColours[0];
+    context.strokeStyle = curveColours[0];
+    context.beginPath();
+    order.forEach((i, k) => context[k ? "lineTo" : "moveTo"](axes.x(x[i]), axes.y(valueOf(field, view.codes[i]))));
+    context.stroke();
+    const damage = damageOf(frame);
+    for (const i of order) if (damage && damage[i] > CRACK_CODE) context.fillStyle = "#b2182b", context.fillRect(axes.x(x[i]) - 2, axes.y(valueOf(field, view.codes[i])) - 2, 4, 4);
+    view.axes = axes;
+}
+
+// ---- controls -------------------------------------------------------------------------------------------------------
+
+function setFrame(k) {
+    view.frame = Math.min(Math.max(k, 0), film.frames.length - 1);
+    const frame = film.frames[view.frame];
+    byId("frame").value = view.frame;
+    byId("when").textContent = "frame " + (frame.number) + ", " + timeText(frame) + ", step " + number(frame.step);
+    drawFilm();
+    if (page.history) drawCurves();
+}
+
+function setField(name) {
+    view.field = film.fields.find((f) => f.name === name) || film.fields[0];
+    byId("field").value = view.field.name;
+    setLimits(view.field.low, view.field.high);
+}
+
+function setLimits(low, high) {
+    const field = view.field, unit = unitFor(Math.max(Math.abs(field.low), Math.abs(field.high)), field.unit);
+    view.low = low;
+    view.high = high > low ? high : low + Math.abs(low) * 1e-6 + 1e-30;
+    byId("limits").hidden = byId("auto").hidden = field.scale === "category";
+    byId("limits").style.display = field.scale === "category" ? "none" : "";
+    byId("low").value = Number((low / unit.factor).toPrecision(4));
+    byId("high").value = Number((high / unit.factor).toPrecision(4));
+    byId("unit").textContent = unit.name;
+    makeLut();
+    drawFilm();
+}
+
+function readLimits() {
+    const field = view.field, unit = unitFor(Math.max(Math.abs(field.low), Math.abs(field.high)), field.unit);
+    setLimits(byId("low").value * unit.factor, byId("high").value * unit.factor);
+}
+
+function play() {
+    if (view.playing) return stop();
+    if (view.frame === film.frames.length - 1) setFrame(0);
+    byId("play").textContent = "❚❚ pause";
+    view.playing = setInterval(() => (view.frame < film.frames.length - 1 ? setFrame(view.frame + 1) : stop()), 120);
+}
+
+function stop() {
+    clearInterval(view.playing);
+    view.playing = 0;
+    byId("play").textContent = "▶ play";
+}
+
+// The box of the body over all frames, apart from what flies off.
+function boxOf() {
+    const set = particlesOf(film, film.sets[0]), low = [], high = [];
+    const last = positionsOf(film, film.frames[film.frames.length - 1], 1);
+    for (let d = 0; d < film.dim; d++) {
+        const range = (values) => {
+            const sorted = Float32Array.from(values).sort();
+            return [sorted[Math.floor(0.01 * sorted.length)], sorted[Math.ceil(0.99 * sorted.length) - 1]];
+        };
+        let [a, b] = [Infinity, -Infinity];
+        for (let i = 0; i < set.n; i++) a = Math.min(a, set.X[d][i] - set.size[i] / 2), b = Math.max(b, set.X[d][i] + set.size[i] / 2);
+        const [from, to] = range(last[d]), room = 0.5 * (b - a);
+        low.push(Math.max(Math.min(a, from), a - room));
+        high.push(Math.min(Math.max(b, to), b + room));
+    }
+    return { low, high };
+}
+
+// Shows the whole body: from the front in the plane, obliquely in space.
+function resetView() {
+    const { low, high } = film.box, size = high.map((h, d) => h - low[d]), width = byId("view").clientWidth - BAR;
+    if (film.dim === 2) {
+        view.height = Math.round(Math.min(Math.max(width * size[1] / size[0] * 1.04, 180), 620));
+        view.scale = Math.min(width / size[0], view.height / size[1]) / 1.06;
+        [view.x, view.y] = [0, 1].map((d) => (low[d] + high[d]) / 2);
+    } else if (film.dim === 3) {
+        view.height = 560;
+        view.centre = low.map((l, d) => (l + high[d]) / 2);
+        view.turn = [[0.8, 0.6, 0], [-0.3, 0.4, 0.866], [0.52, -0.693, 0.5]].map(unitVector);
+        const extent = (row) => size.reduce((sum, s, d) => sum + Math.abs(row[d]) * s, 0);
+        view.scale = Math.min(width / extent(view.turn[0]), view.height / extent(view.turn[1])) / 1.12;
+    } else view.height = 380;
+    drawFilm();
+}
+
+const unitVector = (v) => v.map((c) => c / Math.hypot(...v));
+
+// Turns the body by angles about the vertical and the horizontal of the screen.
+function turnBy(across, down) {
+    const rotate = (a, b, angle) => {
+        const [c, s] = [Math.cos(angle), Math.sin(angle)], p = view.turn[a], q = view.turn[b];
+        view.turn[a] = p.map((v, k) => c * v + s * q[k]);
+        view.turn[b] = q.map((v, k) => c * v - s * p[k]);
+    };
+    rotate(0, 2, -across);
+    rotate(1, 2, down);
+    view.turn = view.turn.map(unitVector);
+}
+
+function listenToPointer() {
+    const canvas = byId("view");
+    let from = null;
+    canvas.addEventListener("pointerdown", (e) => (from = [e.clientX, e.clientY], canvas.setPointerCapture(e.pointerId)));
+    canvas.addEventListener("pointerup", () => (from = null));
+    canvas.addEventListener("pointermove", (e) => {
+        if (!from) return readParticle(e);
+        const [dx, dy] = [e.clientX - from[0], e.clientY - from[1]];
+        from = [e.clientX, e.clientY];
+        if (film.dim === 3 && !e.shiftKey) turnBy(dx / 150, dy / 150);
+        else if (film.dim === 3) view.centre = view.centre.map((c, k) => c - (dx * view.turn[0][k] - dy * view.turn[1][k]) / view.scale);
+        else view.x -= dx / view.scale, view.y += dy / view.scale;
+        drawFilm();
+    });
+    canvas.addEventListener("wheel", (e) => {
+        if (film.dim === 1) return;
+        e.preventDefault();
+        const box = canvas.getBoundingClientRect(), factor = Math.exp(-e.deltaY / 500);
+        const off = [e.clientX - box.left - (box.width - BAR) / 2, box.top + box.height / 2 - e.clientY];
+        if (film.dim === 2) view.x += off[0] / view.scale * (1 - 1 / factor), view.y += off[1] / view.scale * (1 - 1 / factor);
+        view.scale *= factor;
+        drawFilm();
+    }, { passive: false });
+}
+
+// Says what lies under the pointer.
+function readParticle(e) {
+    if (film.dim === 1) return;
+    const box = byId("view").getBoundingClientRect(), ratio = buffer.height / box.height;
+    const px = Math.floor((e.clientX - box.left) * ratio), py = Math.floor((e.clientY - box.top) * ratio);
+    const i = px >= 0 && py >= 0 && px < buffer.width && py < buffer.height ? buffer.owner[py * buffer.width + px] : -1;
+    byId("readout").textContent = i < 0 ? "" : particleText(i);
+}
+
+function particleText(i) {
+    const frame = film.frames[view.frame], x = positionsOf(film, frame, 1), damage = damageOf(frame);
+    const metre = unitFor(Math.max(...film.box.high.map((h, d) => h - film.box.low[d])), "m");
+    const code = view.codes[i], field = view.field, value = valueOf(field, code);
+    const clipped = field.scale !== "category" && field.axis === undefined && (code === 254 && field.most > field.high * (1 + 1e-6) ? "≥ " : code === 0 && field.least < field.low - 1e-6 * Math.abs(field.low) ? "≤ " : "");
+    const parts = ["at (" + x.map((axis) => number(axis[i] / metre.factor)).join(", ") + ") " + metre.name];
+    parts.push(field.scale === "category" ? field.name + ": " + nameOf(field, code) : field.name.replace(/_/g, " ") + " " + (clipped || "") + quantity(value, field.unit, 3));
+    if (damage && field.name !== "damage") parts.push("damage " + number(damage[i] / 254, 2));
+    return parts.join(" · ");
+}
+
+// What the page leaves out of the frames.
+function thinnedText() {
+    const parts = [], set = film.sets[film.frames[film.frames.length - 1].set];
+    if (film.frames.length < film.listed) parts.push(film.frames.length + " of " + film.listed + " frames.");
+    if (film.levels > 0) parts.push("Where nothing breaks or yields, cells of up to " + Array(film.dim).fill(2 ** film.levels).join(" × ") + " particles are drawn as one, with their mean values.");
+    if (film.every > 1) parts.push("Of the others one in " + film.every + " is drawn.");
+    if (set.n < set.particles) parts.push(number(set.n) + " of " + number(set.particles) + " particles are drawn in the last frame.");
+    const cut = film.fields.filter((f) => f.scale !== "category" && f.axis === undefined && (f.most > f.high * 1.001 + 1e-12 || f.least < f.low - Math.abs(f.low) * 1e-3));
+    if (cut.length) parts.push("Colours leave out the most extreme particles (0.05 % at either end): " + cut.map((f) => f.name.replace(/_/g, " ") + " reaches " + quantity(Math.abs(f.most) > Math.abs(f.least) ? f.most : f.least, f.unit, 3)).join(", ") + ".");
+    parts.push("Values have 8 bits, positions 16.");
+    return parts.join(" ");
+}
+
+// The field to begin with: damage where bonds break, else plastic strain, else von Mises.
+function firstField() {
+    const asked = new URLSearchParams(location.hash.slice(1)).get("field");
+    return [asked, "damage", "plastic_strain", "von_mises", "stress_xx", "displacement"].find((name) => film.fields.some((f) => f.name === name)) || film.fields[0].name;
+}
+
+function listenToControls() {
+    const on = (id, event, call) => byId(id).addEventListener(event, call);
+    on("frame", "input", () => (stop(), setFrame(Number(byId("frame").value))));
+    on("play", "click", play);
+    on("field", "change", () => setField(byId("field").value));
+    on("low", "change", readLimits);
+    on("high", "change", readLimits);
+    on("auto", "click", () => setLimits(view.field.low, view.field.high));
+    on("magnify", "input", () => (view.magnify = Math.max(Number(byId("magnify").value), 0), drawFilm()));
+    for (const id of ["cracks", "ghost", "cut", "cut_at"]) on(id, "input", drawFilm);
+    on("reset", "click", resetView);
+    on("save", "click", () => download(page.title + "_" + view.field.name + ".png", byId("view").toDataURL("image/png")));
+    on("view", "keydown", (e) => {
+        const step = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
+        if (step) stop(), setFrame(view.frame + step);
+        if (e.key === " ") e.preventDefault(), play();
+    });
+}
+
+function showFilm() {
+    section("film");
+    film.fields.push(...displacementFields());
+    if (film.fields.length === 0) film.fields.push({ name: "displacement", unit: "m", scale: "zero", low: 0, high: 1, least: 0, most: 0, axis: -1 });
+    byId("field").append(...film.fields.map((f) => element("option", { value: f.name }, f.name.replace(/_/g, " "))));
+    const damaged = film.fields.some((f) => f.name === "damage"), hide = (id, gone) => (byId(id).style.display = gone ? "none" : "");
+    hide("ghost_label", film.dim < 3 || !damaged), hide("cut_label", film.dim < 3), hide("cracks_label", film.dim === 1 || !damaged);
+    hide("reset", film.dim === 1);
+    byId("cracks").checked = damaged;
+    byId("cut").append(...["x", "y", "z"].slice(0, film.dim).map((a, d) => element("option", { value: d }, "above " + a)));
+    byId("frame").max = film.frames.length - 1;
+    byId("hint").textContent = film.dim === 3 ? "Drag turns, with Shift it moves; the wheel zooms; the pointer reads values." : film.dim === 2 ? "Drag moves; the wheel zooms; the pointer reads values." : "Red: particles with broken bonds.";
+    byId("thinned").textContent = thinnedText();
+    view.magnify = 1;
+    film.box = boxOf();
+    view.field = film.fields.find((f) => f.name === firstField());
+    view.low = view.field.low, view.high = view.field.high;
+    makeLut();
+    resetView();
+    setField(view.field.name);
+    listenToControls();
+    listenToPointer();
+    const asked = new URLSearchParams(location.hash.slice(1)).get("frame");
+    setFrame(asked === null ? film.frames.length - 1 : Number(asked));
+}

@@ -1,0 +1,137 @@
+/* Fields of a film: which there are, their ranges, and their values in 8 bits. */
+#include <math.h>
+#include <string.h>
+
+#include "base/arrays.h"
+#include "base/memory.h"
+#include "film.h"
+
+enum { SAMPLES_OF_FRAME = 4000, VALUE_MOST = 254, VALUE_NONE = 255, FRAGMENT_NONE = 65535 };
+
+/* Share of the values beyond either end of the stored range: a few hot particles do not use up the colours. */
+static const double BEYOND = 5e-4;
+
+/* Names of fields in the order of the page. */
+static const struct {
+    const char *name;
+    bool extra, fixed;
+} wanted[] = {
+    {"damage", false, false},    {"von_mises", false, false}, {"principal_stress", false, false},
+    {"pressure", false, false},  {"speed", false, false},     {"plastic_strain", false, false},
+    {"kind", false, false},      {"fragment", false, false},  {"temperature", false, false},
+    {"material", false, true},   {"body", false, true},       {"stress_xx", true, false},
+    {"stress_yy", true, false},  {"stress_xy", true, false},  {"velocity_x", true, false},
+    {"velocity_y", true, false}, {"velocity_z", true, false},
+};
+
+void film_fields_list(struct film *f)
+{
+    f->fields = 0;
+    for (size_t k = 0; k < COUNT_OF(wanted); k++) {
+        struct film_field *field = &f->field[f->fields];
+        *field = (struct film_field){
+            .extra = wanted[k].extra, .fixed = wanted[k].fixed, .least = INFINITY, .most = -INFINITY};
+        if (plot_field_find(&field->of, wanted[k].name, f->dim) == OK) f->fields++;
+    }
+}
+
+static void field_scan(struct film_field *field, const float *value, int64_t n)
+{
+    const int64_t stride = n / SAMPLES_OF_FRAME + 1;
+    for (int64_t i = 0; i < n; i++)
+        if (isfinite(value[i])) field->least = fmin(field->least, value[i]), field->most = fmax(field->most, value[i]);
+    for (int64_t i = 0; i < n; i += stride) {
+        if (!isfinite(value[i])) continue;
+        GROW("report.sample", field->sample, field->samples + 1);
+        field->sample[field->samples++] = value[i];
+    }
+}
+
+void film_fields_scan(struct film *f, const struct output_frame *frame, const char *path)
+{
+    for (int k = 0; k < f->fields; k++) {
+        float *value;
+        if (plot_field_read(&value, f->field[k].of, frame, path) != OK) continue;
+        field_scan(&f->field[k], value, frame->n);
+        memory_free(value);
+    }
+}
+
+static int float_compare(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Chooses the stored range: without a few extreme values; from zero, or symmetric, as the scale of the field
+ * requires. */
+static void field_settle(struct film_field *field)
+{
+    const bool damage = strcmp(field->of->name, "damage") == 0;
+    const int64_t last = field->samples - 1, beyond = (int64_t)(BEYOND * (double)field->samples);
+    field->used = field->samples > 0 && (field->most > field->least);
+    if (!field->used) return;
+    array_sort(field->sample, field->samples, sizeof *field->sample, float_compare);
+    field->low = field->sample[beyond], field->high = field->sample[last - beyond];
+    if (!(field->high > field->low)) field->low = field->least, field->high = field->most;
+    if (field->of->scale == FROM_ZERO) field->low = fmin(field->low, 0);
+    if (field->of->scale == BOTH_SIGNS) {
+        field->high = fmax(fabs(field->low), fabs(field->high));
+        field->low = -field->high;
+    }
+    if (damage) field->low = 0, field->high = 1;
+}
+
+void film_fields_settle(struct film *f)
+{
+    for (int k = 0; k < f->fields; k++) field_settle(&f->field[k]);
+}
+
+bool film_field_is_shown(const struct film *f, const struct film_field *field)
+{
+    return field->used && !(field->extra && f->lacks_extra);
+}
+
+static bool is_fragment(const struct film_field *field) { return strcmp(field->of->name, "fragment") == 0; }
+
+int film_fields_bytes(const struct film *f)
+{
+    int bytes = 0;
+    for (int k = 0; k < f->fields; k++)
+        if (film_field_is_shown(f, &f->field[k]) && !f->field[k].fixed) bytes += is_fragment(&f->field[k]) ? 2 : 1;
+    return bytes;
+}
+
+/* Returns the value of a group in the stored form. */
+static unsigned value_stored(const struct film_field *field, const struct film_set *s, const float *value, int64_t g)
+{
+    double sum = 0;
+    const double one = value[s->member[s->first[g]]];
+    if (is_fragment(field)) return one < 0 || one >= FRAGMENT_NONE ? FRAGMENT_NONE : (unsigned)one;
+    if (field->of->scale == CATEGORY) return (unsigned)fmin(fmax(one, 0), VALUE_MOST);
+    for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) sum += value[s->member[k]];
+    const double mean = sum / (s->first[g + 1] - s->first[g]);
+    if (!isfinite(mean)) return VALUE_NONE;
+    return (unsigned)lround(VALUE_MOST * fmin(fmax((mean - field->low) / (field->high - field->low), 0), 1));
+}
+
+void film_field_write(struct page *p, const struct film_field *field, const struct film_set *s,
+                      const struct output_frame *frame, const char *path)
+{
+    float *value = NULL;
+    if (plot_field_read(&value, field->of, frame, path) != OK) value = NEW("report.field", frame->n, float);
+    uint16_t *wide = BARE("report.wide", s->shown, uint16_t);
+    uint8_t *narrow = BARE("report.narrow", s->shown, uint8_t);
+    int64_t n = 0;
+    for (int64_t g = 0; g < s->groups; g++) {
+        if (s->hidden[g]) continue;
+        const unsigned stored = value_stored(field, s, value, g);
+        wide[n] = (uint16_t)stored;
+        narrow[n++] = (uint8_t)stored;
+    }
+    if (is_fragment(field))
+        page_add_array(p, field->of->name, PAGE_U16, wide, n);
+    else
+        page_add_array(p, field->of->name, PAGE_U8, narrow, n);
+    memory_free(narrow), memory_free(wide), memory_free(value);
+}

@@ -1,0 +1,106 @@
+/* Particles of a film in groups: where nothing happens, whole cells of the lattice are shown as one particle of the
+ * same area, so that a picture of the body stays without gaps. */
+#include <math.h>
+
+#include "base/arrays.h"
+#include "base/memory.h"
+#include "film.h"
+
+enum { KEY_BITS = 20, KEY_MOST = (1 << KEY_BITS) - 1 };
+
+/* A particle and the cell that it is in. */
+struct member {
+    uint64_t key;
+    int32_t index;
+};
+
+static int member_compare(const void *a, const void *b)
+{
+    const struct member *x = a, *y = b;
+    if (x->key != y->key) return x->key < y->key ? -1 : 1;
+    return (x->index > y->index) - (x->index < y->index);
+}
+
+/* Returns the key of the cell with 2^level spacings along its edge that holds particle i. from: lower corner of the
+ * lattice [m]. */
+static uint64_t cell_key(const struct film_set *s, const struct film *f, const double *from, int level, int64_t i)
+{
+    uint64_t key = (uint64_t)level;
+    for (int d = 0; d < DIM_MAX; d++) {
+        const double along = d < f->dim ? floor(((double)s->X[d][i] - from[d]) / f->spacing + 0.25) : 0;
+        key = key << KEY_BITS | ((uint64_t)fmin(fmax(along, 0), KEY_MOST) >> level);
+    }
+    return key;
+}
+
+static bool particles_are_alike(const struct film_set *s, int64_t i, int64_t j)
+{
+    return s->history[i] == s->history[j] && s->material[i] == s->material[j] && s->body[i] == s->body[j];
+}
+
+/* Returns true if particle i has the spacing of the film, so that a cell of the lattice may hold it. */
+static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_t i)
+{
+    return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);
+}
+
+/* Raises the level of all particles in full cells of the given level to that level. */
+static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
+{
+    struct member *m = BARE("report.members", s->n, struct member);
+    int64_t n = 0;
+    const int64_t full = (int64_t)1 << (level * f->dim);
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->level[i] == level - 1 && is_of_lattice(s, f, i))
+            m[n++] = (struct member){cell_key(s, f, from, level, i), (int32_t)i};
+    array_sort(m, n, sizeof *m, member_compare);
+    for (int64_t k = 0, end; k < n; k = end) {
+        bool alike = true;
+        for (end = k; end < n && m[end].key == m[k].key; end++)
+            alike &= particles_are_alike(s, m[k].index, m[end].index);
+        if (!alike || end - k != full) continue;
+        for (int64_t j = k; j < end; j++) s->level[m[j].index] = (uint8_t)level;
+    }
+    memory_free(m);
+}
+
+/* Fills groups, first and member from the levels of the particles. */
+static void groups_fill(struct film_set *s, const struct film *f, const double *from)
+{
+    struct member *m = BARE("report.members", s->n, struct member);
+    for (int64_t i = 0; i < s->n; i++)
+        m[i] = (struct member){s->level[i] ? cell_key(s, f, from, s->level[i], i) : (uint64_t)i, (int32_t)i};
+    array_sort(m, s->n, sizeof *m, member_compare);
+    s->groups = 0;
+    for (int64_t k = 0; k < s->n; k++) {
+        if (k == 0 || m[k].key != m[k - 1].key) s->first[s->groups++] = (int32_t)k;
+        s->member[k] = m[k].index;
+    }
+    s->first[s->groups] = (int32_t)s->n;
+    memory_free(m);
+}
+
+void film_set_group(struct film_set *s, const struct film *f)
+{
+    double from[DIM_MAX] = {0};
+    for (int d = 0; d < f->dim; d++) {
+        from[d] = INFINITY;
+        for (int64_t i = 0; i < s->n; i++) from[d] = fmin(from[d], s->X[d][i]);
+    }
+    array_fill_bytes(s->level, 0, s->n, sizeof *s->level);
+    for (int level = 1; level <= f->levels; level++) merge_cells(s, f, from, level);
+    groups_fill(s, f, from);
+    s->shown = 0;
+    for (int64_t g = 0; g < s->groups; g++) {
+        s->hidden[g] = g % f->every != 0 && (f->thins_busy || !s->busy[s->member[s->first[g]]]);
+        s->shown += !s->hidden[g];
+    }
+}
+
+double film_group_size(const struct film_set *s, const struct film *f, int64_t g)
+{
+    const int32_t i = s->member[s->first[g]];
+    const bool thins = f->thins_busy || !s->busy[i];
+    const double own = s->size ? s->size[i] : f->spacing, thinned = thins ? pow(f->every, 1.0 / f->dim) : 1;
+    return own * (1 << s->level[i]) * thinned;
+}

@@ -1,0 +1,47 @@
+/* A page in the making: JSON that describes it, and arrays of numbers in base64 to which the JSON refers. */
+#ifndef CLEAVE_PAGE
+#define CLEAVE_PAGE
+
+#include <stdio.h>
+
+#include "output/json.h"
+
+/* Types of the elements of arrays, little-endian. */
+enum page_type { PAGE_U8, PAGE_U16, PAGE_I16, PAGE_F32, PAGE_PNG, PAGE_TYPES };
+
+/* The parts of a page, collected in memory. */
+struct page {
+    struct json json; /* describes the page; its file is a stream in memory */
+    char *text;       /* of the JSON */
+    size_t text_length;
+    FILE *arrays; /* stream in memory of one <script> element for each array */
+    char *array_text;
+    size_t array_length;
+    int count; /* number of arrays */
+};
+
+/* Begins an empty page, with an open JSON object. Returns FAILED if there is no memory for it. Release with page_free.
+ */
+status page_make(struct page *p);
+
+/* Adds an array of `n` elements of the given type from `values` on to the page, and a reference {array, type, length}
+ * to it to the JSON. key: name of the reference; NULL in a list. */
+void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t n);
+
+/* Adds the picture in the PNG file `path` to the page as page_add_array does. Returns FAILED if the file cannot be
+ * read. */
+status page_add_picture(struct page *p, const char *key, const char *path);
+
+/* Adds the text of the file `name` in `folder` to the JSON as a string. key: name of the entry. Adds nothing if there
+ * is no such file. */
+void page_add_text_file(struct page *p, const char *key, const char *folder, const char *name);
+
+/* Completes the page and writes it to the file `path` under a temporary name, which is then renamed. title: title of
+ * the window, without markup. Stores the size of the file in *bytes. Returns FAILED if the file cannot be written,
+ * REFUSED if it is an input of this command. */
+status page_write(struct page *p, const char *path, const char *title, int64_t *bytes);
+
+/* Releases the memory of *p. */
+void page_free(struct page *p);
+
+#endif

@@ -1,0 +1,106 @@
+/* `cleave report`: chooses what the folder holds, and where the page goes. */
+#include "report/report.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/team.h"
+#include "output/output_files.h"
+#include "output/page_file.h"
+#include "plot/plot.h"
+#include "report_parts.h"
+
+static bool is_study(const char *folder)
+{
+    return run_has_file(folder, "sweep.csv") || run_has_file(folder, "converge.csv");
+}
+
+/* Checks that a folder holds a run or a study. */
+static status folder_check_kind(const char *folder)
+{
+    const struct printable_name shown = printable_name(folder);
+    if (path_exists(folder) && !path_is_folder(folder))
+        return status_set(REFUSED, "%s is a file: the folder of a run or a study is expected", shown.text);
+    if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM)
+        return status_set(REFUSED, "%s: the name is too long", shown.text);
+    if (is_study(folder) || run_has_file(folder, "frames.hdf.series") || run_has_file(folder, "history.csv")) return OK;
+    if (run_has_file(folder, "study.yaml"))
+        return status_set(REFUSED, "%s holds a study without a table: the same command with --collect makes it",
+                          shown.text);
+    return status_set(REFUSED, "%s holds neither a run (frames or history.csv) nor a study (sweep.csv, converge.csv)",
+                      shown.text);
+}
+
+/* Determines the path of the page and checks that it may be written. */
+static status page_destination(struct path *path, const struct report_request *r)
+{
+    const char *out = r->out ? r->out : r->folder;
+    const size_t length = strlen(out);
+    if (length == 0 || length + PATH_NAME_ROOM >= PATH_ROOM)
+        return status_set(REFUSED, "report: -o '%s': the name of a file or folder is expected",
+                          printable_name(out).text);
+    if (out[length - 1] == '/') TRY(folder_make(out));
+    if (path_is_folder(out))
+        *path = path_join(out, PAGE_NAME);
+    else
+        snprintf(path->text, sizeof path->text, "%s", out);
+    TRY(file_check_replaceable(path->text));
+    if (r->overwrite || !path_exists(path->text) || page_file_is_own(path->text)) return OK;
+    return status_set(REFUSED, "%s exists and is no page of cleave; choose another -o, or replace it with --overwrite",
+                      printable_name(path->text).text);
+}
+
+/* Writes what all pages have: the folder, and when and by what the page is made. */
+static void write_origin(struct page *p, const struct report_request *r)
+{
+    char text[64];
+    struct tm tm;
+    const time_t now = time(NULL);
+    json_text(&p->json, "folder", r->folder);
+    json_text(&p->json, "version", CLEAVE_VERSION);
+    json_text(&p->json, "commit", r->commit);
+    json_text(&p->json, "machine", machine_properties().model);
+    if (gmtime_r(&now, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0)
+        json_text(&p->json, "made", text);
+}
+
+/* Returns the last part of the name of a folder. */
+static const char *folder_name(char *name, size_t capacity, const char *folder)
+{
+    size_t length = strlen(folder);
+    while (length > 1 && folder[length - 1] == '/') length--;
+    size_t from = length;
+    while (from > 0 && folder[from - 1] != '/') from--;
+    snprintf(name, capacity, "%.*s", (int)(length - from), folder + from);
+    return name;
+}
+
+static status report_page(const struct report_request *r, const struct path *path)
+{
+    struct page p;
+    char name[NAME_MAX_LENGTH];
+    int64_t bytes = 0;
+    TRY(page_make(&p));
+    write_origin(&p, r);
+    status s = OK;
+    if (is_study(r->folder))
+        report_write_study(&p, r->folder);
+    else
+        s = report_write_run(&p, r, path->text);
+    if (s == OK) s = page_write(&p, path->text, folder_name(name, sizeof name, r->folder), &bytes);
+    page_free(&p);
+    TRY(s);
+    if (r->quiet) return OK;
+    const int said =
+        printf("%s: %.1f MB, opens in any browser\n", printable_name(path->text).text, 1e-6 * (double)bytes);
+    return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
+}
+
+status report_write(const struct report_request *r)
+{
+    struct path path;
+    TRY(folder_check_kind(r->folder));
+    TRY(page_destination(&path, r));
+    return report_page(r, &path);
+}

@@ -1,0 +1,189 @@
+/* Page of a run: what its folder holds. Parts that a running or interrupted run lacks are left out. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/interrupt_cleanup.h"
+#include "base/memory.h"
+#include "film.h"
+#include "output/history.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+#include "plot/scene_picture.h"
+#include "report_parts.h"
+#include "scene/scene_read.h"
+#include "study/study.h"
+
+/* Bytes of frames and of the history in a page; in base64 they are a third more. A scene with more particles is not
+ * drawn. */
+enum { FILM_BYTES = 9 << 20, HISTORY_BYTES = 1 << 20, PICTURE_PARTICLES = 2000000 };
+
+/* ---- figures ----------------------------------------------------------------------------------------------------- */
+
+struct units {
+    struct page *page;
+    const char *header;
+};
+
+/* Writes the unit of one figure of summary.json, if it has one. */
+static void write_unit(void *context, const char *key, double value)
+{
+    const struct units *u = context;
+    char unit[UNIT_ROOM];
+    (void)value;
+    study_result_unit(unit, sizeof unit, u->header, key);
+    if (unit[0]) json_text(&u->page->json, key, unit);
+}
+
+/* Writes the first line of history.csv to header[HEADER_ROOM]; "" if there is none. */
+static void header_read(char *header, const char *folder)
+{
+    const struct path history = path_join(folder, "history.csv");
+    FILE *from = path_is_file(history.text) ? fopen(history.text, "r") : NULL;
+    *header = '\0';
+    if (!from) return;
+    if (!fgets(header, HEADER_ROOM, from)) *header = '\0';
+    header[strcspn(header, "\r\n")] = '\0';
+    fclose(from);
+}
+
+static void write_figures(struct page *p, const char *folder, const char *header)
+{
+    struct units u = {p, header};
+    struct stat s;
+    const struct path summary = path_join(folder, "summary.json");
+    page_add_text_file(p, "summary", folder, "summary.json");
+    json_open(&p->json, "units", '{');
+    if (path_is_file(summary.text)) (void)summary_numbers(folder, write_unit, &u);
+    json_close(&p->json, '}');
+    if (stat(summary.text, &s) == 0) {
+        char text[64];
+        struct tm tm;
+        const bool known = gmtime_r(&s.st_mtime, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0;
+        if (known) json_text(&p->json, "ended", text);
+    }
+}
+
+/* ---- history ----------------------------------------------------------------------------------------------------- */
+
+/* Writes the columns of history.csv in single precision; of long histories every so manieth line, and the last. */
+static status write_history(struct page *p, const char *folder, const char *header)
+{
+    struct history h;
+    if (!header[0]) return OK;
+    TRY(history_read(&h, folder));
+    const int64_t most = HISTORY_BYTES / (4 * h.columns), stride = h.rows / most + 1;
+    const int64_t rows = h.rows > 0 ? (h.rows - 1 + stride - 1) / stride + 1 : 0;
+    float *column = NEW("report.column", rows, float);
+    json_open(&p->json, "history", '{');
+    json_text(&p->json, "header", header);
+    json_count(&p->json, "listed", h.rows);
+    json_count(&p->json, "rows", rows);
+    json_open(&p->json, "columns", '[');
+    for (int c = 0; c < h.columns; c++) {
+        for (int64_t k = 0; k < rows; k++) column[k] = (float)history_at(&h, k < rows - 1 ? k * stride : h.rows - 1, c);
+        page_add_array(p, NULL, PAGE_F32, column, rows);
+    }
+    json_close(&p->json, ']');
+    json_close(&p->json, '}');
+    memory_free(column);
+    history_free(&h);
+    return OK;
+}
+
+/* ---- scene ------------------------------------------------------------------------------------------------------- */
+
+static void write_cracks(struct page *p, const struct scene *s)
+{
+    json_open(&p->json, "cracks", '[');
+    for (int k = 0; k < s->cracks; k++) {
+        json_open(&p->json, NULL, '[');
+        for (int c = 0; c < s->crack[k].n; c++) {
+            json_open(&p->json, NULL, '[');
+            for (int d = 0; d < s->dim; d++) json_number(&p->json, NULL, s->crack[k].corner[c][d], JSON_TIMING);
+            json_close(&p->json, ']');
+        }
+        json_close(&p->json, ']');
+    }
+    json_close(&p->json, ']');
+}
+
+static void write_names(struct page *p, const struct scene *s)
+{
+    json_open(&p->json, "names", '{');
+    json_open(&p->json, "material", '[');
+    for (int k = 0; k < s->materials; k++) json_text(&p->json, NULL, s->material[k].name);
+    json_close(&p->json, ']');
+    json_open(&p->json, "body", '[');
+    for (int k = 0; k < s->bodies; k++) json_text(&p->json, NULL, s->body[k].name);
+    json_close(&p->json, ']');
+    json_close(&p->json, '}');
+}
+
+/* Draws the scene to a temporary file beside the page and adds it. Returns FAILED or REFUSED, with the reason in the
+ * message, if the scene cannot be drawn. */
+static status write_picture(struct page *p, const char *scene, const char *path)
+{
+    struct path picture;
+    struct plot_request r = {.format = PICTURE_PNG, .out = picture.text, .overwrite = true, .quiet = true};
+    r.projection = (struct projection){.normal = -1, .camera = camera_isometric};
+    if (snprintf(picture.text, sizeof picture.text, "%s" ASIDE_ENDING ".png", path) >= (int)sizeof picture.text - 20)
+        return status_set(FAILED, "%s: the name is too long", path);
+    unlink(picture.text); /* a link of this name is not followed */
+    interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
+    status s = scene_draw_picture(scene, NULL, 0, &r);
+    if (s == OK) s = page_add_picture(p, "picture", picture.text);
+    unlink(picture.text);
+    interrupt_cleanup_register(LEAVING_FRAME, NULL, 0);
+    return s;
+}
+
+static void write_scene(struct page *p, const char *folder, int64_t particles, const char *path)
+{
+    struct scene s;
+    const struct path scene = path_join(folder, "scene.yaml");
+    page_add_text_file(p, "scene", folder, "scene.yaml");
+    status drawn = scene_read(&s, scene.text, NULL, 0);
+    if (drawn == OK) {
+        json_text(&p->json, "name", s.name);
+        json_count(&p->json, "dim", s.dim);
+        write_cracks(p, &s);
+        write_names(p, &s);
+        scene_free(&s);
+        drawn = particles > PICTURE_PARTICLES ? status_set(REFUSED, "the scene has more than two million particles")
+                                              : write_picture(p, scene.text, path);
+    }
+    if (drawn != OK) json_text(&p->json, "picture_missing", status_message());
+}
+
+/* ---- the page ---------------------------------------------------------------------------------------------------- */
+
+/* Writes frames, if there are any. Stores the number of particles of the first frame in *particles. */
+static status write_film(struct page *p, const char *folder, int64_t *particles)
+{
+    struct film f;
+    *particles = 0;
+    if (!run_has_file(folder, "frames.hdf.series")) return OK;
+    TRY(film_read(&f, folder));
+    *particles = f.set[0].n;
+    film_fit(&f, FILM_BYTES);
+    const status s = film_write(p, &f);
+    film_free(&f);
+    return s;
+}
+
+status report_write_run(struct page *p, const struct report_request *r, const char *path)
+{
+    char header[HEADER_ROOM];
+    int64_t particles;
+    json_text(&p->json, "kind", "run");
+    header_read(header, r->folder);
+    write_figures(p, r->folder, header);
+    TRY(write_film(p, r->folder, &particles));
+    TRY(write_history(p, r->folder, header));
+    write_scene(p, r->folder, particles, path);
+    return OK;
+}

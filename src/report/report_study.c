@@ -1,0 +1,126 @@
+/* Page of a study: its table, its pictures, and the warnings of its runs. */
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arrays.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "output/picture_file.h"
+#include "output/pictures.h"
+#include "output/summary_read.h"
+#include "report_parts.h"
+#include "study/study.h"
+
+enum { PICTURES_MOST = 12, WARNINGS_MOST = 20, MESSAGE_ROOM = 600 };
+
+static int name_compare(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+
+/* Stores the names of the entries of a folder, in order, in an allocated array *name. Returns their number; names and
+ * array are for names_free. */
+static int names_read(char ***name, const char *folder)
+{
+    int n = 0;
+    DIR *d = opendir(folder);
+    *name = NULL;
+    for (struct dirent *e; d && (e = readdir(d));) {
+        if (e->d_name[0] == '.') continue;
+        GROW("report.names", *name, n + 1);
+        (*name)[n] = NEW("report.name", (int64_t)strlen(e->d_name) + 1, char);
+        strcpy((*name)[n++], e->d_name);
+    }
+    if (d) closedir(d);
+    array_sort(*name, n, sizeof **name, name_compare);
+    return n;
+}
+
+static void names_free(char **name, int n)
+{
+    for (int k = 0; k < n; k++) memory_free(name[k]);
+    memory_free(name);
+}
+
+/* Adds the pictures that Cleave drew for the study. */
+static void write_pictures(struct page *p, const char *folder)
+{
+    char **name;
+    int added = 0;
+    const struct path pictures = pictures_folder(folder);
+    const int n = names_read(&name, pictures.text);
+    json_open(&p->json, "pictures", '[');
+    for (int k = 0; k < n && added < PICTURES_MOST; k++) {
+        const struct path path = path_join(pictures.text, name[k]);
+        const char *ending = strrchr(name[k], '.');
+        if (!ending || strcmp(ending, ".png") != 0 || !path_is_file(path.text) || !picture_has_mark(path.text))
+            continue;
+        json_open(&p->json, NULL, '{');
+        json_text(&p->json, "name", name[k]);
+        (void)page_add_picture(p, "of", path.text);
+        json_close(&p->json, '}');
+        added++;
+    }
+    json_close(&p->json, ']');
+    names_free(name, n);
+}
+
+/* Adds the warnings of the runs of a study, each text once. */
+static void write_warnings(struct page *p, const char *folder)
+{
+    char **name, key[32], text[MESSAGE_ROOM];
+    static char seen[WARNINGS_MOST][MESSAGE_ROOM];
+    int found = 0;
+    const int n = names_read(&name, folder);
+    json_open(&p->json, "warnings", '[');
+    for (int k = 0; k < n; k++) {
+        const struct path run = path_join(folder, name[k]);
+        if (!path_is_file(path_join(run.text, "summary.json").text)) continue;
+        for (int w = 0; found < WARNINGS_MOST; w++) {
+            bool known = false;
+            snprintf(key, sizeof key, "warnings.%d", w);
+            if (summary_string(run.text, key, text, sizeof text) != OK) break;
+            for (int j = 0; j < found; j++) known |= strcmp(seen[j], text) == 0;
+            if (known) continue;
+            strcpy(seen[found++], text);
+            json_text(&p->json, NULL, text);
+        }
+    }
+    json_close(&p->json, ']');
+    names_free(name, n);
+}
+
+/* Adds the units of the figures of a sweep, from the header of the history of any of its runs. header: first line of
+ * sweep.csv. */
+static void write_study_units(struct page *p, const char *folder)
+{
+    char **name, header[HEADER_ROOM] = "", unit[UNIT_ROOM], *table = NULL;
+    size_t length = 0;
+    const int n = names_read(&name, folder);
+    for (int k = 0; k < n && !header[0]; k++) {
+        FILE *from = fopen(path_join(path_join(folder, name[k]).text, "history.csv").text, "r");
+        if (!from) continue;
+        if (!fgets(header, sizeof header, from)) header[0] = '\0';
+        fclose(from);
+    }
+    names_free(name, n);
+    if (file_read_whole(path_join(folder, "sweep.csv").text, &table, &length) != OK) return;
+    table[strcspn(table, "\r\n")] = '\0';
+    json_open(&p->json, "units", '{');
+    for (char *rest = table, *column; (column = strsep(&rest, ","));) {
+        study_result_unit(unit, sizeof unit, header, column);
+        if (unit[0]) json_text(&p->json, column, unit);
+    }
+    json_close(&p->json, '}');
+    memory_free(table);
+}
+
+void report_write_study(struct page *p, const char *folder)
+{
+    const bool sweep = path_is_file(path_join(folder, "sweep.csv").text);
+    json_text(&p->json, "kind", sweep ? "sweep" : "converge");
+    page_add_text_file(p, "table", folder, sweep ? "sweep.csv" : "converge.csv");
+    page_add_text_file(p, "scene", folder, STUDY_SCENE);
+    if (sweep) write_study_units(p, folder);
+    write_warnings(p, folder);
+    write_pictures(p, folder);
+}

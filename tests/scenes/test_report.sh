@@ -1,0 +1,131 @@
+#!/bin/sh
+# Pages of cleave report: complete, of the stated precision, harmless whatever a scene is called, and never over files of others.
+test_name=test_report
+. tests/support/summary.sh
+command -v python3 >/dev/null || { echo "python3 is missing: pages not tested"; exit 77; }
+python=python3
+python3 -c "import h5py" 2>/dev/null || ! /usr/bin/python3 -c "import h5py" 2>/dev/null || python=/usr/bin/python3
+cd "$work" || exit 1
+
+# whole PAGE [FOLDER]: the page is complete, and says what the files of the run say.
+whole() { said=$($python "$root/tests/scenes/report_page.py" "$@") && pass || fail "$1: $said"; }
+# refused WORD ARGUMENTS: exit status 2 with one line that contains WORD.
+refused()
+{
+    word=$1
+    shift
+    "$cleave" report "$@" >out 2>err
+    is "report $*: exit status" $? 2
+    is "report $*: lines" "$(wc -l <err)" 1
+    holds "report $*: says $word" grep -q -e "$word" err
+}
+smaller() { between "$1: bytes" "$(wc -c <"$1")" 20000 "$2"; }
+
+cat >plate.yaml <<'END'
+name: plate
+space: plane stress
+thickness: 2 mm
+duration: 6 us
+method: pd
+materials:
+  - {name: 'glass </script><b> & "soda" ''lime''', young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 3 J/m^2}
+bodies:
+  - {name: plate, shape: {box: {from: [0, 0], to: [40 mm, 20 mm]}}}
+particles: {spacing: 1 mm}
+cracks: [{from: [0, 10 mm], to: [15 mm, 10 mm]}]
+boundary: [{traction: [0, 20 MPa], face: y+}, {traction: [0, -20 MPa], face: y-}]
+output: {frames: 5}
+END
+
+# ---- a run --------------------------------------------------------------------------------------------------------------
+
+"$cleave" run plate.yaml -q --report -t 2 >out 2>err
+is "run --report: exit status" $? 0
+whole results/plate/report.html results/plate
+smaller results/plate/report.html 2e6
+holds "the material's name is a text" grep -q 'glass .u003c/script>.u003cb> &' results/plate/report.html
+holds "nothing is left beside the page" test -z "$(find . -name '*.cleave.tmp*')"
+"$cleave" report results/plate -o here/ >out 2>err
+is "report -o FOLDER/: exit status" $? 0
+holds "says the page" grep -q '^here/report.html: .* MB' out
+if command -v gnuplot >/dev/null; then holds "has the scene's picture" grep -q '"picture": {' here/report.html; fi
+
+# A script that a browser could not read would leave the page empty.
+if command -v node >/dev/null; then
+    sed -n '/^"use strict";$/,/^<\/script>$/p' here/report.html | sed '$d' >script.js
+    holds "the script is sound" node --check script.js
+fi
+
+# Without gnuplot, without summary (a run that goes on, or was killed): pages all the same.
+mkdir bare
+for tool in sh env; do ln -s "$(command -v $tool)" bare; done
+rm results/plate/summary.json
+PATH=$work/bare "$cleave" report results/plate -o bare.html -q >out 2>err
+is "without gnuplot: exit status" $? 0
+is "-q: prints" "$(cat out err)" ""
+whole bare.html results/plate
+holds "says why it has no picture" grep -q '"picture_missing": ".*gnuplot' bare.html
+
+# ---- files of others ----------------------------------------------------------------------------------------------------
+
+echo "mine" >mine.html
+refused "no page of cleave" results/plate -o mine.html
+is "the file of another" "$(cat mine.html)" mine
+"$cleave" report results/plate -o mine.html --overwrite -q
+is "--overwrite: exit status" $? 0
+whole mine.html
+"$cleave" report results/plate -o mine.html -q
+is "a page replaces a page: exit status" $? 0
+cp mine.html before.html
+(ulimit -f 8; "$cleave" report results/plate -o mine.html -q) >out 2>err
+is "a full disk: exit status" $? 1
+holds "the page stays whole" cmp -s mine.html before.html
+holds "nothing is left behind" test -z "$(find . -name '*.cleave.tmp*')"
+mkdir empty
+refused "neither a run" empty
+refused "neither a run" nowhere
+refused "is a file" plate.yaml
+refused "no folder is given"
+refused "one folder" empty empty
+refused "unknown option" results/plate --format pdf
+holds "no page in an empty folder" test -z "$(ls empty)"
+
+# A run that is overwritten removes its page, and leaves a file of this name that is none.
+"$cleave" run plate.yaml -q --overwrite >out 2>err
+holds "the page of the older run is gone" test ! -e results/plate/report.html
+echo mine >results/plate/report.html
+"$cleave" run plate.yaml -q --overwrite >out 2>err
+is "a file that is no page" "$(cat results/plate/report.html)" mine
+
+# ---- bars, solids, studies ----------------------------------------------------------------------------------------------
+
+"$cleave" run "$root/inputs/bar_pulse.yaml" -o bar -q >out 2>err
+"$cleave" report bar -q
+whole bar/report.html
+cat >block.yaml <<'END'
+name: block
+space: solid
+duration: 2 us
+method: pd
+material: {young: 72 GPa, poisson: 1/4, density: 2440 kg/m^3, energy_release_rate: 3 J/m^2}
+body: [box: {from: [0, 0, 0], to: [8 mm, 6 mm, 4 mm]}]
+particles: {spacing: 1 mm}
+boundary: [{traction: [0, 20 MPa, 0], face: y+}, {traction: [0, -20 MPa, 0], face: y-}]
+output: {frames: 3}
+END
+"$cleave" run block.yaml -q --report >out 2>err
+is "a solid: exit status" $? 0
+whole results/block/report.html results/block
+"$cleave" sweep plate.yaml -s particles.spacing=2mm,1mm -s thickness=1mm,2mm -o sweep -q >out 2>err
+"$cleave" report sweep -q
+is "a sweep: exit status" $? 0
+whole sweep/report.html
+holds "a sweep's table" grep -q '"table": "run,state,particles.spacing,thickness,' sweep/report.html
+if command -v gnuplot >/dev/null; then holds "a sweep's pictures" grep -q '"name": "map.png"' sweep/report.html; fi
+"$cleave" converge plate.yaml -s particles.spacing=2mm --runs 1 --levels 3 -o study -q >out 2>err
+"$cleave" report study -q
+is "a convergence study: exit status" $? 0
+whole study/report.html
+holds "the study's table" grep -q '"table": "figure,unit,value,uncertainty,' study/report.html
+
+finish
