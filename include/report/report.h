@@ -9,7 +9,6 @@
 struct report_request {
     const char *folder; /* folder of a run, a sweep or a convergence study */
     const char *out;    /* file, or folder for report.html; NULL: FOLDER/report.html */
-    const char *commit; /* commit of this program; "": unknown */
     bool overwrite;     /* replace a file that is no page of Cleave */
     bool quiet;         /* do not print the name of the page */
 };

@@ -53,14 +53,6 @@ status command_find(const char *name, const struct command **found);
  * ends the program at once. */
 const volatile sig_atomic_t *stop_signals_install(void);
 
-/* Sets the commit of the source tree that `cleave --version` and `cleave info` print; "" (the initial value): none is
- * printed. `name` is kept by reference. Only the program's main file contains the commit, so that a new commit does not
- * relink the tests. */
-void version_commit(const char *name);
-
-/* Returns the commit that version_commit has set. */
-const char *version_commit_name(void);
-
 /* Prints one line: version and commit. */
 void version_print(FILE *out);
 

@@ -8,17 +8,12 @@
 
 #include "commands.h"
 #include "simd/simd.h"
+#include "base/program_commit.h"
 #include "base/team.h"
-
-static const char *commit = "";
-
-void version_commit(const char *name) { commit = name; }
-
-const char *version_commit_name(void) { return commit; }
 
 void version_print(FILE *out)
 {
-    fprintf(out, *commit ? "cleave %s (commit %s)\n" : "cleave %s\n", CLEAVE_VERSION, commit);
+    fprintf(out, *program_commit() ? "cleave %s (commit %s)\n" : "cleave %s\n", CLEAVE_VERSION, program_commit());
 }
 
 static const char *build_flags(void)
@@ -49,7 +44,7 @@ static void print_build(void)
     unsigned major, minor, release, hwloc = hwloc_get_api_version();
     H5get_libversion(&major, &minor, &release);
     printf("%-18s %s\n", "cleave", CLEAVE_VERSION);
-    if (*commit) printf("%-18s %s\n", "commit", commit);
+    if (*program_commit()) printf("%-18s %s\n", "commit", program_commit());
     printf("%-18s %s\n", "compiler", compiler_name());
     printf("%-18s %s, %s precision\n", "build", build_flags(), sizeof(real) == sizeof(double) ? "double" : "single");
     printf("%-18s OpenMP %d, HDF5 %u.%u.%u, libyaml %s, hwloc interface %u.%u\n", "libraries", _OPENMP, major, minor,

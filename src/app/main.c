@@ -10,6 +10,7 @@
 #include "commit.h"
 #include "base/output_filter.h"
 #include "base/crash_message.h"
+#include "base/program_commit.h"
 #include "output/output.h"
 #include "simd/simd.h"
 
@@ -73,7 +74,7 @@ int main(int argc, char **argv)
     limit_spin(argv);
     crash_message_install();
     output_filter_start();
-    version_commit(CLEAVE_COMMIT);
+    program_commit_set(CLEAVE_COMMIT);
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);
     if (lost && reader_gone()) LEAVE(FAILED); /* as in `cleave help | head` */

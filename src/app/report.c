@@ -9,7 +9,7 @@ static const char usage[] = "report " REPORT_WORDS;
 
 status command_report(int argc, char **argv)
 {
-    struct report_request r = {.commit = version_commit_name()};
+    struct report_request r = {0};
     for (int k = 1; k < argc; k++) {
         if (!strcmp(argv[k], "--overwrite"))
             r.overwrite = true;

@@ -151,9 +151,7 @@ status command_run(int argc, char **argv)
     output_close(&out);
     scene_free(&s);
     pilot_free(&pilot);
-    if (result == OK && page)
-        result = report_write(
-            &(struct report_request){.folder = folder.text, .commit = version_commit_name(), .quiet = a.quiet});
+    if (result == OK && page) result = report_write(&(struct report_request){.folder = folder.text, .quiet = a.quiet});
     arguments_free(&a);
     return result;
 }

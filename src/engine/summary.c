@@ -7,6 +7,8 @@
 #include "fracture/fragments.h"
 #include "base/memory.h"
 #include "base/memory_stream.h"
+#include "base/program_commit.h"
+#include "base/team.h"
 #include "output/json.h"
 #include "run/part.h"
 #include "simd/simd.h"
@@ -99,12 +101,15 @@ static status fragments_write(const struct particles *part, const struct run_rep
 
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
-/* Writes figures that depend on the machine: threads, kernels, times, memory. steps: of the run; spent: its times. */
+/* Writes figures that depend on the machine: processor, commit, threads, kernels, times, memory. steps: of the run;
+ * spent: its times. */
 static void put_machine(struct json *j, const struct run_report *r, int64_t steps, int threads,
                         const struct run_seconds *spent)
 {
     real updates = 0, ns = 1e9 * spent->loop;
     for (int k = 0; k < KINDS; k++) updates += (real)r->particle_steps[k];
+    json_text(j, "processor", machine_properties().model);
+    if (*program_commit()) json_text(j, "commit", program_commit());
     json_count(j, "threads", threads);
     json_text(j, "kernels", simd_current_kernels()->name);
     json_number(j, "wall_seconds", spent->wall, JSON_TIMING);

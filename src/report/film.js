@@ -88,13 +88,13 @@ function drawFilm() {
         const to = bufferOf(context, Math.round((width - BAR) * ratio), Math.round(height * ratio));
         paintFrame(to, frame, ratio);
         context.putImageData(to.image, 0, 0);
-        if (film.dim === 2) drawPreCracks(context, width - BAR, height);
+        if (film.dim === 2) drawPreCracks(context, to, ratio);
         else drawTriad(context, height);
         drawScaleBar(context, width - BAR, height);
         drawColourBar(context, width, height);
     }
     context.fillStyle = "#1d2330";
-    context.fillText(timeText(frame), 10, 20);
+    context.fillText(timeText(frame), film.dim === 1 ? width - 120 : 10, 20);
 }
 
 function paintFrame(to, frame, ratio) {
@@ -109,8 +109,8 @@ function paintFrame(to, frame, ratio) {
     const place = axis < 0 ? 0 : film.box.low[axis] + byId("cut_at").value * (film.box.high[axis] - film.box.low[axis]);
     const shown = (i) => axis < 0 || set.X[axis][i] <= place;
     const see = { centre: view.centre, scale: view.scale * ratio, turn: view.turn };
-    paintSpace(to, see, set, view.x_of, ghost ? () => GHOST : colour, shown);
-    if (ghost) paintSpace(to, see, set, view.x_of, (i) => lut[codes[i]], (i) => damage[i] > CRACK_CODE && shown(i));
+    paintSpace(to, see, set, view.x_of, ghost ? () => GHOST : colour, shown, damage);
+    if (ghost) paintSpace(to, see, set, view.x_of, (i) => lut[codes[i]], (i) => damage[i] > CRACK_CODE && shown(i), damage);
 }
 
 const timeText = (frame) => {
@@ -119,16 +119,19 @@ const timeText = (frame) => {
     return "t = " + number(frame.t / t.factor) + " " + t.name;
 };
 
-// Pre-cracks, where they were before the run.
-function drawPreCracks(context, width, height) {
-    context.strokeStyle = "#18202a";
-    context.setLineDash([5, 4]);
-    for (const line of page.cracks || []) {
-        context.beginPath();
-        line.forEach(([x, y], k) => context[k ? "lineTo" : "moveTo"](width / 2 + (x - view.x) * view.scale, height / 2 - (y - view.y) * view.scale));
-        context.stroke();
-    }
-    context.setLineDash([]);
+// Pre-cracks where they were before the run, as dots on the body.
+function drawPreCracks(context, to, ratio) {
+    context.fillStyle = "#18202a";
+    const pixel = ([x, y]) => [to.width / 2 + (x - view.x) * view.scale * ratio, to.height / 2 - (y - view.y) * view.scale * ratio];
+    const onBody = (px, py) => [-3, 0, 3].some((off) => to.owner[(Math.round(py) + off) * to.width + Math.round(px)] >= 0);
+    for (const line of page.cracks || [])
+        for (let k = 1; k < line.length; k++) {
+            const [a, b] = [pixel(line[k - 1]), pixel(line[k])], steps = Math.min(Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / (6 * ratio)), 2000);
+            for (let s = 0; s <= steps; s++) {
+                const [px, py] = [0, 1].map((d) => a[d] + (b[d] - a[d]) * s / Math.max(steps, 1));
+                if (px >= 0 && px < to.width && onBody(px, py)) context.fillRect(px / ratio - 1, py / ratio - 1, 2, 2);
+            }
+        }
 }
 
 function drawTriad(context, height) {
@@ -158,13 +161,13 @@ function drawScaleBar(context, width, height) {
 }
 
 function drawColourBar(context, width, height) {
-    const field = view.field, left = width - BAR + 12, top = 46, tall = Math.min(height - 80, 360);
+    const field = view.field, left = width - BAR + 12;
+    const unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit), words = field.name.split("_");
+    if (unit.name && field.scale !== "category") words.push("[" + unit.name + "]");
+    const top = 20 + 16 * words.length, tall = Math.min(height - top - 30, 360);
     context.fillStyle = "#1d2330";
-    const unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit), words = field.name.replace(/_/g, " ").split(" ");
-    words.forEach((word, k) => words.length < 3 ? context.fillText(word, left, 20 + 15 * k - (words.length > 1 ? 4 : 0), BAR - 14) : 0);
-    if (words.length > 2) context.fillText(words.join(" "), left, 20, BAR - 14);
+    words.forEach((word, k) => context.fillText(word, left, 20 + 16 * k));
     if (field.scale === "category") return drawCategories(context, left, top, height);
-    if (unit.name) context.fillText("[" + unit.name + "]", left, words.length === 2 ? 43 : 36);
     const stops = field.name === "damage" ? scales.damage : scales[field.scale === "signs" ? "signs" : "zero"];
     for (let k = 0; k < tall; k++) {
         context.fillStyle = "rgb(" + scaleColour(stops, 1 - k / tall).join() + ")";
@@ -229,8 +232,8 @@ function setLimits(low, high) {
     const field = view.field, unit = unitFor(Math.max(Math.abs(field.low), Math.abs(field.high)), field.unit);
     view.low = low;
     view.high = high > low ? high : low + Math.abs(low) * 1e-6 + 1e-30;
-    byId("limits").hidden = byId("auto").hidden = field.scale === "category";
-    byId("limits").style.display = field.scale === "category" ? "none" : "";
+    for (const id of ["limits", "auto"]) byId(id).style.display = field.scale === "category" ? "none" : "";
+    byId("cracks").disabled = field.name === "damage";
     byId("low").value = Number((low / unit.factor).toPrecision(4));
     byId("high").value = Number((high / unit.factor).toPrecision(4));
     byId("unit").textContent = unit.name;

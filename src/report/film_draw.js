@@ -5,7 +5,7 @@ const CRACK = 0.35;            // damage from which a particle is drawn as part 
 const CRACK_CODE = CRACK * 254;
 const INK = 0xff201a18, GHOST = 0xffe9e6e4;  // alpha, blue, green, red
 
-// Reads the reference state of a particle set once: positions, sizes, in the plane the neighbours on the lattice.
+// Reads the reference state of a particle set once: positions, sizes, neighbours on the lattice.
 function particlesOf(film, set) {
     if (set.ready) return set.ready;
     const X = set.X.map((axis) => {
@@ -13,29 +13,32 @@ function particlesOf(film, set) {
         return Float32Array.from(of, (v) => axis.low + (axis.high - axis.low) * v / 65535);
     });
     const size = set.size ? arrayOf(set.size) : new Float32Array(set.n).fill(film.spacing);
-    set.ready = { n: set.n, X, size, beside: film.dim === 2 ? neighbours(X, size, page.cracks || []) : null };
+    set.ready = { n: set.n, X, size, beside: film.dim > 1 ? neighbours(X, size, film.dim === 2 && page.cracks || []) : null };
     return set.ready;
 }
 
-// Returns four arrays: the particle to the right, left, above and below of each particle, of the same size; -1: none, or
+// Returns, for each axis, two arrays: the next particle of the same size in its direction, and against it; -1: none, or
 // a pre-crack lies between.
 function neighbours(X, size, cracks) {
-    const n = size.length, at = new Map(), beside = [0, 1, 2, 3].map(() => new Int32Array(n).fill(-1));
-    const low = [Infinity, Infinity];
-    for (let i = 0; i < n; i++) for (let d = 0; d < 2; d++) low[d] = Math.min(low[d], X[d][i]);
-    const key = (i, right, up) => {
-        const cell = [0, 1].map((d) => Math.floor((X[d][i] - low[d]) / size[i] + 0.25) + [right, up][d] + 1);
-        return (cell[0] * 1048576 + cell[1]) * 16 + Math.round(Math.log2(size[i] / size[0]) + 8);
+    const n = size.length, dim = X.length, at = new Map(), beside = [];
+    const low = X.map((axis) => axis.reduce((a, b) => Math.min(a, b), Infinity));
+    const key = (i, axis, step) => {
+        let cell = Math.round(Math.log2(size[i] / size[0]) + 4);
+        for (let d = 0; d < dim; d++) cell = cell * 65536 + Math.floor((X[d][i] - low[d]) / size[i] + 0.25) + (d === axis ? step : 0) + 1;
+        return cell;
     };
     for (let i = 0; i < n; i++) at.set(key(i, 0, 0), i);
-    const sides = [[1, 0], [-1, 0], [0, 1], [0, -1]];
-    for (let i = 0; i < n; i++)
-        for (let s = 0; s < 4; s++) {
-            const j = at.get(key(i, ...sides[s]));
+    for (let side = 0; side < 2 * dim; side++) {
+        const axis = side >> 1, step = side % 2 ? -1 : 1, next = new Int32Array(n).fill(-1);
+        for (let i = 0; i < n; i++) {
+            const j = at.get(key(i, axis, step));
             if (j === undefined) continue;
-            const off = [0, 1].map((d) => Math.abs(X[d][j] - X[d][i] - sides[s][d] * size[i]));
-            if (off[0] < 0.3 * size[i] && off[1] < 0.3 * size[i] && !parted(X, i, j, cracks)) beside[s][i] = j;
+            let near = true;
+            for (let d = 0; d < dim; d++) near = near && Math.abs(X[d][j] - X[d][i] - (d === axis ? step * size[i] : 0)) < 0.3 * size[i];
+            if (near && !parted(X, i, j, cracks)) next[i] = j;
         }
+        beside.push(next);
+    }
     return beside;
 }
 
@@ -96,10 +99,10 @@ function paintQuad(to, i, cx, cy, ax, ay, bx, by, colour) {
         }
 }
 
-// The pixels that a cube of `edge` pixels covers, seen along the third row of `turn`: their offsets, depths and shades.
+// The pixels that a cube of `edge` pixels covers, seen along the third row of `turn`: offsets, depths, and the axis of
+// the face that is seen there.
 function cubeStamp(turn, edge) {
-    const half = edge / 2 + 0.5, reach = Math.ceil(half * 1.75), stamp = { x: [], y: [], depth: [], shade: [] };
-    const shades = [0.86, 0.74, 1];
+    const half = edge / 2 + 0.5, reach = Math.ceil(half * 1.75), stamp = { x: [], y: [], depth: [], face: [] };
     for (let y = -reach; y <= reach; y++)
         for (let x = -reach; x <= reach; x++) {
             let near = Infinity, far = -Infinity, face = 0;
@@ -114,43 +117,62 @@ function cubeStamp(turn, edge) {
                 far = Math.max(far, Math.min(one, other));
             }
             if (near < far) continue;
-            stamp.x.push(x), stamp.y.push(-y), stamp.depth.push(near), stamp.shade.push(shades[face]);
+            stamp.x.push(x), stamp.y.push(-y), stamp.depth.push(near), stamp.face.push(face);
         }
     return stamp;
 }
 
-// Paints cubes in space. see: {centre, scale, turn}; shown(i): is particle i drawn? colour(i): its colour.
-function paintSpace(to, see, set, x, colour, shown) {
-    const stamps = new Map(), [r, u, t] = see.turn, depth = to.depth.fill(-Infinity);
+// Returns a function that stores in open[3] which of the three faces of cube i that one sees have no neighbour before
+// them, and returns the edge of the cube [m], which grows with the distance of its neighbours.
+function exposure(set, x, damage, shown, turn, open) {
+    const seen = [0, 1, 2].map((k) => set.beside[2 * k + (turn[2][k] > 0 ? 0 : 1)]);
+    const joined = (i, j) => j >= 0 && shown(j) && !(damage && damage[i] > CRACK_CODE && damage[j] > CRACK_CODE);
+    return (i) => {
+        let widest = set.size[i];
+        for (let k = 0; k < 3; k++) open[k] = !joined(i, seen[k][i]);
+        for (const next of set.beside) {
+            const j = next[i];
+            if (joined(i, j)) widest = Math.max(widest, Math.hypot(x[0][j] - x[0][i], x[1][j] - x[1][i], x[2][j] - x[2][i]));
+        }
+        return Math.min(widest, 2 * set.size[i]);
+    };
+}
+
+// Paints cubes in space. see: {centre, scale, turn}; shown(i): is particle i drawn? colour(i): its colour; damage: codes,
+// or null.
+function paintSpace(to, see, set, x, colour, shown, damage) {
+    const stamps = new Map(), [r, u, t] = see.turn, depth = to.depth.fill(-Infinity), open = [true, true, true];
+    const edgeOf = exposure(set, x, damage, shown, see.turn, open);
     for (let i = 0; i < set.n; i++) {
         if (!shown(i)) continue;
+        const edge = Math.round(2 * see.scale * edgeOf(i)) / 2;
+        if (!open[0] && !open[1] && !open[2]) continue;
         const dx = x[0][i] - see.centre[0], dy = x[1][i] - see.centre[1], dz = x[2][i] - see.centre[2];
         const px = Math.round(to.width / 2 + see.scale * (r[0] * dx + r[1] * dy + r[2] * dz));
         const py = Math.round(to.height / 2 - see.scale * (u[0] * dx + u[1] * dy + u[2] * dz));
-        const pz = see.scale * (t[0] * dx + t[1] * dy + t[2] * dz), edge = Math.round(2 * see.scale * set.size[i]) / 2;
+        const pz = see.scale * (t[0] * dx + t[1] * dy + t[2] * dz);
         if (!stamps.has(edge)) stamps.set(edge, cubeStamp(see.turn, edge));
-        const stamp = stamps.get(edge), full = colour(i), faces = shadesOf(full);
-        for (let k = 0; k < stamp.x.length; k++) {
-            const ax = px + stamp.x[k], ay = py + stamp.y[k];
-            if (ax < 0 || ay < 0 || ax >= to.width || ay >= to.height) continue;
-            const at = ay * to.width + ax;
-            if (depth[at] >= pz + stamp.depth[k]) continue;
-            depth[at] = pz + stamp.depth[k];
-            to.pixel[at] = faces[stamp.shade[k]];
-            to.owner[at] = i;
-        }
+        paintStamp(to, stamps.get(edge), i, px, py, pz, shadesOf(colour(i)), open);
     }
 }
 
-// The colour of a cube on its three faces.
+function paintStamp(to, stamp, i, px, py, pz, shades, open) {
+    for (let k = 0; k < stamp.x.length; k++) {
+        const ax = px + stamp.x[k], ay = py + stamp.y[k], face = stamp.face[k];
+        if (!open[face] || ax < 0 || ay < 0 || ax >= to.width || ay >= to.height) continue;
+        const at = ay * to.width + ax;
+        if (to.depth[at] >= pz + stamp.depth[k]) continue;
+        to.depth[at] = pz + stamp.depth[k];
+        to.pixel[at] = shades[face];
+        to.owner[at] = i;
+    }
+}
+
+// The colour of a cube on its faces along x, y and z.
 const shadeCache = new Map();
 function shadesOf(colour) {
-    let faces = shadeCache.get(colour);
-    if (!faces) {
-        faces = {};
-        for (const s of [0.86, 0.74, 1])
-            faces[s] = (0xff000000 | Math.round((colour >> 16 & 255) * s) << 16 | Math.round((colour >> 8 & 255) * s) << 8 | Math.round((colour & 255) * s)) >>> 0;
-        shadeCache.set(colour, faces);
-    }
-    return faces;
+    if (!shadeCache.has(colour))
+        shadeCache.set(colour, [0.86, 0.74, 1].map((s) =>
+            (0xff000000 | Math.round((colour >> 16 & 255) * s) << 16 | Math.round((colour >> 8 & 255) * s) << 8 | Math.round((colour & 255) * s)) >>> 0));
+    return shadeCache.get(colour);
 }

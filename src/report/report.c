@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/program_commit.h"
 #include "base/team.h"
 #include "output/output_files.h"
 #include "output/page_file.h"
@@ -40,11 +41,10 @@ static status page_destination(struct path *path, const struct report_request *r
     if (length == 0 || length + PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "report: -o '%s': the name of a file or folder is expected",
                           printable_name(out).text);
-    if (out[length - 1] == '/') TRY(folder_make(out));
-    if (path_is_folder(out))
-        *path = path_join(out, PAGE_NAME);
-    else
-        snprintf(path->text, sizeof path->text, "%s", out);
+    snprintf(path->text, sizeof path->text, "%s", out);
+    for (size_t end = length; end > 1 && path->text[end - 1] == '/'; end--) path->text[end - 1] = '\0';
+    if (out[length - 1] == '/') TRY(folder_make(path->text));
+    if (path_is_folder(path->text)) *path = path_join(path->text, PAGE_NAME);
     TRY(file_check_replaceable(path->text));
     if (r->overwrite || !path_exists(path->text) || page_file_is_own(path->text)) return OK;
     return status_set(REFUSED, "%s exists and is no page of cleave; choose another -o, or replace it with --overwrite",
@@ -59,7 +59,7 @@ static void write_origin(struct page *p, const struct report_request *r)
     const time_t now = time(NULL);
     json_text(&p->json, "folder", r->folder);
     json_text(&p->json, "version", CLEAVE_VERSION);
-    json_text(&p->json, "commit", r->commit);
+    json_text(&p->json, "commit", program_commit());
     json_text(&p->json, "machine", machine_properties().model);
     if (gmtime_r(&now, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0)
         json_text(&p->json, "made", text);

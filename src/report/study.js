@@ -52,15 +52,19 @@ function tableOf(header, rows) {
 }
 
 function showSweepTable() {
-    const figures = shownFigures();
-    tableOf(["run", "state", ...study.keys, ...figures.map((f) => f + (study.units[f] ? " [" + study.units[f] + "]" : ""))], study.rows.map((row) =>
+    const figures = shownFigures().map((name) => {
+        const values = study.rows.map((row) => cellValue(at(row, name))).filter(Number.isFinite);
+        return { name, unit: unitFor(Math.max(0, ...values.map(Math.abs)), study.units[name] || "") };
+    });
+    const heads = figures.map(({ name, unit }) => name + (unit.name ? " [" + unit.name + "]" : ""));
+    tableOf(["run", "state", ...study.keys, ...heads], study.rows.map((row) =>
         [...["run", "state", ...study.keys].map((name) => ({ text: at(row, name) || "", value: cellValue(at(row, name)) })),
-            ...figures.map((name) => ({ text: number(cellValue(at(row, name))), value: cellValue(at(row, name)), title: at(row, name) }))]));
+            ...figures.map(({ name, unit }) => ({ text: number(cellValue(at(row, name)) / unit.factor), value: cellValue(at(row, name)), title: at(row, name) }))]));
 }
 
 function showConvergenceTable() {
-    const wanted = byId("wanted").value.toLowerCase().split(/[ ,]+/).filter(Boolean);
-    const rows = study.rows.filter((row) => wanted.length === 0 || wanted.some((word) => row[0].toLowerCase().includes(word)));
+    const wanted = byId("wanted").value.toLowerCase().split(/[ ,]+/).filter(Boolean), all = byId("technical").checked;
+    const rows = study.rows.filter((row) => (all || !ofComputation.test(row[0])) && (wanted.length === 0 || wanted.some((word) => row[0].toLowerCase().includes(word))));
     tableOf(["figure", "value", "± (95 %)", "of it scatter", "of it spacing", "behaviour", "order", "limit"], rows.map((row) => {
         const unit = at(row, "unit"), cell = (name) => ({ text: at(row, name) === "" ? "" : quantity(cellValue(at(row, name)), unit), value: cellValue(at(row, name)), title: at(row, name) + " " + unit });
         const plain = (name) => ({ text: Number.isNaN(cellValue(at(row, name))) ? at(row, name) : number(cellValue(at(row, name)), 3), value: cellValue(at(row, name)) });
@@ -144,7 +148,6 @@ function showStudy() {
     if (sweep && study.keys.length > 1) byId("axes").append(element("label", {}, "over ", select(study.keys, 0, (k) => (study.x = k))));
     byId("wanted").addEventListener("input", showTable);
     byId("technical").addEventListener("change", showTable);
-    if (!sweep) byId("technical").parentElement.hidden = true;
     byId("scatter").addEventListener("pointermove", readPoint);
     showTable();
     if (study.rows.length) drawStudy();

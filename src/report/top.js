@@ -13,7 +13,7 @@ function flat(object, prefix = "") {
 const unitOf = (key) => (page.units || {})[key] || "";
 
 function showHead() {
-    const name = (summary && summary.name) || page.name || page.folder;
+    const name = (summary && summary.name) || page.name || page.folder.replace(/\/+$/, "").split("/").pop();
     page.title = name;
     document.title = name + " – Cleave";
     byId("title").textContent = name;
@@ -39,9 +39,13 @@ function showCards() {
 
 function showWarnings(list) {
     if (!list || list.length === 0) return;
-    const box = section("warnings");
-    box.querySelector("h2").textContent = list.length === 1 ? "One warning" : list.length + " warnings";
-    box.querySelector("ul").append(...list.map((text) => element("li", {}, text)));
+    const box = section("warnings"), alike = new Map();
+    for (const text of list) {
+        const form = text.replace(/[-+.\d]+(e[-+]?\d+)?/g, "#");
+        alike.set(form, [...(alike.get(form) || []), text]);
+    }
+    box.querySelector("h2").textContent = alike.size === 1 ? "One warning" : alike.size + " warnings";
+    box.querySelector("ul").append(...[...alike.values()].map((texts) => element("li", {}, texts[0] + (texts.length > 1 ? " (" + (texts.length - 1) + " more with other numbers)" : ""))));
 }
 
 function showFigures() {

@@ -28,21 +28,21 @@ async function probeFilm(seen) {
     byId("play").click();
     await wait(1500);
     seen.played_to = view.frame;
-    const before = painted();
+    seen.painted = painted();
     send("field", "change", "von_mises");
     seen.field = view.field.name;
+    seen.painted_again = painted();
     if (film.dim === 2) seen.crack_von_mises = colourAt(0.01, 0.0102), seen.whole_von_mises = colourAt(0.035, 0.004);
     if (film.dim === 3) {
         const rows = JSON.stringify(view.turn), canvas = byId("view");
         for (const [type, x] of [["pointerdown", 300], ["pointermove", 380], ["pointerup", 380]])
             canvas.dispatchEvent(new PointerEvent(type, { clientX: x, clientY: 300, pointerId: 1 }));
         seen.turned = JSON.stringify(view.turn) !== rows;
-        seen.painted = painted();
+        seen.painted_turned = painted();
         send("cut", "input", "1");
         send("cut_at", "input", "0.3");
         seen.painted_cut = painted();
     }
-    seen.same_body = before === painted();
 }
 
 async function probe() {

@@ -27,10 +27,8 @@ space: plane stress
 thickness: 2 mm
 duration: 6 us
 method: pd
-materials:
-  - {name: 'glass </script><b> & "soda" ''lime''', young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 3 J/m^2}
-bodies:
-  - {name: plate, shape: {box: {from: [0, 0], to: [40 mm, 20 mm]}}}
+material: {name: glass, young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 3 J/m^2}
+body: [box: {from: [0, 0], to: [40 mm, 20 mm]}]
 particles: {spacing: 1 mm}
 cracks: [{from: [0, 10 mm], to: [15 mm, 10 mm]}]
 boundary: [{traction: [0, 20 MPa], face: y+}, {traction: [0, -20 MPa], face: y-}]
@@ -43,12 +41,21 @@ END
 is "run --report: exit status" $? 0
 whole results/plate/report.html results/plate
 smaller results/plate/report.html 2e6
-holds "the material's name is a text" grep -q 'glass .u003c/script>.u003cb> &' results/plate/report.html
 holds "nothing is left beside the page" test -z "$(find . -name '*.cleave.tmp*')"
 "$cleave" report results/plate -o here/ >out 2>err
 is "report -o FOLDER/: exit status" $? 0
 holds "says the page" grep -q '^here/report.html: .* MB' out
 if command -v gnuplot >/dev/null; then holds "has the scene's picture" grep -q '"picture": {' here/report.html; fi
+
+# A folder whose name would end the script and begin another: no text of the page is markup.
+named="a</script><b>&\"'"
+mkdir 'a<'
+cp -r results/plate "$named"
+"$cleave" report "$named" -o named.html -q
+is "a name like markup: exit status" $? 0
+whole named.html results/plate
+holds "the name is a text" grep -q '"folder": "a.u003c/script>.u003cb>&.*"' named.html
+holds "in the title, too" grep -q '<title>script>&lt;b>&amp;"' named.html
 
 # A script that a browser could not read would leave the page empty.
 if command -v node >/dev/null; then

@@ -1,0 +1,7 @@
+/* The commit of the source tree. */
+#include "base/program_commit.h"
+
+static const char *commit = "";
+
+void program_commit_set(const char *name) { commit = name; }
+const char *program_commit(void) { return commit; }
