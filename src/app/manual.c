@@ -40,6 +40,7 @@ static const struct entry options[] = {
     {"-o FILE",
      "writes the picture to this file or folder (default: pictures/ of the run; with --scene, results/NAME_scene.png).",
      "plot"},
+    {"-o PAGE.html", "writes the page to this file or folder (default: report.html in DIR).", "report"},
     {"-s KEY=VALUE",
      "replaces the value of a key of the scene, or adds the key: material.young=70e9, boundary.0.velocity='[0, 20 "
      "m/s]', cracks.1.to='[20 mm, 0]', materials.steel.young=210e9. Items of lists are named by their number, from 0 "
@@ -51,7 +52,11 @@ static const struct entry options[] = {
     {"--overwrite", "replaces an older study or export in the folder. Without this option the command is refused.",
      "sweep converge export"},
     {"--overwrite", "replaces a file that cleave has not drawn. Without this option the command is refused.", "plot"},
-    {"-q", "prints no progress and no figures at the end. Warnings are printed, and are in summary.json.", NULL},
+    {"--overwrite", "replaces a file that is no page of cleave. Without this option the command is refused.", "report"},
+    {"--report", "writes report.html, the page of cleave report, into the folder at the end of the run.", NULL},
+    {"-q", "prints no progress and no figures at the end. Warnings are printed, and are in summary.json.",
+     "run sweep converge"},
+    {"-q", "does not print the name of the page.", "report"},
     {"-j RUNS", "sets how many runs of a study run at the same time (default: the number of cores).", NULL},
     {"--list", "prints the command of each run, one per line, and runs nothing.", NULL},
     {"--collect", "makes the table and the pictures of a study from its finished runs, and runs nothing.", NULL},
@@ -116,6 +121,7 @@ static const struct entry files[] = {
     {"scene.yaml", "the scene as run, every default written out", NULL},
     {"checkpoint.h5, checkpoint.previous.h5", "the two newest checkpoints", NULL},
     {"pictures/", "pictures of cleave plot", NULL},
+    {"report.html", "the page of cleave report", NULL},
 };
 static const struct entry scene_form[] = {
     {NULL,

@@ -209,8 +209,8 @@ static void write_sizes(struct page *p, const struct film *f, const struct film_
 }
 
 /* Writes what the frames of a set share. frame: the first of them. */
-static void write_set(struct page *p, const struct film *f, const struct film_set *s, const struct output_frame *frame,
-                      const char *path)
+static void write_film_set(struct page *p, const struct film *f, const struct film_set *s,
+                           const struct output_frame *frame, const char *path)
 {
     json_open(&p->json, NULL, '{');
     json_count(&p->json, "particles", s->n);
@@ -236,7 +236,7 @@ static status write_sets(struct page *p, const struct film *f)
         while (f->frame[at].set != k) at++;
         const int number = f->frame[at].listed.number;
         TRY(run_read_frame(&frame, f->folder, number));
-        write_set(p, f, &f->set[k], &frame, run_frame_path(f->folder, number).text);
+        write_film_set(p, f, &f->set[k], &frame, run_frame_path(f->folder, number).text);
         frame_free(&frame);
     }
     json_close(&p->json, ']');

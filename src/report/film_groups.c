@@ -65,7 +65,7 @@ static void merge_cells(struct film_set *s, const struct film *f, const double *
 }
 
 /* Fills groups, first and member from the levels of the particles. */
-static void groups_fill(struct film_set *s, const struct film *f, const double *from)
+static void film_groups_fill(struct film_set *s, const struct film *f, const double *from)
 {
     struct member *m = BARE("report.members", s->n, struct member);
     for (int64_t i = 0; i < s->n; i++)
@@ -89,7 +89,7 @@ void film_set_group(struct film_set *s, const struct film *f)
     }
     array_fill_bytes(s->level, 0, s->n, sizeof *s->level);
     for (int level = 1; level <= f->levels; level++) merge_cells(s, f, from, level);
-    groups_fill(s, f, from);
+    film_groups_fill(s, f, from);
     s->shown = 0;
     for (int64_t g = 0; g < s->groups; g++) {
         s->hidden[g] = g % f->every != 0 && (f->thins_busy || !s->busy[s->member[s->first[g]]]);

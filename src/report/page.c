@@ -25,7 +25,7 @@ status page_make(struct page *p)
     p->json.file = memory_stream_open(&p->text, &p->text_length);
     p->arrays = memory_stream_open(&p->array_text, &p->array_length);
     if (!p->json.file || !p->arrays) {
-        page_free(p);
+        page_release(p);
         return status_set(FAILED, "report: out of memory");
     }
     fputc('{', p->json.file);
@@ -145,7 +145,7 @@ status page_write(struct page *p, const char *path, const char *title, int64_t *
     return written;
 }
 
-void page_free(struct page *p)
+void page_release(struct page *p)
 {
     if (p->json.file) fclose(p->json.file);
     if (p->arrays) fclose(p->arrays);

@@ -20,7 +20,8 @@ struct page {
     int count; /* number of arrays */
 };
 
-/* Begins an empty page, with an open JSON object. Returns FAILED if there is no memory for it. Release with page_free.
+/* Begins an empty page, with an open JSON object. Returns FAILED if there is no memory for it. Release with
+ * page_release.
  */
 status page_make(struct page *p);
 
@@ -42,6 +43,6 @@ void page_add_text_file(struct page *p, const char *key, const char *folder, con
 status page_write(struct page *p, const char *path, const char *title, int64_t *bytes);
 
 /* Releases the memory of *p. */
-void page_free(struct page *p);
+void page_release(struct page *p);
 
 #endif

@@ -89,7 +89,7 @@ static status report_page(const struct report_request *r, const struct path *pat
     else
         s = report_write_run(&p, r, path->text);
     if (s == OK) s = page_write(&p, path->text, folder_name(name, sizeof name, r->folder), &bytes);
-    page_free(&p);
+    page_release(&p);
     TRY(s);
     if (r->quiet) return OK;
     const int said =

@@ -39,7 +39,7 @@ static void write_unit(void *context, const char *key, double value)
 }
 
 /* Writes the first line of history.csv to header[HEADER_ROOM]; "" if there is none. */
-static void header_read(char *header, const char *folder)
+static void history_header_read(char *header, const char *folder)
 {
     const struct path history = path_join(folder, "history.csv");
     FILE *from = path_is_file(history.text) ? fopen(history.text, "r") : NULL;
@@ -96,7 +96,7 @@ static status write_history(struct page *p, const char *folder, const char *head
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
-static void write_cracks(struct page *p, const struct scene *s)
+static void write_pre_cracks(struct page *p, const struct scene *s)
 {
     json_open(&p->json, "cracks", '[');
     for (int k = 0; k < s->cracks; k++) {
@@ -150,7 +150,7 @@ static void write_scene(struct page *p, const char *folder, int64_t particles, c
     if (drawn == OK) {
         json_text(&p->json, "name", s.name);
         json_count(&p->json, "dim", s.dim);
-        write_cracks(p, &s);
+        write_pre_cracks(p, &s);
         write_names(p, &s);
         scene_free(&s);
         drawn = particles > PICTURE_PARTICLES ? status_set(REFUSED, "the scene has more than two million particles")
@@ -180,7 +180,7 @@ status report_write_run(struct page *p, const struct report_request *r, const ch
     char header[HEADER_ROOM];
     int64_t particles;
     json_text(&p->json, "kind", "run");
-    header_read(header, r->folder);
+    history_header_read(header, r->folder);
     write_figures(p, r->folder, header);
     TRY(write_film(p, r->folder, &particles));
     TRY(write_history(p, r->folder, header));

@@ -18,8 +18,8 @@ enum { PICTURES_MOST = 12, WARNINGS_MOST = 20, MESSAGE_ROOM = 600 };
 static int name_compare(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
 /* Stores the names of the entries of a folder, in order, in an allocated array *name. Returns their number; names and
- * array are for names_free. */
-static int names_read(char ***name, const char *folder)
+ * array are for folder_names_free. */
+static int folder_names_read(char ***name, const char *folder)
 {
     int n = 0;
     DIR *d = opendir(folder);
@@ -35,7 +35,7 @@ static int names_read(char ***name, const char *folder)
     return n;
 }
 
-static void names_free(char **name, int n)
+static void folder_names_free(char **name, int n)
 {
     for (int k = 0; k < n; k++) memory_free(name[k]);
     memory_free(name);
@@ -47,7 +47,7 @@ static void write_pictures(struct page *p, const char *folder)
     char **name;
     int added = 0;
     const struct path pictures = pictures_folder(folder);
-    const int n = names_read(&name, pictures.text);
+    const int n = folder_names_read(&name, pictures.text);
     json_open(&p->json, "pictures", '[');
     for (int k = 0; k < n && added < PICTURES_MOST; k++) {
         const struct path path = path_join(pictures.text, name[k]);
@@ -61,7 +61,7 @@ static void write_pictures(struct page *p, const char *folder)
         added++;
     }
     json_close(&p->json, ']');
-    names_free(name, n);
+    folder_names_free(name, n);
 }
 
 /* Adds the warnings of the runs of a study, each text once. */
@@ -70,7 +70,7 @@ static void write_warnings(struct page *p, const char *folder)
     char **name, key[32], text[MESSAGE_ROOM];
     static char seen[WARNINGS_MOST][MESSAGE_ROOM];
     int found = 0;
-    const int n = names_read(&name, folder);
+    const int n = folder_names_read(&name, folder);
     json_open(&p->json, "warnings", '[');
     for (int k = 0; k < n; k++) {
         const struct path run = path_join(folder, name[k]);
@@ -86,7 +86,7 @@ static void write_warnings(struct page *p, const char *folder)
         }
     }
     json_close(&p->json, ']');
-    names_free(name, n);
+    folder_names_free(name, n);
 }
 
 /* Adds the units of the figures of a sweep, from the header of the history of any of its runs. header: first line of
@@ -95,14 +95,14 @@ static void write_study_units(struct page *p, const char *folder)
 {
     char **name, header[HEADER_ROOM] = "", unit[UNIT_ROOM], *table = NULL;
     size_t length = 0;
-    const int n = names_read(&name, folder);
+    const int n = folder_names_read(&name, folder);
     for (int k = 0; k < n && !header[0]; k++) {
         FILE *from = fopen(path_join(path_join(folder, name[k]).text, "history.csv").text, "r");
         if (!from) continue;
         if (!fgets(header, sizeof header, from)) header[0] = '\0';
         fclose(from);
     }
-    names_free(name, n);
+    folder_names_free(name, n);
     if (file_read_whole(path_join(folder, "sweep.csv").text, &table, &length) != OK) return;
     table[strcspn(table, "\r\n")] = '\0';
     json_open(&p->json, "units", '{');

@@ -1,0 +1,135 @@
+/* Films of pages: groups of particles keep area and centre of the body, what is damaged stays as it is, and every
+ * budget is kept. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "src/report/film.h"
+
+enum { NX = 50, NY = 37, FRAMES = 61 };
+static const double H = 0.25e-3;
+
+/* Makes a film of FRAMES frames of a plate of NX by NY particles, of which those of row 20 are busy from x = 10 H on.
+ */
+static void plate_make(struct film *f)
+{
+    *f = (struct film){.dim = 2, .spacing = H, .every = 1, .frames = FRAMES, .listed = FRAMES, .sets = 1};
+    f->frame = NEW("test.frames", FRAMES, struct film_frame);
+    f->set = memory_ensure_capacity("test.sets", NULL, 1, sizeof *f->set);
+    struct film_set *s = f->set;
+    const int n = s->n = NX * NY;
+    for (int d = 0; d < 2; d++) s->X[d] = NEW("test.X", n, float);
+    s->material = NEW("test.material", n, uint8_t), s->body = NEW("test.body", n, uint8_t);
+    s->busy = NEW("test.busy", n, bool), s->history = NEW("test.history", n, uint32_t);
+    s->level = NEW("test.level", n, uint8_t), s->first = NEW("test.first", n + 1, int32_t);
+    s->member = NEW("test.member", n, int32_t), s->hidden = NEW("test.hidden", n, bool);
+    for (int i = 0; i < n; i++) {
+        s->X[0][i] = (float)(0.013 + (i % NX + 0.5) * H);
+        s->X[1][i] = (float)(-0.002 + (i / NX + 0.5) * H);
+        s->busy[i] = i / NX == 20 && i % NX >= 10;
+    }
+}
+
+/* Returns the number of bytes of the frames that are shown: 4 for displacements, and 4 once for positions, 6 at most
+ * for sizes and two fields of the set. */
+static int64_t film_bytes(const struct film *f) { return f->set->shown * (4 * f->used + 10); }
+
+static void groups_cover_the_body(void **state)
+{
+    struct film f;
+    (void)state;
+    plate_make(&f);
+    for (int levels = 0; levels <= FILM_LEVELS; levels++) {
+        double area = 0, moment[2] = {0}, wanted[2] = {0};
+        int64_t members = 0, busy = 0;
+        f.levels = levels;
+        film_set_group(f.set, &f);
+        const struct film_set *s = f.set;
+        for (int64_t g = 0; g < s->groups; g++) {
+            const double size = film_group_size(s, &f, g);
+            const int32_t n = s->first[g + 1] - s->first[g];
+            members += n;
+            area += size * size;
+            for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) {
+                busy += s->busy[s->member[k]];
+                if (s->busy[s->member[k]]) assert_int_equal(n, 1);
+                for (int d = 0; d < 2; d++) moment[d] += size * size * (double)s->X[d][s->member[k]] / n;
+            }
+        }
+        for (int i = 0; i < s->n; i++)
+            for (int d = 0; d < 2; d++) wanted[d] += H * H * (double)s->X[d][i];
+        assert_int_equal(members, NX * NY);
+        assert_int_equal(busy, NX - 10);
+        /* sums of two thousand terms, each rounded to 1e-16 of the largest */
+        assert_true(fabs(area / (H * H * NX * NY) - 1) < 1e-12);
+        for (int d = 0; d < 2; d++) assert_true(fabs(moment[d] / wanted[d] - 1) < 1e-12);
+        if (levels == 0) assert_int_equal(s->groups, NX * NY);
+        /* cells of 2 x 2 that hold no busy particle, in the 18 of 19 pairs of rows that are full: row 36 has no
+         * partner; rows 20 and 21 are whole from x = 0 to 10 H alone */
+        if (levels == 1) assert_int_equal(s->groups, 17 * 25 + 5 + 2 * 40 + NX);
+    }
+    film_free(&f);
+}
+
+/* Particles of two materials, fragments or bodies are never one group. */
+static void groups_do_not_mix(void **state)
+{
+    struct film f;
+    (void)state;
+    plate_make(&f);
+    struct film_set *s = f.set;
+    f.levels = FILM_LEVELS;
+    for (int i = 0; i < s->n; i++) {
+        s->material[i] = i % NX >= 23;
+        s->body[i] = i / NX >= 11;
+        s->history[i] = (i % NX + i / NX) % 50 > 30;
+    }
+    film_set_group(s, &f);
+    for (int64_t g = 0; g < s->groups; g++)
+        for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) {
+            const int32_t i = s->member[k], j = s->member[s->first[g]];
+            assert_int_equal(s->material[i], s->material[j]);
+            assert_int_equal(s->body[i], s->body[j]);
+            assert_int_equal(s->history[i], s->history[j]);
+        }
+    film_free(&f);
+}
+
+static void budgets_are_kept(void **state)
+{
+    (void)state;
+    int64_t before = INT64_MAX;
+    for (int64_t budget = 1 << 20; budget > 2000; budget /= 2) {
+        struct film f;
+        plate_make(&f);
+        film_fit(&f, budget);
+        assert_true(film_bytes(&f) <= budget);
+        assert_true(f.frame[0].used && f.frame[FRAMES - 1].used);
+        assert_true(film_bytes(&f) <= before);
+        before = film_bytes(&f);
+        int used = 0;
+        for (int k = 0; k < FRAMES; k++) used += f.frame[k].used;
+        assert_int_equal(used, f.used);
+        /* With room for everything nothing is left out; damaged particles go last. */
+        if (budget == 1 << 20) assert_true(f.used == FRAMES && f.set->shown == NX * NY);
+        int64_t busy = 0;
+        for (int64_t g = 0; g < f.set->groups; g++)
+            busy += !f.set->hidden[g] && f.set->busy[f.set->member[f.set->first[g]]];
+        if (!f.thins_busy) assert_int_equal(busy, NX - 10);
+        film_free(&f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(groups_cover_the_body),
+        cmocka_unit_test(groups_do_not_mix),
+        cmocka_unit_test(budgets_are_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
