@@ -11,6 +11,7 @@
 #include "output/output_files.h"
 #include "plot/colours.h"
 #include "plot/gnuplot.h"
+#include "scene/scene.h"
 
 /* ---- requests ---------------------------------------------------------------------------------------------------- */
 
@@ -42,6 +43,7 @@ struct projection {
     const struct plot_field *field; /* field to be drawn; NULL: only damage, kind and fragment */
     const float *value;             /* [n] values of the field in the current frame */
     bool in_steps;                  /* the frames are those of load steps */
+    const struct scene *scene;      /* scene as run, for its pre-cracks and rigid bodies; NULL: unknown; borrowed */
 };
 
 /* Options of `cleave plot`. */
@@ -170,6 +172,7 @@ struct plotted_particles {
     int64_t n;
     float *position[DIM_MAX]; /* current position along the axes of the map [m]; position[2], towards the viewer, is
                                * NULL for a flat map */
+    float *reference[2];      /* reference position along the axes of the map [m]; NULL: unknown */
     float *damage;            /* [1] */
     uint8_t *kind;
     int32_t *fragment;     /* NULL: unknown */
@@ -186,7 +189,9 @@ struct plotted_particles {
     double tall;           /* half height of a particle of a 1D bar [m]; 0: particles are as high as wide */
     float *size;           /* size of the particles and of the material points of coarse cells [m]; NULL: spacing
                             * everywhere */
-    bool aligned;          /* nearest neighbours still lie along the axes */
+    bool aligned;          /* nearest neighbours lie along the axes at reference positions */
+    float *gradient;       /* [n][9] deformation gradient F of each particle, rows along x, y, z [1]; NULL: no visible
+                            * deformation */
     double from[2], to[2]; /* bounding box of the reference positions [m] */
 };
 
@@ -194,6 +199,15 @@ struct plotted_particles {
  * three dimensions; NULL for the slice with the largest damage. Release with plotted_particles_free. */
 void plotted_particles_make(struct plotted_particles *c, const struct output_frame *f,
                             const struct projection *projection);
+
+/* Computes the deformation gradients of all particles of the frame f, [f->n][9], rows along x, y, z [1], as fits to the
+ * displacements of near particles that a crack does not separate. spacing: of the particles [m]; scene: for its
+ * pre-cracks; NULL: none are known. Returns an allocated array, which the caller releases with memory_free, or NULL if
+ * no deformation is visible. */
+float *particle_gradients_make(const struct output_frame *f, double spacing, const struct scene *scene);
+
+/* Inverts the matrix `a`. Returns false, and leaves *to undefined, if its determinant is 0 or not a number. */
+bool matrix_invert(const double a[3][3], double to[3][3]);
 
 /* Releases the arrays of *c. */
 void plotted_particles_free(struct plotted_particles *c);
@@ -242,7 +256,8 @@ struct view {
     const struct categories *categories; /* named values of MAP_CATEGORY; borrowed */
     int64_t outside;                     /* largest number of particles of a frame outside the rectangle */
     int notches;
-    const struct crack *notch; /* [notches] pre-cracks of a plane scene, drawn as lines in maps of damage; borrowed */
+    const struct crack
+        *notch; /* [notches] pre-cracks of a plane scene, whose faces are lines in maps of damage; borrowed */
 };
 
 /* Particles with at least this damage are cracks in MAP_CRACKS; a plane that cuts all bonds of a family across it
@@ -265,15 +280,16 @@ struct colour particle_colour(const struct view *v, const struct plotted_particl
 struct colour map_colour(const struct view *v, enum map map, double position);
 
 /* Paints the particles of c, seen in the rectangle of `view`, into pixel[height][width], row 0 at the bottom. map:
- * quantity that the colours show. Each particle covers its own square, or a disc where the lattice is rotated; each
- * pixel shows the nearest particle. Pixels without a particle are white and transparent. Outside views are painted by
- * cubes_paint_particles. */
+ * quantity that the colours show. Each particle covers its own square, or a disc where the lattice is rotated, that
+ * deforms with the body; each pixel shows the nearest particle. Pixels without a particle are white and transparent.
+ * Outside views are painted by cubes_paint_particles. */
 void raster_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
                             const struct plotted_particles *c, enum map map);
 
 /* Paints the particles of c in an outside view into pixel[height][width], row 0 at the bottom. map: quantity that the
- * colours show; view: visible rectangle and range of the colours. Each particle is drawn as a cube; each pixel shows
- * the cube nearest to the viewer. In MAP_CRACKS the cubes of cracks are painted in front of the body in faded colours.
+ * colours show; view: visible rectangle and range of the colours. Each particle is drawn as a cube that deforms
+ * with the body; each pixel shows the cube nearest to the viewer. In MAP_CRACKS the cubes of cracks are painted in
+ * front of the body in faded colours.
  */
 void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
                            const struct plotted_particles *c, enum map map);

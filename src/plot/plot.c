@@ -70,10 +70,11 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 }
 
 /* Draws the maps of damage, of the kinds of particles and of fragments, each only if the frames contain such. The
- * same maps for every frame follow if r->every is set. scene: for its pre-cracks in 2D; may be NULL. */
-static status draw_views(const struct plot_request *r, const struct run_frames *frames,
-                         const struct plotted_particles *cloud, const struct scene *scene)
+ * same maps for every frame follow if r->every is set. */
+static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
+                        const struct plotted_particles *cloud)
 {
+    const struct scene *scene = r->projection.scene;
     struct view view = view_around(cloud, frames->shown);
     const struct plotted_particles *last = &cloud[frames->shown - 1];
     const struct contents has = contents_of(cloud, frames->shown);
@@ -92,18 +93,6 @@ static status draw_views(const struct plot_request *r, const struct run_frames *
                              : report_nothing_to_draw(latest.text, "it would show neither damage nor two methods"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));
     return r->every ? draw_every(r, frames, &view) : OK;
-}
-
-/* Draws the maps of flat clouds. Pre-cracks are read from the scene.yaml of the run; without this file they are left
- * out. */
-static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
-                        const struct plotted_particles *cloud)
-{
-    struct scene scene;
-    const bool known = scene_read(&scene, path_join(r->folder, "scene.yaml").text, NULL, 0) == OK;
-    const status s = draw_views(r, frames, cloud, known ? &scene : NULL);
-    if (known) scene_free(&scene);
-    return s;
 }
 
 /* Draws the maps of a three-dimensional run in an outside view, and its cracks. */
@@ -195,19 +184,29 @@ static status draw_frames(struct plot_request *r)
     return s;
 }
 
-status run_draw_pictures(const struct plot_request *request)
+static status draw_pictures(struct plot_request *r)
 {
-    struct plot_request r = *request;
     char title[TITLE_LENGTH];
-    if (r.panels == 0) r.panels = PANELS;
-    r.projection.in_steps = run_has_load_steps(r.folder);
-    const bool frames = run_has_file(r.folder, "frames.hdf.series"), history = run_has_file(r.folder, "history.csv");
-    const struct path pictures = pictures_folder(r.folder);
+    const bool frames = run_has_file(r->folder, "frames.hdf.series"), history = run_has_file(r->folder, "history.csv");
+    const struct path pictures = pictures_folder(r->folder);
     TRY(pictures_folder_make(pictures.text));
-    if (frames) TRY(draw_frames(&r));
-    picture_compose_title(title, r.folder, "", NULL);
-    if (history) TRY(history_curves_draw(r.folder, title, r.format));
+    if (frames) TRY(draw_frames(r));
+    picture_compose_title(title, r->folder, "", NULL);
+    if (history) TRY(history_curves_draw(r->folder, title, r->format));
     if (printf("pictures in %s\n", printable_name(pictures.text).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));
     return OK;
+}
+
+status run_draw_pictures(const struct plot_request *request)
+{
+    struct plot_request r = *request;
+    struct scene scene;
+    if (r.panels == 0) r.panels = PANELS;
+    r.projection.in_steps = run_has_load_steps(r.folder);
+    const bool known = scene_read(&scene, path_join(r.folder, "scene.yaml").text, NULL, 0) == OK;
+    r.projection.scene = known ? &scene : NULL;
+    const status s = draw_pictures(&r);
+    if (known) scene_free(&scene);
+    return s;
 }

@@ -24,20 +24,28 @@ struct scene_canvas {
     const struct view *view;
 };
 
-/* Intersects a line of sight with a cube. at: point of the line in the picture plane relative to the cube's centre [m];
- * half: half sizes [m]. Returns the axis of the face through which the line leaves the cube towards the viewer and
- * stores the depth of that point [m]; -1 if the line misses the cube. */
-static int leaves_cube(const struct camera *eye, const double *half, const double *at, double *depth)
+/* A cube that deforms with the body: half sizes of the undeformed cube [m], F and its inverse, and the direction
+ * towards the viewer before the deformation. */
+struct cube {
+    double half[3], F[3][3], inverse[3][3], towards[3];
+};
+
+/* Intersects a line of sight with a cube. at: point of the line in the picture plane relative to the cube's centre [m].
+ * Returns the axis of the face through which the line leaves the cube towards the viewer and stores the depth of that
+ * point [m]; -1 if the line misses the cube. */
+static int leaves_cube(const struct camera *eye, const struct cube *b, const double *at, double *depth)
 {
     double enters = -INFINITY, leaves = INFINITY;
     int face = -1;
     for (int k = 0; k < 3; k++) {
-        const double place = at[0] * eye->right[k] + at[1] * eye->up[k], slope = eye->towards[k];
+        double place = 0;
+        const double slope = b->towards[k];
+        for (int d = 0; d < 3; d++) place += b->inverse[k][d] * (at[0] * eye->right[d] + at[1] * eye->up[d]);
         if (fabs(slope) < 1e-9) {
-            if (fabs(place) > half[k]) return -1;
+            if (fabs(place) > b->half[k]) return -1;
             continue;
         }
-        const double middle = -place / slope, reach = half[k] / fabs(slope);
+        const double middle = -place / slope, reach = b->half[k] / fabs(slope);
         enters = fmax(enters, middle - reach);
         if (middle + reach < leaves) leaves = middle + reach, face = k;
     }
@@ -45,22 +53,53 @@ static int leaves_cube(const struct camera *eye, const double *half, const doubl
     return enters < leaves ? face : -1;
 }
 
-/* Computes the half sizes of a particle's cube [m]; a cube smaller than a pixel is enlarged to one pixel. */
-static void cube_of(const struct scene_canvas *v, const struct plotted_particles *c, int64_t i, double *half)
+/* Computes the cube of particle i; a cube smaller than a pixel is enlarged to one pixel. */
+static void cube_of(const struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct cube *b)
 {
     const double least = 0.6 / v->per_metre[0], own = HALF * (c->size ? c->size[i] : c->spacing);
-    for (int k = 0; k < 3; k++) half[k] = fmax(own, least);
-    if (c->tall > 0) half[1] = c->tall;
+    for (int k = 0; k < 3; k++) b->half[k] = fmax(own, least);
+    if (c->tall > 0) b->half[1] = c->tall;
+    for (int k = 0; k < 9; k++) b->F[k / 3][k % 3] = c->gradient ? (double)c->gradient[9 * i + k] : k % 4 == 0;
+    if (!matrix_invert((const double(*)[3])b->F, b->inverse))
+        for (int k = 0; k < 9; k++) b->F[k / 3][k % 3] = b->inverse[k / 3][k % 3] = k % 4 == 0;
+    for (int k = 0; k < 3; k++) {
+        b->towards[k] = 0;
+        for (int d = 0; d < 3; d++) b->towards[k] += b->inverse[k][d] * c->camera.towards[d];
+    }
+}
+
+/* Returns half the extent of a cube along a direction [m]. */
+static double cube_reach(const struct cube *b, const double *direction)
+{
+    double reach = 0;
+    for (int k = 0; k < 3; k++) {
+        double along = 0;
+        for (int d = 0; d < 3; d++) along += direction[d] * b->F[d][k];
+        reach += b->half[k] * fabs(along);
+    }
+    return reach;
+}
+
+/* Returns the brightness of the face of a cube: that of the axis to which the face is normal, mixed where the cube has
+ * turned. */
+static double face_brightness(const struct cube *b, int face, const double *towards)
+{
+    double length = 0, facing = 0, shade = 0;
+    for (int d = 0; d < 3; d++) {
+        const double n = b->inverse[face][d]; /* the normal is along F^-T e_face */
+        length += n * n, shade += SHADE[d] * n * n, facing += n * towards[d];
+    }
+    return fabs(facing) >= STRAIGHT * sqrt(length) ? 1 : shade / length;
 }
 
 /* Paints the cube of particle i on the pixels on which it is nearer to the viewer than what is painted there. */
 static void paint_cube(struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct colour colour)
 {
-    double half[3], at[2], reach[2] = {0, 0};
+    struct cube cube;
+    double at[2];
     int from[2], to[2];
-    cube_of(v, c, i, half);
-    for (int k = 0; k < 3; k++)
-        reach[0] += half[k] * fabs(c->camera.right[k]), reach[1] += half[k] * fabs(c->camera.up[k]);
+    cube_of(v, c, i, &cube);
+    const double reach[2] = {cube_reach(&cube, c->camera.right), cube_reach(&cube, c->camera.up)};
     for (int a = 0; a < 2; a++) {
         at[a] = c->position[a][i] - v->view->from[a];
         const double low = (at[a] - reach[a]) * v->per_metre[a], high = (at[a] + reach[a]) * v->per_metre[a];
@@ -68,18 +107,18 @@ static void paint_cube(struct scene_canvas *v, const struct plotted_particles *c
         from[a] = (int)fmax(ceil(low - 0.5), 0);
         to[a] = (int)fmin(floor(high - 0.5), v->size[a] - 1);
     }
+    double bright[3];
+    for (int k = 0; k < 3; k++) bright[k] = c->position[2] ? face_brightness(&cube, k, c->camera.towards) : 1;
     for (int row = from[1]; row <= to[1]; row++)
         for (int column = from[0]; column <= to[0]; column++) {
             const double off[2] = {(column + 0.5) / v->per_metre[0] - at[0], (row + 0.5) / v->per_metre[1] - at[1]};
             double depth = 0;
-            const int face = leaves_cube(&c->camera, half, off, &depth);
+            const int face = leaves_cube(&c->camera, &cube, off, &depth);
             const int64_t q = (int64_t)row * v->size[0] + column;
             if (c->position[2]) depth += c->position[2][i];
             if (face < 0 || depth <= v->depth[q]) continue;
             v->depth[q] = (float)depth;
-            v->pixel[q] = c->position[2] && fabs(c->camera.towards[face]) < STRAIGHT
-                              ? colour_shaded(colour, SHADE[face])
-                              : colour;
+            v->pixel[q] = colour_shaded(colour, bright[face]);
         }
 }
 

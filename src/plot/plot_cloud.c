@@ -62,14 +62,13 @@ double frame_spacing(const struct output_frame *f)
     return median_of(distance, known);
 }
 
-/* Returns true if the direction from particle i to its nearest neighbour in the map is within 8 degrees of an
- * axis. */
-static bool lies_along(const struct plotted_particles *c, int64_t i)
+/* Returns true if the direction from particle i to its nearest neighbour is within 8 degrees of an axis of the map.
+ * X: reference positions along the axes of the map [2][n, m]. */
+static bool lies_along(float *const *X, int64_t n, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
-    for (int64_t j = 0; j < c->n; j++) {
-        double a = fabs((double)c->position[0][j] - c->position[0][i]),
-               b = fabs((double)c->position[1][j] - c->position[1][i]);
+    for (int64_t j = 0; j < n; j++) {
+        double a = fabs((double)X[0][j] - X[0][i]), b = fabs((double)X[1][j] - X[1][i]);
         if (j == i || a * a + b * b >= best) continue;
         best = a * a + b * b;
         along = fmax(a, b);
@@ -78,12 +77,12 @@ static bool lies_along(const struct plotted_particles *c, int64_t i)
     return across < 0.14 * along; /* tan 8 degrees */
 }
 
-/* Returns true if the particles appear to be on a lattice along the axes of the map: lies_along holds for 90 % of a
+/* Returns true if n particles appear to be on a lattice along the axes of the map: lies_along holds for 90 % of a
  * sample. */
-static bool is_aligned(const struct plotted_particles *c)
+static bool is_aligned(float *const *X, int64_t n)
 {
-    int64_t samples = sample_count(c->n), along = 0;
-    for (int64_t k = 0; k < samples; k++) along += lies_along(c, k * c->n / samples);
+    int64_t samples = sample_count(n), along = 0;
+    for (int64_t k = 0; k < samples; k++) along += lies_along(X, n, k * n / samples);
     return 10 * along >= 9 * samples;
 }
 
@@ -201,8 +200,8 @@ static double along(const double *direction, const double *x)
     return direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2];
 }
 
-/* Appends the current position of particle i along the axes of the map to the cloud, and extends the bounding box of
- * the cloud by its reference position. */
+/* Appends the current position of particle i along the axes of the map and its reference position to the cloud, and
+ * extends the bounding box of the cloud by the latter. */
 static void cloud_place(struct plotted_particles *c, const struct output_frame *f, int64_t i)
 {
     const int64_t k = c->n;
@@ -213,6 +212,7 @@ static void cloud_place(struct plotted_particles *c, const struct output_frame *
     for (int a = 0; a < 3; a++)
         if (c->position[a]) c->position[a][k] = (float)along(axis[a], x);
     for (int a = 0; a < 2; a++) {
+        c->reference[a][k] = (float)along(axis[a], X);
         c->from[a] = fmin(c->from[a], along(axis[a], X));
         c->to[a] = fmax(c->to[a], along(axis[a], X));
     }
@@ -256,28 +256,33 @@ void plotted_particles_make(struct plotted_particles *c, const struct output_fra
                                     .to = {-INFINITY, -INFINITY}};
     cloud_axes(c, f, projection);
     cloud_allocate(c, f, projection);
+    for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, float);
+    c->gradient = particle_gradients_make(f, c->spacing, projection->scene);
     for (int64_t i = 0; i < f->n; i++) {
         const double size = f->spacing ? f->spacing[i] : c->spacing;
         if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;
         if (f->spacing) c->size[c->n] = (float)size;
         cloud_place(c, f, i);
+        if (c->gradient) memmove(c->gradient + 9 * c->n, c->gradient + 9 * i, 9 * sizeof *c->gradient);
         c->damage[c->n] = f->damage[i];
         if (f->fragment) c->fragment[c->n] = f->fragment[i];
         if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1;
         if (c->value) c->value[c->n] = projection->value[i];
         c->kind[c->n++] = f->kind[i];
     }
-    c->aligned = !c->position[2] && is_aligned(c);
+    c->aligned = !c->position[2] && is_aligned(c->reference, c->n);
 }
 
 void plotted_particles_free(struct plotted_particles *c)
 {
     for (int k = 0; k < DIM_MAX; k++) memory_free(c->position[k]);
+    for (int k = 0; k < 2; k++) memory_free(c->reference[k]);
     memory_free(c->damage);
     memory_free(c->kind);
     memory_free(c->fragment);
     memory_free(c->size);
     memory_free(c->value);
     memory_free(c->colour);
+    memory_free(c->gradient);
     *c = (struct plotted_particles){0};
 }

@@ -10,6 +10,7 @@
 #include "output/pictures.h"
 #include "plot/film.h"
 #include "plot/plot.h"
+#include "scene/scene_read.h"
 
 /* Determines the path of the picture: the option -o, or a file in DIR/pictures. */
 static status field_path(struct path *path, const struct plot_request *r, const char *field)
@@ -178,11 +179,15 @@ status field_draw_picture(const struct plot_request *request)
 {
     struct plot_request r = *request;
     struct run_frames frames;
+    struct scene scene;
     if (picture_is_film(r.format)) TRY(film_check_encoder());
     if (r.panels == 0) r.panels = picture_is_film(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
     r.projection.in_steps = run_has_load_steps(r.folder);
     TRY(run_frames_select(&frames, &r));
+    const bool known = scene_read(&scene, path_join(r.folder, "scene.yaml").text, NULL, 0) == OK;
+    r.projection.scene = known ? &scene : NULL;
     const status s = field_of_frames(&r, &frames);
+    if (known) scene_free(&scene);
     run_frames_free(&frames);
     return s;
 }

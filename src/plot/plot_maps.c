@@ -89,19 +89,6 @@ void panel_write_image(FILE *to, const struct colour *pixel, int width, int heig
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
-/* Draws pre-cracks as thin lines over the panel that follows, since slits of a mesh cause no damage that would show
- * them. metre: unit of the axes [m]. */
-static void draw_notches(FILE *to, const struct view *view, double metre)
-{
-    fputs("unset arrow\n", to);
-    for (int k = 0; k < view->notches; k++) {
-        const struct crack *c = &view->notch[k];
-        if (c->n != 2) continue;
-        fprintf(to, "set arrow from %.9g,%.9g to %.9g,%.9g nohead front lw 1.2 lc rgb '#7a1020'\n",
-                c->corner[0][0] / metre, c->corner[0][1] / metre, c->corner[1][0] / metre, c->corner[1][1] / metre);
-    }
-}
-
 void panel_write_axes(FILE *to, const struct layout *l, const struct view *view, const struct plotted_particles *c,
                       const struct unit *metre, int column, bool lowest)
 {
@@ -162,7 +149,6 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     else
         fprintf(to, "t = %.3g %s", c->t / second->factor, second->name);
     fputs("' font ',13' offset 0,-0.5\n", to);
-    if (map == MAP_DAMAGE) draw_notches(to, view, metre.factor);
     if (c->position[2])
         panel_write_directions(to, l, view, c, &metre);
     else

@@ -20,33 +20,112 @@ struct canvas {
     double per_metre[2]; /* pixels per metre */
 };
 
+/* Shape of a particle in the map: F and its inverse along the axes of the map, half width or radius of the undeformed
+ * particle [m]. */
+struct outline {
+    double F[2][2], inverse[2][2], half;
+    bool square;
+};
+
+static struct outline outline_of(const struct plotted_particles *c, int64_t i)
+{
+    const double wide = c->size ? c->size[i] - c->spacing : 0; /* additional width of a coarse cell's point */
+    const double *axis[2] = {c->camera.right, c->camera.up};
+    struct outline s = {.F = {{1, 0}, {0, 1}}, .square = c->aligned};
+    s.half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
+    for (int k = 0; k < 4 && c->gradient; k++) {
+        double sum = 0;
+        for (int m = 0; m < 9; m++) sum += axis[k / 2][m / 3] * (double)c->gradient[9 * i + m] * axis[k % 2][m % 3];
+        s.F[k / 2][k % 2] = sum;
+    }
+    const double determinant = s.F[0][0] * s.F[1][1] - s.F[0][1] * s.F[1][0];
+    for (int k = 0; k < 4; k++)
+        s.inverse[k / 2][k % 2] = (k % 3 ? -s.F[k / 2][k % 2] : s.F[1 - k / 2][1 - k % 2]) / determinant;
+    return s;
+}
+
+/* Returns half the height or width of a deformed particle along axis k of the map [m]. */
+static double outline_reach(const struct outline *s, int k)
+{
+    return s->half * (s->square ? fabs(s->F[k][0]) + fabs(s->F[k][1]) : hypot(s->F[k][0], s->F[k][1]));
+}
+
+/* Returns the distance of a point from the centre of a particle where both were before the deformation [m]; INFINITY
+ * outside the particle. off: of the point from the centre [m]; beside: enlarges the particle [m]. */
+static double distance_within(const struct outline *s, const double *off, double beside)
+{
+    double xi[2];
+    for (int k = 0; k < 2; k++) xi[k] = s->inverse[k][0] * off[0] + s->inverse[k][1] * off[1];
+    const double far = s->square ? fmax(fabs(xi[0]), fabs(xi[1])) : hypot(xi[0], xi[1]);
+    return far <= s->half + beside ? hypot(xi[0], xi[1]) : INFINITY;
+}
+
+/* Faces of pre-cracks, which are lines of the body: slits of a mesh cause no damage that would show them. */
+static const struct colour FACE = {122, 16, 32, 255};
+static const double FACE_HALF = 0.7; /* half width of the line [pixel] */
+
+/* Returns the distance of the point X from the segment between a and b [m]. */
+static double distance_from_segment(const double *X, const real *a, const real *b)
+{
+    const double along[2] = {b[0] - a[0], b[1] - a[1]}, off[2] = {X[0] - a[0], X[1] - a[1]};
+    const double length2 = square(along[0]) + square(along[1]);
+    const double t = fmin(fmax((off[0] * along[0] + off[1] * along[1]) / length2, 0), 1);
+    return hypot(off[0] - t * along[0], off[1] - t * along[1]);
+}
+
+/* Returns the pre-crack within `reach` of the reference position of particle i [m]; NULL if there is none, or if the
+ * map does not show pre-cracks. */
+static const struct crack *face_at(const struct view *view, const struct plotted_particles *c, int64_t i, double reach,
+                                   enum map map)
+{
+    if (map != MAP_DAMAGE || !c->reference[0]) return NULL;
+    const double X[2] = {c->reference[0][i], c->reference[1][i]};
+    for (int k = 0; k < view->notches; k++)
+        if (view->notch[k].n == 2 &&
+            distance_from_segment(X, view->notch[k].corner[0], view->notch[k].corner[1]) < reach)
+            return &view->notch[k];
+    return NULL;
+}
+
+/* Returns true if the material point at a distance `off` from the centre of particle i [m] is on the faces of a
+ * pre-crack, within `half` [m]. */
+static bool on_crack_face(const struct crack *face, const struct plotted_particles *c, int64_t i,
+                          const struct outline *s, const double *off, double half)
+{
+    double X[2];
+    for (int k = 0; k < 2; k++) X[k] = c->reference[k][i] + s->inverse[k][0] * off[0] + s->inverse[k][1] * off[1];
+    return face && distance_from_segment(X, face->corner[0], face->corner[1]) < half;
+}
+
 /* Paints particle i on all pixels that it covers and that no better particle has: nearer to the centre of the pixel,
  * or, if several particles are on one pixel, more damaged. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *c, int64_t i,
                            enum map map)
 {
-    double at[2], reach[2];
+    double at[2], reach[2], off[2];
     int from[2], to[2], size[2] = {v->width, v->height};
-    const double wide = c->size ? c->size[i] - c->spacing : 0; /* additional width of a coarse cell's point */
-    const double half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
-    bool fine = c->spacing * v->per_metre[0] < 1.5; /* several particles per pixel: show the most damaged one */
+    const struct outline outline = outline_of(c, i);
+    const bool fine = c->spacing * v->per_metre[0] < 1.5; /* several particles per pixel: show the most damaged one */
+    const double beside = fine ? INFINITY : 1e-3 * c->spacing;
     for (int k = 0; k < 2; k++) {
         at[k] = (c->position[k][i] - view->from[k]) * v->per_metre[k];
-        reach[k] = fmax(half * v->per_metre[k], 0.5);
+        reach[k] = fmax(outline_reach(&outline, k) * v->per_metre[k], 0.5);
         if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return; /* outside the picture, or NaN */
         from[k] = (int)fmax(ceil(at[k] - reach[k] - 0.5), 0);
         to[k] = (int)fmin(floor(at[k] + reach[k] - 0.5), size[k] - 1);
     }
     const struct colour colour = particle_colour(view, c, i, map);
+    const struct crack *face = face_at(view, c, i, 2 * outline.half, map);
     for (int row = from[1]; row <= to[1]; row++) {
+        off[1] = (row + 0.5 - at[1]) / v->per_metre[1];
         for (int column = from[0]; column <= to[0]; column++) {
-            double r2 = square(column + 0.5 - at[0]) + square(row + 0.5 - at[1]);
-            if (!c->aligned && r2 > square(reach[0]) && !fine) continue;
-            float rank = fine ? (float)-(c->damage[i] + c->kind[i]) : (float)r2;
-            int64_t q = (int64_t)row * v->width + column;
-            if (rank >= v->rank[q]) continue;
+            off[0] = (column + 0.5 - at[0]) / v->per_metre[0];
+            const double far = distance_within(&outline, off, beside);
+            const float rank = fine ? (float)-(c->damage[i] + c->kind[i]) : (float)(far / c->spacing);
+            const int64_t q = (int64_t)row * v->width + column;
+            if (!isfinite(far) || rank >= v->rank[q]) continue;
             v->rank[q] = rank;
-            v->pixel[q] = colour;
+            v->pixel[q] = on_crack_face(face, c, i, &outline, off, FACE_HALF / v->per_metre[0]) ? FACE : colour;
         }
     }
 }

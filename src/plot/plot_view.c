@@ -124,6 +124,20 @@ void view_set_field(struct view *v, const struct plot_field *field, const struct
     if (!(v->high > v->low)) v->high = v->low + 1; /* all values are equal */
 }
 
+bool matrix_invert(const double a[3][3], double to[3][3])
+{
+    double determinant = 0;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            const int m = (c + 1) % 3, n = (c + 2) % 3, o = (r + 1) % 3, q = (r + 2) % 3;
+            to[r][c] = a[m][o] * a[n][q] - a[m][q] * a[n][o];
+        }
+    for (int c = 0; c < 3; c++) determinant += a[0][c] * to[c][0];
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) to[r][c] /= determinant;
+    return fabs(determinant) > 0;
+}
+
 struct colour map_colour(const struct view *v, enum map map, double a)
 {
     if (map == MAP_KIND) return colour_bonds(a);

@@ -220,6 +220,99 @@ static void solids_are_seen_from_outside(void **state)
     memory_free(pixel), plotted_particles_free(&c), frame_free(&f);
 }
 
+/* Displaces a block by u = H X, H = F - 1, in two dimensions; what is above the middle also by `open` upwards [m]. */
+static void block_deform(struct output_frame *f, const double H[2][2], double open)
+{
+    for (int64_t i = 0; i < f->n; i++)
+        for (int d = 0; d < 2; d++)
+            f->u[d][i] = (float)(H[d][0] * f->X[0][i] + H[d][1] * f->X[1][i] + (d == 1 && f->X[1][i] > 0 ? open : 0));
+}
+
+/* Counts the pixels with and without a particle in a square around the origin that is 2 x `half` wide [m]. */
+static void pixels_count(const struct plotted_particles *c, double half, int *painted, int *blank)
+{
+    struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
+    const struct view v = {.from = {-half, -half}, .to = {half, half}, .top = 1};
+    *painted = *blank = 0;
+    raster_paint_particles(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
+    for (int q = 0; q < PIXELS * PIXELS; q++) *(pixel[q].alpha ? painted : blank) += 1;
+    memory_free(pixel);
+}
+
+/* A body that is stretched by 30 %, sheared or turned has no gap inside; its area is that of the body times det F, but
+ * for a tenth of a spacing at each edge. Without bonds across the middle, a gap as wide as it opens is blank. */
+static void stretched_bodies_are_closed(void **state)
+{
+    (void)state;
+    static const double H[][2][2] = {{{0.3, 0}, {0, -0.1}}, {{0, 0.6}, {0, 0}}, {{-0.134, -0.5}, {0.5, -0.134}}};
+    for (int k = 0; k < 4; k++) {
+        struct output_frame f = block_make(24, 20, 1, 2);
+        struct plotted_particles c;
+        int painted, blank;
+        block_deform(&f, H[k % 3], k == 3 ? 3 * SPACING : 0);
+        for (int64_t i = 0; i < f.n && k == 3; i++) f.damage[i] = fabsf(f.X[1][i]) < 1.1 * SPACING ? 0.4F : 0;
+        plotted_particles_make(&c, &f, NULL);
+        pixels_count(&c, 5 * SPACING, &painted, &blank);
+        if (k < 3) assert_int_equal(blank, 0);
+        /* the gap is 3 spacings of 10 wide, less the margins of both its faces */
+        else
+            assert_true(abs(blank - PIXELS * PIXELS * 28 / 100) <= 3 * PIXELS);
+        pixels_count(&c, 20 * SPACING, &painted, &blank);
+        const double det = (1 + H[k % 3][0][0]) * (1 + H[k % 3][1][1]) - H[k % 3][0][1] * H[k % 3][1][0];
+        const double body = 24.0 * 20 * det / (40 * 40) * PIXELS * PIXELS;
+        assert_true(painted > body && painted < 1.03 * body + 2 * PIXELS);
+        plotted_particles_free(&c), frame_free(&f);
+    }
+}
+
+/* A solid that is stretched by 50 % along x is 15 spacings wide from outside, and closed. */
+static void stretched_solids_are_closed(void **state)
+{
+    (void)state;
+    struct output_frame f = block_make(10, 8, 6, 3);
+    struct plotted_particles c;
+    int painted, blank;
+    for (int64_t i = 0; i < f.n; i++) f.u[0][i] = 0.5F * f.X[0][i];
+    plotted_particles_make(&c, &f, &(struct projection){.outside = true, .camera = camera_along(2, 1), .normal = -1});
+    pixels_count(&c, 10 * SPACING, &painted, &blank);
+    const double body = 15.0 * 8 / (20 * 20) * PIXELS * PIXELS;
+    assert_true(painted >= 0.99 * body && painted < 1.06 * body);
+    pixels_count(&c, 3.9 * SPACING, &painted, &blank);
+    assert_int_equal(blank, 0);
+    plotted_particles_free(&c), frame_free(&f);
+}
+
+/* A slit of a mesh, which causes no damage, is a line that ends at the body's edge, and opens where it opens. */
+static void slits_are_lines_of_the_body(void **state)
+{
+    (void)state;
+    real end[2][DIM_MAX] = {{-20e-3, 0}, {0, 0}};
+    struct crack slit = {.n = 2, .corner = end};
+    struct scene scene = {.dim = 2, .cracks = 1, .crack = &slit};
+    struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
+    for (int open = 0; open < 2; open++) {
+        struct output_frame f = block_make(24, 20, 1, 2);
+        struct plotted_particles c;
+        int line = 0, blank = 0;
+        for (int64_t i = 0; i < f.n && open; i++)
+            if (f.X[0][i] < 0 && f.X[1][i] > 0) f.u[1][i] = (float)(-0.3 * f.X[0][i]);
+        plotted_particles_make(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
+        const struct view v = {.from = {-15e-3, -15e-3}, .to = {15e-3, 15e-3}, .top = 1, .notches = 1, .notch = &slit};
+        raster_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
+        for (int q = 0; q < PIXELS * PIXELS; q++) {
+            line += pixel[q].alpha && pixel[q].green < 100;
+            blank += !pixel[q].alpha && q / PIXELS >= PIXELS / 2 && q / PIXELS < PIXELS * 3 / 5 && q % PIXELS > 20 &&
+                     q % PIXELS < PIXELS / 2;
+        }
+        if (open)
+            assert_true(blank > 150); /* a wedge 40 pixels long and up to 12 high, less the margins */
+        else
+            assert_true(blank == 0 && line >= 48 && line <= 2 * 50); /* 12 spacings of 4 pixels, 1 or 2 high */
+        plotted_particles_free(&c), frame_free(&f);
+    }
+    memory_free(pixel);
+}
+
 /* Axes of every view are right-handed unit vectors. */
 static void cameras_are_right_handed(void **state)
 {
@@ -265,12 +358,20 @@ static void words_have_units(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fields_follow_from_stress),  cmocka_unit_test(unknown_fields_are_refused),
-        cmocka_unit_test(fields_name_components),     cmocka_unit_test(slices_show_damage),
-        cmocka_unit_test(slices_are_near_the_middle), cmocka_unit_test(axes_have_prefixes),
-        cmocka_unit_test(one_particle_sets_no_scale), cmocka_unit_test(solids_are_seen_from_outside),
-        cmocka_unit_test(cameras_are_right_handed),   cmocka_unit_test(colours_keep_their_order),
+        cmocka_unit_test(fields_follow_from_stress),
+        cmocka_unit_test(unknown_fields_are_refused),
+        cmocka_unit_test(fields_name_components),
+        cmocka_unit_test(slices_show_damage),
+        cmocka_unit_test(slices_are_near_the_middle),
+        cmocka_unit_test(axes_have_prefixes),
+        cmocka_unit_test(one_particle_sets_no_scale),
+        cmocka_unit_test(solids_are_seen_from_outside),
+        cmocka_unit_test(cameras_are_right_handed),
+        cmocka_unit_test(colours_keep_their_order),
         cmocka_unit_test(words_have_units),
+        cmocka_unit_test(stretched_bodies_are_closed),
+        cmocka_unit_test(stretched_solids_are_closed),
+        cmocka_unit_test(slits_are_lines_of_the_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

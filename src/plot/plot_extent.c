@@ -1,0 +1,149 @@
+/* Deformation of the particles of a picture, which are drawn as squares and cubes of the lattice that deform with the
+ * body: a stretched body has no gaps between its particles, and a crack has. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "bonds/bonds.h"
+#include "data/cells.h"
+#include "plot/plot.h"
+
+/* Neighbours: the nearest ones of a lattice, diagonal ones included [spacings]. Deformations below STRAIN_SEEN are not
+ * visible, as particles are drawn a tenth wider than the spacing. A pair of particles that have both lost bonds is
+ * connected up to an elongation of PARTED, or of PARTED_MORE times that of 99 % of the pairs that are surely connected,
+ * if this is more. A pair is not drawn longer than LONGEST spacings. A particle that has lost more than the share LOOSE
+ * of its bonds is rubble, which has its own size. */
+#define NEAR_REACH 1.5
+#define STRAIN_SEEN 0.02
+#define PARTED 0.1
+#define PARTED_MORE 1.5
+#define LONGEST 4
+#define LOOSE 0.6
+enum { SURE_MOST = 100000 };
+
+/* Pairs of neighbours of a frame. limit: elongation above which two particles without all their bonds are apart. */
+struct pairs {
+    const struct output_frame *f;
+    struct particles part; /* reference positions alone */
+    struct cells cells;
+    const struct scene *scene;
+    double spacing, limit;
+};
+
+/* Returns the relative elongation of the pair i, j [1]. */
+static double elongation(const struct output_frame *f, int64_t i, int64_t j)
+{
+    double now = 0, first = 0;
+    for (int d = 0; d < f->dim; d++) {
+        const double xi = (double)f->X[d][j] - f->X[d][i];
+        first += square(xi), now += square(xi + ((double)f->u[d][j] - f->u[d][i]));
+    }
+    return sqrt(now / first) - 1;
+}
+
+/* Returns true if two particles belong to one body, none is rubble, and no pre-crack separates them. */
+static bool same_side(const struct pairs *p, int64_t i, int64_t j)
+{
+    return p->f->body[i] == p->f->body[j] && fmaxf(p->f->damage[i], p->f->damage[j]) <= LOOSE &&
+           !(p->scene && cracks_separate_particles(p->scene->crack, p->scene->cracks, &p->part, i, j));
+}
+
+/* Returns true if at least one of two neighbours has all its bonds. */
+static bool surely_connected(const struct pairs *p, int64_t i, int64_t j)
+{
+    return same_side(p, i, j) && (p->f->damage[i] <= 0 || p->f->damage[j] <= 0);
+}
+
+static bool connected(const struct pairs *p, int64_t i, int64_t j)
+{
+    const double longer = elongation(p->f, i, j), most = fmin(p->limit, LONGEST - 1);
+    const bool whole = p->f->damage[i] <= 0 || p->f->damage[j] <= 0;
+    return longer <= (whole ? LONGEST - 1 : most) && same_side(p, i, j);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Returns the elongation above which two particles without all their bonds are apart [1]. */
+static double parted_limit(const struct pairs *p)
+{
+    struct neighbour_list near = {0};
+    double *sure = NEW("plot.sure", SURE_MOST, double);
+    int64_t n = 0;
+    const int64_t stride = 8 * p->f->n / SURE_MOST + 1;
+    for (int64_t i = 0; i < p->f->n; i += stride) {
+        particles_find_near(&near, &p->cells, &p->part, i, NEAR_REACH * p->spacing, false);
+        for (int k = 0; k < near.n && n < SURE_MOST; k++)
+            if (surely_connected(p, i, near.at[k])) sure[n++] = elongation(p->f, i, near.at[k]);
+    }
+    array_sort(sure, n, sizeof *sure, by_value);
+    const double limit = n > 0 ? fmax(PARTED, PARTED_MORE * sure[(int64_t)(0.99 * (double)(n - 1))]) : PARTED;
+    memory_free(sure);
+    memory_free(near.at);
+    return limit;
+}
+
+/* Computes the deformation gradient F of particle i, 3 x 3, as the least-squares fit to its connected neighbours
+ * (Silling et al. 2007 with unit weights). Where they do not span the space, F is the identity in what they leave open.
+ */
+static void gradient_of(const struct pairs *p, struct neighbour_list *near, int64_t i, float *F)
+{
+    const struct output_frame *f = p->f;
+    const double own = f->spacing ? f->spacing[i] : p->spacing, open = 0.02 * square(own);
+    double K[3][3] = {{open, 0, 0}, {0, open, 0}, {0, 0, open}}, M[3][3] = {{0}}, inverted[3][3];
+    particles_find_near(near, &p->cells, &p->part, i, fmin(NEAR_REACH * own, p->cells.edge), false);
+    for (int k = 0; k < near->n; k++) {
+        const int64_t j = near->at[k];
+        double xi[3] = {0}, u[3] = {0};
+        if (!connected(p, i, j)) continue;
+        for (int d = 0; d < f->dim; d++)
+            xi[d] = (double)f->X[d][j] - f->X[d][i], u[d] = (double)f->u[d][j] - f->u[d][i];
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) K[a][b] += xi[a] * xi[b], M[a][b] += u[a] * xi[b];
+    }
+    const bool fits = matrix_invert((const double(*)[3])K, inverted);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            double sum = a == b;
+            for (int k = 0; k < 3 && fits; k++) sum += M[a][k] * inverted[k][b];
+            F[3 * a + b] = isfinite(sum) ? (float)sum : (float)(a == b);
+        }
+}
+
+/* Returns true if displacements differ enough for a visible deformation. */
+static bool may_be_deformed(const struct output_frame *f, double spacing)
+{
+    double most = 0;
+    for (int d = 0; d < f->dim; d++) {
+        double least = INFINITY, largest = -INFINITY;
+        for (int64_t i = 0; i < f->n; i++) least = fmin(least, f->u[d][i]), largest = fmax(largest, f->u[d][i]);
+        most = fmax(most, largest - least);
+    }
+    return most > STRAIN_SEEN * spacing;
+}
+
+float *particle_gradients_make(const struct output_frame *f, double spacing, const struct scene *scene)
+{
+    if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing)) return NULL;
+    struct pairs p = {.f = f, .spacing = spacing, .scene = scene, .part = {.n = f->n, .n_all = f->n, .dim = f->dim}};
+    float *F = NEW("plot.gradient", 9 * f->n, float);
+    for (int d = 0; d < f->dim; d++) {
+        p.part.X[d] = NEW("plot.X", f->n, real);
+        for (int64_t i = 0; i < f->n; i++) p.part.X[d][i] = f->X[d][i];
+    }
+    cells_make(&p.cells, &p.part, 2 * NEAR_REACH * spacing);
+    p.limit = parted_limit(&p);
+#pragma omp parallel
+    {
+        struct neighbour_list near = {0};
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < f->n; i++) gradient_of(&p, &near, i, F + 9 * i);
+        memory_free(near.at);
+    }
+    cells_free(&p.cells);
+    for (int d = 0; d < f->dim; d++) memory_free(p.part.X[d]);
+    return F;
+}
