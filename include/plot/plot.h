@@ -160,9 +160,17 @@ struct plot_field {
  * name, or if it has no meaning in this dimension. */
 status plot_field_find(const struct plot_field **field, const char *name, int dim);
 
+/* Writes the name of a field as a picture has it, for example `stress xx`. text: capacity `capacity` [byte]. */
+void plot_field_label(char *text, size_t capacity, const struct plot_field *field);
+
 /* Reads the values of a field at the particles of the frame f, which was read from the file `path`, into an allocated
  * array *value, [f->n], which the caller releases with memory_free. Returns FAILED if the frame lacks the field. */
 status plot_field_read(float **value, const struct plot_field *field, const struct output_frame *f, const char *path);
+
+/* Chooses the field of a run that is drawn if none is asked for: damage if bonds have broken up to the last selected
+ * frame, else plastic strain, von Mises stress or speed, the first of them that is not 0 everywhere in that frame;
+ * damage if all are. Returns FAILED if a frame cannot be read. */
+status plot_field_choose(const struct plot_field **field, const char *folder, const struct run_frames *frames);
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
@@ -200,6 +208,12 @@ struct plotted_particles {
 void plotted_particles_make(struct plotted_particles *c, const struct output_frame *f,
                             const struct projection *projection);
 
+/* Reads a frame of the run in `folder` and copies the particles that a picture shows into *c, with the values of
+ * projection->field if it is set. Returns FAILED, with no memory to release, if the frame cannot be read or lacks the
+ * field. Release with plotted_particles_free. */
+status plotted_particles_read(struct plotted_particles *c, const char *folder, const struct listed_frame *frame,
+                              const struct projection *projection);
+
 /* Computes the deformation gradients of all particles of the frame f, [f->n][9], rows along x, y, z [1], as fits to the
  * displacements of near particles that a crack does not separate. spacing: of the particles [m]; scene: for its
  * pre-cracks; NULL: none are known. Returns an allocated array, which the caller releases with memory_free, or NULL if
@@ -223,6 +237,9 @@ double frame_spacing(const struct output_frame *f);
 
 /* Quantity that a map shows. */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
+
+/* Returns the kind of map that shows a field. */
+enum map map_of_field(const struct plot_field *field);
 
 /* Number of named values that part_colour can distinguish. */
 enum { CATEGORIES_MOST = 9 };
@@ -256,8 +273,8 @@ struct view {
     const struct categories *categories; /* named values of MAP_CATEGORY; borrowed */
     int64_t outside;                     /* largest number of particles of a frame outside the rectangle */
     int notches;
-    const struct crack
-        *notch; /* [notches] pre-cracks of a plane scene, whose faces are lines in maps of damage; borrowed */
+    const struct crack *
+        notch; /* [notches] pre-cracks of a plane scene, whose faces are lines in maps of damage and fields; borrowed */
 };
 
 /* Particles with at least this damage are cracks in MAP_CRACKS; a plane that cuts all bonds of a family across it
@@ -271,6 +288,10 @@ struct view view_around(const struct plotted_particles *cloud, int clouds);
 /* Sets the field that the view v shows and the values at the ends of its colour scale, by field->scale and the values
  * in cloud[clouds]. Extreme values of a few particles are ignored. */
 void view_set_field(struct view *v, const struct plot_field *field, const struct plotted_particles *cloud, int clouds);
+
+/* Sets the pre-cracks that the view v shows: those of a plane scene; none if the scene is NULL or has another
+ * dimension. scene: kept by reference. */
+void view_set_cracks(struct view *v, const struct scene *scene);
 
 /* Returns the colour of particle i of c in a map of the kind `map`. v: view with the range of the colour scale. */
 struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);

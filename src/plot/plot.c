@@ -26,8 +26,18 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     if (map == MAP_KIND) snprintf(what, sizeof what, "method and damage");
     if (map == MAP_FRAGMENT) snprintf(what, sizeof what, "%d fragments", (int)cloud[0].fragments);
     if (map == MAP_CRACKS) snprintf(what, sizeof what, "cracks, where damage is above %.2f", CRACK_DAMAGE);
+    if (map == MAP_FIELD) plot_field_label(what, sizeof what, view->field);
     picture_compose_title(title, r->folder, what, &cloud[0]);
     return maps_draw((struct sheet){path, r->format}, title, map, view, cloud, clouds);
+}
+
+/* Returns the view of the clouds with the pre-cracks of the scene and the range of the field that the request draws. */
+static struct view view_of(const struct plot_request *r, const struct plotted_particles *cloud, int clouds)
+{
+    struct view view = view_around(cloud, clouds);
+    view_set_field(&view, r->projection.field, cloud, clouds);
+    view_set_cracks(&view, r->projection.scene);
+    return view;
 }
 
 /* What the selected frames contain: damage, cracks, two kinds of particles; cracked is the share of particles on
@@ -51,58 +61,67 @@ static struct contents contents_of(const struct plotted_particles *cloud, int cl
     return has;
 }
 
-/* Draws, for each frame, one picture of each kind. */
-static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view)
+/* Draws, for each frame, a picture of what the selected ones contain: damage, kinds of particles, the chosen field. */
+static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view,
+                         const struct contents *has)
 {
+    char field[NAME_MAX_LENGTH];
+    const enum map map = map_of_field(view->field);
     for (int k = 0; k < frames->listed; k++) {
-        struct output_frame f;
         struct plotted_particles c;
         const int number = frames->list[k].number;
-        TRY(run_read_frame(&f, r->folder, number));
-        plotted_particles_make(&c, &f, &r->projection);
-        frame_free(&f);
-        status s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
-        if (s == OK) s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_KIND, number).text, MAP_KIND, view, &c, 1);
+        status s = plotted_particles_read(&c, r->folder, &frames->list[k], &r->projection);
+        if (s != OK) return s;
+        if (has->damage || view->notches > 0)
+            s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
+        if (s == OK && has->kinds)
+            s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_KIND, number).text, MAP_KIND, view, &c, 1);
+        snprintf(field, sizeof field, "%.40s_%06d", view->field->name, number);
+        if (s == OK && map == MAP_FIELD)
+            s = draw_map(r, picture_path_of_field(r->folder, field, "png").text, map, view, &c, 1);
         plotted_particles_free(&c);
         TRY(s);
     }
     return OK;
 }
 
-/* Draws the maps of damage, of the kinds of particles and of fragments, each only if the frames contain such. The
- * same maps for every frame follow if r->every is set. */
+/* Draws the maps of damage, of the chosen field, of the kinds of particles and of fragments, each only if the frames
+ * contain such. The same maps for every frame follow if r->every is set. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
-    const struct scene *scene = r->projection.scene;
-    struct view view = view_around(cloud, frames->shown);
+    const struct view view = view_of(r, cloud, frames->shown);
     const struct plotted_particles *last = &cloud[frames->shown - 1];
     const struct contents has = contents_of(cloud, frames->shown);
-    if (scene && scene->dim == 2) view.notches = scene->cracks, view.notch = scene->crack;
+    const enum map map = map_of_field(view.field);
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
         return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
     const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
-                      latest = sheet_path(r, DRAWN_LAST);
-    const bool damaged = has.damage || view.notches > 0;
+                      latest = sheet_path(r, DRAWN_LAST),
+                      field = picture_path_of_field(r->folder, view.field->name, picture_ending[r->format]);
+    const bool damaged = has.damage || view.notches > 0, something = damaged || map == MAP_FIELD;
     TRY(damaged ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
                 : report_nothing_to_draw(damage.text,
                                          "no bond is broken; --field von_mises, speed, ... draw other fields"));
+    if (map == MAP_FIELD) TRY(draw_map(r, field.text, map, &view, cloud, frames->shown));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
                   : report_nothing_to_draw(kind.text, "all particles are of one method"));
-    TRY(damaged || has.kinds ? draw_map(r, latest.text, damaged ? MAP_DAMAGE : MAP_KIND, &view, last, 1)
-                             : report_nothing_to_draw(latest.text, "it would show neither damage nor two methods"));
+    TRY(something || has.kinds ? draw_map(r, latest.text, something ? map : MAP_KIND, &view, last, 1)
+                               : report_nothing_to_draw(latest.text, "nothing happens in this run"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));
-    return r->every ? draw_every(r, frames, &view) : OK;
+    return r->every ? draw_every(r, frames, &view, &has) : OK;
 }
 
-/* Draws the maps of a three-dimensional run in an outside view, and its cracks. */
+/* Draws the map of the chosen field of a three-dimensional run in an outside view, and its cracks. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
                            const struct plotted_particles *cloud)
 {
-    const struct view view = view_around(cloud, frames->shown);
-    const struct path cracks = sheet_path(r, DRAWN_CRACKS);
-    TRY(draw_map(r, sheet_path(r, DRAWN_SURFACE).text, MAP_DAMAGE, &view, cloud, frames->shown));
+    const struct view view = view_of(r, cloud, frames->shown);
+    const struct path cracks = sheet_path(r, DRAWN_CRACKS), surface = sheet_path(r, DRAWN_SURFACE);
     const struct contents has = contents_of(cloud, frames->shown);
+    const enum map map = map_of_field(view.field);
+    TRY(has.damage || map == MAP_FIELD ? draw_map(r, surface.text, map, &view, cloud, frames->shown)
+                                       : report_nothing_to_draw(surface.text, "nothing happens in this run"));
     if (!has.cracks) return report_nothing_to_draw(cracks.text, "no particle is damaged enough");
     if (has.cracked > 0.5)
         return report_nothing_to_draw(cracks.text, "most particles are damaged, not those of cracks alone");
@@ -118,13 +137,8 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
 {
     struct plotted_particles *cloud = NEW("plot.clouds", frames->shown, struct plotted_particles);
     status s = OK;
-    for (int k = 0; s == OK && k < frames->shown; k++) {
-        struct output_frame f;
-        s = run_read_frame(&f, r->folder, frames->show[k].number);
-        if (s != OK) break;
-        plotted_particles_make(&cloud[k], &f, &r->projection);
-        frame_free(&f);
-    }
+    for (int k = 0; s == OK && k < frames->shown; k++)
+        s = plotted_particles_read(&cloud[k], r->folder, &frames->show[k], &r->projection);
     if (s == OK) s = draw(r, frames, cloud);
     for (int k = 0; k < frames->shown; k++) plotted_particles_free(&cloud[k]);
     memory_free(cloud);
@@ -163,6 +177,7 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;
+    TRY(plot_field_choose(&r->projection.field, r->folder, frames));
     TRY(projection_complete_slice(&r->projection, last));
     TRY(draw_clouds(r, frames, draw_flat));
     if (last->dim < 3) return OK;

@@ -273,6 +273,22 @@ void plotted_particles_make(struct plotted_particles *c, const struct output_fra
     c->aligned = !c->position[2] && is_aligned(c->reference, c->n);
 }
 
+status plotted_particles_read(struct plotted_particles *c, const char *folder, const struct listed_frame *frame,
+                              const struct projection *projection)
+{
+    struct projection own = *projection;
+    struct output_frame f;
+    float *value = NULL;
+    status s = OK;
+    TRY(run_read_frame(&f, folder, frame->number));
+    if (own.field) s = plot_field_read(&value, own.field, &f, run_frame_path(folder, frame->number).text);
+    own.value = value;
+    if (s == OK) plotted_particles_make(c, &f, &own);
+    memory_free(value);
+    frame_free(&f);
+    return s;
+}
+
 void plotted_particles_free(struct plotted_particles *c)
 {
     for (int k = 0; k < DIM_MAX; k++) memory_free(c->position[k]);

@@ -366,10 +366,9 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
     for (int k = 0; k < frames; k++) largest = fmax(largest, largest_in(value[k], frame[k].n));
     const struct unit own = unit_for_largest_value(largest, field->unit);
     const double factor[2] = {unit[0].factor, *field->unit ? own.factor : 1};
-    char label[64];
-    snprintf(label, sizeof label, *field->unit ? "%s [%s]" : "%s", field->name, own.name);
-    for (char *c = label; *c; c++)
-        if (*c == '_') *c = ' ';
+    char label[64], name[NAME_MAX_LENGTH];
+    plot_field_label(name, sizeof name, field);
+    snprintf(label, sizeof label, *field->unit ? "%.40s [%s]" : "%.40s", name, own.name);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, value[k], frame_spacing(&frame[0]), factor);
     curves_write_title(g.to, title, "");

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "output/output_files.h"
 #include "plot/plot.h"
 #include "scene/words.h"
 
@@ -122,4 +123,56 @@ status plot_field_read(float **value, const struct plot_field *field, const stru
     }
     memory_free(row);
     return OK;
+}
+
+void plot_field_label(char *text, size_t capacity, const struct plot_field *field)
+{
+    const bool mises = strcmp(field->name, "von_mises") == 0;
+    snprintf(text, capacity, "%s", mises ? "von Mises stress" : field->name);
+    for (char *c = text; *c; c++)
+        if (*c == '_') *c = ' ';
+}
+
+/* Returns true if particles of the frame `last` have lost bonds since the frame `first`, or if its particles are
+ * others.
+ */
+static bool bonds_broke(const struct output_frame *first, const struct output_frame *last)
+{
+    bool more = false;
+    for (int64_t i = 0; i < last->n; i++)
+        more |= last->damage[i] > (first->n == last->n && first->id[i] == last->id[i] ? first->damage[i] : 0);
+    return more;
+}
+
+/* Returns true if a field of the frame f, which was read from the file `path`, is not 0 everywhere. */
+static bool field_occurs(const struct plot_field *field, const struct output_frame *f, const char *path)
+{
+    float *value = NULL;
+    bool occurs = false;
+    if (plot_field_read(&value, field, f, path) != OK) return false;
+    for (int64_t i = 0; i < f->n; i++) occurs |= value[i] != 0;
+    memory_free(value);
+    return occurs;
+}
+
+status plot_field_choose(const struct plot_field **field, const char *folder, const struct run_frames *frames)
+{
+    static const char *const next[] = {"plastic_strain", "von_mises", "speed"};
+    const int end = frames->show[frames->shown - 1].number;
+    struct output_frame first, last;
+    TRY(run_read_frame(&first, folder, frames->list[0].number));
+    const status s = run_read_frame(&last, folder, end);
+    if (s == OK) {
+        TRY(plot_field_find(field, "damage", last.dim));
+        bool found = bonds_broke(&first, &last);
+        for (size_t k = 0; k < COUNT_OF(next) && !found; k++) {
+            const struct plot_field *one;
+            TRY(plot_field_find(&one, next[k], last.dim));
+            found = field_occurs(one, &last, run_frame_path(folder, end).text);
+            if (found) *field = one;
+        }
+        frame_free(&last);
+    }
+    frame_free(&first);
+    return s;
 }

@@ -24,7 +24,7 @@ static status field_path(struct path *path, const struct plot_request *r, const 
     return picture_destination(path, r->out, strrchr(usual.text, '/') + 1, r->overwrite);
 }
 
-static enum map map_of_field(const struct plot_field *field)
+enum map map_of_field(const struct plot_field *field)
 {
     if (strcmp(field->name, "damage") == 0) return MAP_DAMAGE;
     return field->scale == CATEGORY ? MAP_CATEGORY : MAP_FIELD;
@@ -41,9 +41,7 @@ static bool same_everywhere(const struct plotted_particles *cloud, int clouds)
 static void field_title(char *title, const struct plot_request *r, const struct plotted_particles *c)
 {
     char name[TITLE_LENGTH];
-    snprintf(name, sizeof name, "%s", r->projection.field->name);
-    for (char *at = name; *at; at++)
-        if (*at == '_') *at = ' ';
+    plot_field_label(name, sizeof name, r->projection.field);
     picture_compose_title(title, r->folder, name, c);
 }
 
@@ -76,6 +74,7 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
     char title[TITLE_LENGTH];
     struct view view = view_around(cloud, clouds);
     view_set_field(&view, r->projection.field, cloud, clouds);
+    view_set_cracks(&view, r->projection.scene);
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
         return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
     if (same_everywhere(cloud, clouds)) {
@@ -96,25 +95,12 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
     return say_field(path, &view, r, clouds, cloud[clouds - 1].n);
 }
 
-/* Reads a selected frame and the values of the field, and fills its cloud. */
-static status read_cloud(struct plotted_particles *c, struct plot_request *r, const struct listed_frame *shown)
-{
-    struct output_frame f;
-    float *value = NULL;
-    TRY(run_read_frame(&f, r->folder, shown->number));
-    const status s = plot_field_read(&value, r->projection.field, &f, run_frame_path(r->folder, shown->number).text);
-    r->projection.value = value;
-    if (s == OK) plotted_particles_make(c, &f, &r->projection);
-    memory_free(value);
-    frame_free(&f);
-    return s;
-}
-
-static status draw_field_map(struct plot_request *r, const char *path, const struct run_frames *frames)
+static status draw_field_map(const struct plot_request *r, const char *path, const struct run_frames *frames)
 {
     struct plotted_particles *cloud = NEW("plot.clouds", frames->shown, struct plotted_particles);
     status s = OK;
-    for (int k = 0; s == OK && k < frames->shown; k++) s = read_cloud(&cloud[k], r, &frames->show[k]);
+    for (int k = 0; s == OK && k < frames->shown; k++)
+        s = plotted_particles_read(&cloud[k], r->folder, &frames->show[k], &r->projection);
     if (s == OK) s = draw_field_clouds(r, path, cloud, frames->shown);
     for (int k = 0; k < frames->shown; k++) plotted_particles_free(&cloud[k]);
     memory_free(cloud);
@@ -162,7 +148,8 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
     TRY(run_read_frame(&last, r->folder, frames->show[frames->shown - 1].number));
     const int dim = last.dim;
     status s = projection_check(r, dim);
-    if (s == OK) s = plot_field_find(&r->projection.field, r->field ? r->field : "damage", dim);
+    if (s == OK && r->field) s = plot_field_find(&r->projection.field, r->field, dim);
+    if (s == OK && !r->field) s = plot_field_choose(&r->projection.field, r->folder, frames);
     if (s == OK && r->field && strcmp(r->field, "principal_stress") == 0)
         fprintf(
             stderr,

@@ -174,10 +174,9 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     const bool plain = !*view->field->unit;
     s.low = view->low / (plain ? 1 : u.factor), s.high = view->high / (plain ? 1 : u.factor);
     s.tics = plot_maps_tic_distance(s.high - s.low, 300, 50);
-    int length = snprintf(s.label, sizeof s.label, "%s", view->field->name);
-    if (!plain) snprintf(s.label + length, sizeof s.label - (size_t)length, " [%s]", u.name);
-    for (char *c = s.label; *c; c++)
-        if (*c == '_') *c = ' ';
+    plot_field_label(s.label, sizeof s.label, view->field);
+    const size_t length = strlen(s.label);
+    if (!plain) snprintf(s.label + length, sizeof s.label - length, " [%s]", u.name);
     return s;
 }
 

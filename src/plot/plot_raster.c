@@ -60,8 +60,9 @@ static double distance_within(const struct outline *s, const double *off, double
     return far <= s->half + beside ? hypot(xi[0], xi[1]) : INFINITY;
 }
 
-/* Faces of pre-cracks, which are lines of the body: slits of a mesh cause no damage that would show them. */
-static const struct colour FACE = {122, 16, 32, 255};
+/* Faces of pre-cracks, which are lines of the body: slits of a mesh cause no damage that would show them. In maps of
+ * fields they are as white as a gap. */
+static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
 static const double FACE_HALF = 0.7; /* half width of the line [pixel] */
 
 /* Returns the distance of the point X from the segment between a and b [m]. */
@@ -78,7 +79,7 @@ static double distance_from_segment(const double *X, const real *a, const real *
 static const struct crack *face_at(const struct view *view, const struct plotted_particles *c, int64_t i, double reach,
                                    enum map map)
 {
-    if (map != MAP_DAMAGE || !c->reference[0]) return NULL;
+    if ((map != MAP_DAMAGE && map != MAP_FIELD) || !c->reference[0]) return NULL;
     const double X[2] = {c->reference[0][i], c->reference[1][i]};
     for (int k = 0; k < view->notches; k++)
         if (view->notch[k].n == 2 &&
@@ -125,7 +126,9 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
             const int64_t q = (int64_t)row * v->width + column;
             if (!isfinite(far) || rank >= v->rank[q]) continue;
             v->rank[q] = rank;
-            v->pixel[q] = on_crack_face(face, c, i, &outline, off, FACE_HALF / v->per_metre[0]) ? FACE : colour;
+            v->pixel[q] = on_crack_face(face, c, i, &outline, off, FACE_HALF / v->per_metre[0])
+                              ? (map == MAP_DAMAGE ? FACE : GAP)
+                              : colour;
         }
     }
 }

@@ -124,6 +124,11 @@ void view_set_field(struct view *v, const struct plot_field *field, const struct
     if (!(v->high > v->low)) v->high = v->low + 1; /* all values are equal */
 }
 
+void view_set_cracks(struct view *v, const struct scene *scene)
+{
+    if (scene && scene->dim == 2) v->notches = scene->cracks, v->notch = scene->crack;
+}
+
 bool matrix_invert(const double a[3][3], double to[3][3])
 {
     double determinant = 0;

@@ -79,7 +79,7 @@ is "run: exit status" $? 0
 is "plot --field: exit status" $? 0
 made results/strip/pictures/field_von_mises.png
 holds "two panels of all particles" grep -q "von_mises of 2 frames, 200 particles, colours from 0 to" out
-drawn "its name and unit stand at the colours" "von mises \[.*Pa\]"
+drawn "its name and unit stand at the colours" "von Mises stress \[.*Pa\]"
 "$cleave" plot results/strip --field velocity_y --times last -o v.pdf >out 2>err
 is "plot -o v.pdf: exit status" $? 0
 holds "v.pdf is a PDF" sh -c "head -c 5 v.pdf | grep -q %PDF-"
@@ -99,6 +99,23 @@ if command -v ffmpeg >/dev/null; then
     "$cleave" plot results/strip --field speed --frames 2 -o speed.gif >out 2>err
     holds "a film of as many frames as are asked for" grep -q "speed of 2 frames" out
 fi
+# What happens in the run is drawn: damage where bonds break, else plastic strain or stress, also with a slit that does
+# not grow.
+"$cleave" plot results/strip -o default.png >out 2>err
+holds "where bonds break: damage" grep -q "damage of 5 frames" out
+"$cleave" run strip.yaml -q -o calm -s 'boundary=[{name: pull, traction: [0, 1 kPa], face: y+}]' >out 2>err
+"$cleave" plot calm >out 2>err
+made calm/pictures/damage.png
+made calm/pictures/field_von_mises.png
+"$cleave" plot calm -o default.png >out 2>err
+holds "where none breaks: the stress" grep -q "von_mises of 5 frames" out
+"$cleave" run strip.yaml -q -o bent -s method=mpm -s 'cracks=[]' -s 'bodies=[{name: plate, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}]' \
+    -s 'materials=[{name: lead, young: 16 GPa, poisson: 0.4, density: 11000 kg/m^3, yield_stress: 5 MPa}]' >out 2>err
+"$cleave" plot bent --frames all >out 2>err
+made bent/pictures/field_plastic_strain.png
+made bent/pictures/last.png
+made bent/pictures/field_plastic_strain_000002.png
+holds "no empty map of damage" test ! -e bent/pictures/damage.png
 PATH=/nowhere "$cleave" plot results/strip --field speed --format gif >out 2>err
 is "a film without ffmpeg: exit status" $? 2
 holds "a film without ffmpeg: one line names it" grep -q "the package ffmpeg" err
