@@ -119,6 +119,11 @@ status output_write_text(const struct output *o, const char *name, const char *t
  * Returns FAILED if an index file cannot be written. */
 status output_index_drop_lost_frames(struct output *o, int *lost, char *text, size_t capacity);
 
+/* Beginning of the files of rigid bodies beside the frames (rigid/rigid_surface.h). */
+#define RIGID_FILE_BEGIN                                                                                               \
+    "<?xml version=\"1.0\"?>\n<!-- rigid bodies of cleave -->\n<VTKFile type=\"PolyData\" version=\"0.1\" "            \
+    "byte_order=\"LittleEndian\">\n"
+
 /* Names of the fields, as in the table of output_fields.c. The ASK_ bits select the fields that are written only if the
  * scene requests them; plots and comparisons read the other fields. */
 #define FRAME_FIELD_WORDS                                                                                              \

@@ -11,6 +11,7 @@
 #include "output/output_files.h"
 #include "plot/colours.h"
 #include "plot/gnuplot.h"
+#include "rigid/rigid_surface.h"
 #include "scene/scene.h"
 
 /* ---- requests ---------------------------------------------------------------------------------------------------- */
@@ -174,6 +175,15 @@ status plot_field_choose(const struct plot_field **field, const char *folder, co
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
+/* A rigid body in a frame. */
+struct rigid_shown {
+    const struct region *shape; /* at t = 0; borrowed from the scene */
+    struct rigid_placement at;
+    bool bounded;
+    real low[DIM_MAX], high[DIM_MAX]; /* box at t = 0: of the body, or around the particles if the body is unbounded [m]
+                                       */
+};
+
 /* Particles of one frame that are drawn: all particles in 2D; in 3D a slice, or all in an outside view. Arrays are
  * [n]. */
 struct plotted_particles {
@@ -201,6 +211,8 @@ struct plotted_particles {
     float *gradient;       /* [n][9] deformation gradient F of each particle, rows along x, y, z [1]; NULL: no visible
                             * deformation */
     double from[2], to[2]; /* bounding box of the reference positions [m] */
+    int dim, rigids;       /* of the rigid bodies: dimension, number */
+    struct rigid_shown *rigid; /* [rigids] */
 };
 
 /* Copies the particles of the frame f that a picture shows into *c. projection: slice or outside view of a body in
@@ -240,6 +252,11 @@ enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRAC
 
 /* Returns the kind of map that shows a field. */
 enum map map_of_field(const struct plot_field *field);
+
+/* Adds the rigid bodies of the scene s (NULL: none) at frame `number` of the run in `folder` to the particles of the
+ * frame f. Adds none if the run has no files of rigid bodies. s: kept by reference. */
+void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
+                       const char *folder, int number);
 
 /* Number of named values that part_colour can distinguish. */
 enum { CATEGORIES_MOST = 9 };
@@ -314,6 +331,22 @@ void raster_paint_particles(struct colour *pixel, int width, int height, const s
  */
 void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
                            const struct plotted_particles *c, enum map map);
+
+/* Returns the colour of rigid bodies. */
+struct colour rigid_colour(void);
+
+/* Extends the view v towards the rigid bodies of c. */
+void view_show_rigids(struct view *v, const struct plotted_particles *c);
+
+/* Paints the rigid bodies of c, seen in the rectangle of v, into pixel[height][width] of a flat map: of a plane body
+ * behind the particles, of a slice in front of them. */
+void rigids_paint_flat(struct colour *pixel, int width, int height, const struct view *v,
+                       const struct plotted_particles *c);
+
+/* Paints the rigid bodies of c in an outside view where they are nearer to the viewer than depth[height][width], which
+ * is updated [m]. share: 1, or less for faded bodies. */
+void rigids_paint_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
+                          const struct plotted_particles *c, double share);
 
 /* Output file of a picture. */
 struct sheet {

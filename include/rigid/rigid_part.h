@@ -14,7 +14,8 @@ struct rigid_set {
     const struct region **shape; /* [scene->bodies] NULL: body made from a list, or of several joined solids */
     /* [n][2 DIM_MAX] centres [m] and velocities [m/s] at the time of the present sample */
     real *motion;
-    bool met; /* the warning of two rigid bodies inside each other has been given */
+    struct rigid_surface *surface; /* [n] for the files beside the frames (rigid_surface.h); NULL before the first */
+    bool met;                      /* the warning of two rigid bodies inside each other has been given */
 };
 
 /* Makes all rigid bodies of scene s at the start, and lists the shapes of the deformable bodies for contact. Returns

@@ -38,7 +38,7 @@ static const struct {
     {"checkpoint.damaged.h5", NULL}, {"summary.json", NULL},
     {"history.csv", "time [s],"},    {"fragments.csv", "body,particles,"},
     {"frames.hdf.series", NULL},     {"frames.xdmf", NULL},
-    {"frames.vtkhdf", NULL},
+    {"frames.vtkhdf", NULL},         {"rigid.vtp.series", NULL},
 };
 
 /* Returns true if `name` consists of at least six digits and `type`, followed by `end`. */
@@ -56,6 +56,13 @@ static bool is_frame(const char *name, const char *end)
     if (strncmp(name, particles, sizeof particles - 1) == 0)
         return is_numbered(name + sizeof particles - 1, ".h5", end);
     return is_numbered(name, ".hdf", end);
+}
+
+/* Returns true if `name` is that of a file of rigid bodies, rigid_123456.vtp, followed by `end`. */
+static bool is_rigid_file(const char *name, const char *end)
+{
+    static const char rigid[] = "rigid_";
+    return strncmp(name, rigid, sizeof rigid - 1) == 0 && is_numbered(name + sizeof rigid - 1, ".vtp", end);
 }
 
 static status file_remove(const char *path) { return (void)unlink(path), OK; }
@@ -286,6 +293,7 @@ static status run_each(const char *folder, file_visit_fn *each)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) TRY(file_each(folder, made[k].name, each));
     TRY(files_visit(path_join(folder, "frames").text, is_frame, "", each));
+    TRY(files_visit(path_join(folder, "frames").text, is_rigid_file, "", each));
     TRY(regions_each(folder, "", each));
     TRY(files_visit(pictures_folder(folder).text, is_picture_name, "", each == file_remove ? picture_remove : each));
     return files_visit(pictures_folder(folder).text, is_picture_name, ASIDE_ENDING, each);
@@ -298,6 +306,7 @@ static void temporary_remove(const char *folder)
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_temporary(path_join(folder, made[k].name).text).text);
     unlink(path_temporary(path_join(folder, "scene.yaml").text).text);
     files_visit(path_join(folder, "frames").text, is_frame, ASIDE_ENDING, file_remove);
+    files_visit(path_join(folder, "frames").text, is_rigid_file, ASIDE_ENDING, file_remove);
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
@@ -329,6 +338,13 @@ static status frame_guard(const char *path)
     return status_set(REFUSED, "%s was not written by cleave, or is cut short; move or remove it", path);
 }
 
+/* Checks a file of rigid bodies that a run would remove. REFUSED if it does not begin as Cleave's do. */
+static status rigid_guard(const char *path)
+{
+    static const char *const begin[] = {RIGID_FILE_BEGIN};
+    return file_check_beginning(path, begin, 1);
+}
+
 /* Checks the tables, frames and particles files that a run would write or remove. REFUSED if one of them is an existing
  * file that Cleave did not write. */
 static status files_guard(const char *folder)
@@ -336,6 +352,7 @@ static status files_guard(const char *folder)
     for (size_t k = 0; k < COUNT_OF(made); k++)
         if (made[k].begin) TRY(file_check_beginning(path_join(folder, made[k].name).text, &made[k].begin, 1));
     TRY(files_visit(path_join(folder, "frames").text, is_frame, "", frame_guard));
+    TRY(files_visit(path_join(folder, "frames").text, is_rigid_file, "", rigid_guard));
     return regions_each(folder, "", frame_guard);
 }
 

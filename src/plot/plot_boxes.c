@@ -5,13 +5,11 @@
 
 #include "base/memory.h"
 #include "plot/plot.h"
+#include "shading.h"
 
 /* Half size of a cube over the spacing; slightly more than 0.5 to close the gaps of a strained lattice. */
 static const double HALF = 0.52;
 
-/* Brightness of faces with normal x, y, z. In a view along an axis the only visible face has full brightness, as the
- * colour bar. */
-static const double SHADE[3] = {0.74, 0.87, 1};
 static const double STRAIGHT = 0.999; /* cosine of the angle to an axis below which a view is along this axis */
 /* Share of its colour that the body keeps behind its cracks. */
 static const double GHOST = 0.45;
@@ -87,7 +85,7 @@ static double face_brightness(const struct cube *b, int face, const double *towa
     double length = 0, facing = 0, shade = 0;
     for (int d = 0; d < 3; d++) {
         const double n = b->inverse[face][d]; /* the normal is along F^-T e_face */
-        length += n * n, shade += SHADE[d] * n * n, facing += n * towards[d];
+        length += n * n, shade += FACE_BRIGHTNESS[d] * n * n, facing += n * towards[d];
     }
     return fabs(facing) >= STRAIGHT * sqrt(length) ? 1 : shade / length;
 }
@@ -139,6 +137,7 @@ void cubes_paint_particles(struct colour *pixel, int width, int height, const st
     const struct colour ghost = colour_faded(colour_damage(0), GHOST);
     for (int64_t i = 0; i < c->n; i++)
         paint_cube(&v, c, i, map == MAP_CRACKS ? ghost : particle_colour(view, c, i, map));
+    if (c->position[2]) rigids_paint_outside(pixel, v.depth, width, height, view, c, map == MAP_CRACKS ? GHOST : 1);
     if (map == MAP_CRACKS) {
         canvas_clear_depth(&v);
         for (int64_t i = 0; i < c->n; i++)

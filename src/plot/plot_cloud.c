@@ -284,6 +284,7 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
     if (own.field) s = plot_field_read(&value, own.field, &f, run_frame_path(folder, frame->number).text);
     own.value = value;
     if (s == OK) plotted_particles_make(c, &f, &own);
+    if (s == OK) rigids_shown_make(c, &f, own.scene, folder, frame->number);
     memory_free(value);
     frame_free(&f);
     return s;
@@ -300,5 +301,6 @@ void plotted_particles_free(struct plotted_particles *c)
     memory_free(c->value);
     memory_free(c->colour);
     memory_free(c->gradient);
+    memory_free(c->rigid);
     *c = (struct plotted_particles){0};
 }

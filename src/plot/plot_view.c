@@ -97,6 +97,7 @@ struct view view_around(const struct plotted_particles *cloud, int clouds)
         const double beside = k == 1 && cloud[0].tall > 0 ? 1.5 * cloud[0].tall : margin;
         v.from[k] -= beside, v.to[k] += beside;
     }
+    for (int c = 0; c < clouds; c++) view_show_rigids(&v, &cloud[c]);
     for (int c = 0; c < clouds; c++) v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &cloud[c]));
     return v;
 }

@@ -1,10 +1,13 @@
 /* Row of the rigid bodies in the table of parts. */
 #include "rigid/rigid_part.h"
 #include "base/memory.h"
+#include "rigid/rigid_surface.h"
 #include "run/part.h"
 
 static void rigid_free_all(struct run *e)
 {
+    for (int b = 0; e->rigid->surface && b < e->rigid->n; b++) rigid_surface_free(&e->rigid->surface[b]);
+    memory_free(e->rigid->surface);
     memory_free(e->rigid->body), memory_free(e->rigid->shape), memory_free(e->rigid->motion);
 }
 

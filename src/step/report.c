@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "fracture/fragments.h"
+#include "rigid/rigid_surface.h"
 #include "output/output_files.h"
 #include "output/output.h"
 #include "contact/contact.h"
@@ -163,6 +164,7 @@ static status write_frames(struct run *e, unsigned due)
     frame_fields_free(&extra);
     fragments_free(&fragments);
     const struct observed_run seen = observed_run_of(e);
+    if (s == OK && due & 1) s = rigids_write_frame(e->rigid, out, &e->part);
     return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
 }
 

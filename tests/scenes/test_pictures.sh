@@ -99,6 +99,10 @@ if command -v ffmpeg >/dev/null; then
     "$cleave" plot results/strip --field speed --frames 2 -o speed.gif >out 2>err
     holds "a film of as many frames as are asked for" grep -q "speed of 2 frames" out
 fi
+drawn "rigid bodies have their entry in the key" "set label 'rigid' at screen"
+for frame in 0 1 2 3 4; do made results/strip/frames/rigid_00000$frame.vtp; done
+is "their index lists every frame" "$(grep -c 'rigid_00000[0-4].vtp","time"' results/strip/rigid.vtp.series)" 5
+if command -v xmllint >/dev/null; then holds "their file is XML" xmllint --noout results/strip/frames/rigid_000004.vtp; fi
 # What happens in the run is drawn: damage where bonds break, else plastic strain or stress, also with a slit that does
 # not grow.
 "$cleave" plot results/strip -o default.png >out 2>err

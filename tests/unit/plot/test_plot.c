@@ -313,6 +313,41 @@ static void slits_are_lines_of_the_body(void **state)
     memory_free(pixel);
 }
 
+/* A rigid brick of 4 x 2 spacings that has moved and turned by 90 degrees beside a block: its area in pixels and where
+ * it is, in a flat map and, as a solid, from outside; the picture grows to show it. */
+static void rigid_bodies_are_shown(void **state)
+{
+    (void)state;
+    static struct solid brick = {.kind = SOLID_BOX, .from = {0, 0, -1e-3}, .to = {4e-3, 2e-3, 1e-3}};
+    static const struct region shape = {.n = 1, .solid = &brick};
+    struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
+    for (int dim = 2; dim < 4; dim++) {
+        struct output_frame f = block_make(10, 10, 2, 3);
+        struct plotted_particles c;
+        int rigid = 0, beside = 0;
+        f.dim = dim;
+        plotted_particles_make(&c, &f,
+                               &(struct projection){.outside = true, .camera = camera_along(2, 1), .normal = -1});
+        struct rigid_shown *r = NEW("test.rigid", 1, struct rigid_shown);
+        *r = (struct rigid_shown){
+            .shape = &shape,
+            .at = {.centre = {2e-3, 1e-3, 0}, .x = {8e-3, 0, 0}, .turn = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}};
+        r->bounded = region_bounds(&shape, dim, r->low, r->high);
+        c.dim = dim, c.rigids = 1, c.rigid = r;
+        assert_true(fabs(view_around(&c, 1).to[0] - 9e-3) < 1.1 * SPACING);
+        const struct view v = {.from = {-10e-3, -10e-3}, .to = {10e-3, 10e-3}, .top = 1};
+        raster_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
+        for (int q = 0; q < PIXELS * PIXELS; q++) {
+            const double x = (q % PIXELS + 0.5) / 6 - 10, y = (q / PIXELS + 0.5) / 6 - 10; /* [spacing] */
+            const bool here = pixel[q].alpha && pixel[q].red < 130;
+            rigid += here, beside += here && !(fabs(x - 8) < 1.1 && fabs(y) < 2.1);
+        }
+        assert_true(abs(rigid - 4 * 2 * 36) <= 12 && beside == 0);
+        plotted_particles_free(&c), frame_free(&f);
+    }
+    memory_free(pixel);
+}
+
 /* Axes of every view are right-handed unit vectors. */
 static void cameras_are_right_handed(void **state)
 {
@@ -372,6 +407,7 @@ int main(void)
         cmocka_unit_test(stretched_bodies_are_closed),
         cmocka_unit_test(stretched_solids_are_closed),
         cmocka_unit_test(slits_are_lines_of_the_body),
+        cmocka_unit_test(rigid_bodies_are_shown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

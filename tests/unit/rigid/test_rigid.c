@@ -8,6 +8,7 @@
 #include "rigid/rigid.h"
 #include "tests/support/near.h"
 #include "rigid/rigid_part.h"
+#include "rigid/rigid_surface.h"
 
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
@@ -62,6 +63,63 @@ static void test_cavity(void **state)
             assert_near(region_distance(&cavity, X, 3, normal), 1.3 - r, 1e-12);
             for (int d = 0; d < DIM_MAX; d++) assert_near(normal[d], -way[k][d], 1e-12);
         }
+}
+
+/* ---- surfaces in files ---------------------------------------------------------------------------------------------
+ */
+
+/* Area in the plane, volume in space within the faces of a surface, by Gauss's theorem; a quadrilateral as two
+ * triangles. */
+static real enclosed(const struct rigid_surface *s)
+{
+    real sum = 0;
+    for (int64_t k = 0; k < s->faces; k++) {
+        const int32_t *c = s->corner + k * s->corners;
+        const real *a = s->X + c[0] * DIM_MAX, *b = s->X + c[1] * DIM_MAX;
+        if (s->corners == 2) sum += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+        for (int t = 1; t + 1 < s->corners; t++) {
+            const real *p = s->X + c[t] * DIM_MAX, *q = s->X + c[t + 1] * DIM_MAX;
+            sum += (a[0] * (p[1] * q[2] - p[2] * q[1]) + a[1] * (p[2] * q[0] - p[0] * q[2]) +
+                    a[2] * (p[0] * q[1] - p[1] * q[0])) /
+                   6;
+        }
+    }
+    return fabs(sum);
+}
+
+/* Surfaces of a disc, a ball and a brick: closed, of the right size within what their grids resolve (200 and 24 cells
+ * across, edges of a brick are bevelled), points on the surface; a half-space is cut to the box. */
+static void test_surface(void **state)
+{
+    (void)state;
+    const real pi = 3.14159265358979323846, low[] = {-2, -2, -2}, high[] = {2, 2, 2};
+    static struct solid ball = {.kind = SOLID_BALL, .centre = {0.2, 0.1, -0.3}, .radius = 1.7};
+    static struct solid brick = {.kind = SOLID_BOX, .from = {-1.5, -1, -0.8}, .to = {1.1, 0.7, 0.9}};
+    static struct solid ground = {
+        .kind = SOLID_BOX, .from = {-INFINITY, -INFINITY, -INFINITY}, .to = {INFINITY, INFINITY, 0}};
+    static const struct {
+        struct solid *solid;
+        int dim;
+        real size, within;
+    } body[] = {{&ball, 2, 1.7 * 1.7, 1e-3},
+                {&ball, 3, 4.0 / 3 * 1.7 * 1.7 * 1.7, 0.01},
+                {&brick, 3, 2.6 * 1.7 * 1.7, 0.03},
+                {&ground, 3, 32, 0.02}};
+    for (size_t k = 0; k < COUNT_OF(body); k++) {
+        const struct region region = {.n = 1, .solid = body[k].solid};
+        struct rigid_surface s;
+        real a[DIM_MAX], b[DIM_MAX];
+        if (!region_bounds(&region, body[k].dim, a, b)) memcpy(a, low, sizeof a), memcpy(b, high, sizeof b);
+        rigid_surface_make(&s, &region, body[k].dim, a, b);
+        const real size = body[k].size * (body[k].solid == &ball ? pi : 1);
+        assert_near(enclosed(&s) / size, 1, body[k].within);
+        for (int64_t q = 0; q < s.points && body[k].solid == &ball; q++) {
+            real r2 = 0;
+            for (int d = 0; d < body[k].dim; d++) r2 += square(s.X[q * DIM_MAX + d] - ball.centre[d]);
+            assert_near(sqrt(r2) / 1.7, 1, 0.01);
+        }
+        rigid_surface_free(&s);
+    }
 }
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
@@ -286,10 +344,10 @@ static void test_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_distance), cmocka_unit_test(test_cavity),
-                                       cmocka_unit_test(test_inertia),  cmocka_unit_test(test_tumbling),
-                                       cmocka_unit_test(test_driven),   cmocka_unit_test(test_points_move),
-                                       cmocka_unit_test(test_ramp),     cmocka_unit_test(test_kick),
-                                       cmocka_unit_test(test_record),   cmocka_unit_test(test_refused)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_distance),    cmocka_unit_test(test_cavity),   cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_inertia),     cmocka_unit_test(test_tumbling), cmocka_unit_test(test_driven),
+        cmocka_unit_test(test_points_move), cmocka_unit_test(test_ramp),     cmocka_unit_test(test_kick),
+        cmocka_unit_test(test_record),      cmocka_unit_test(test_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

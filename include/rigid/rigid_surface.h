@@ -1,0 +1,42 @@
+/* Surfaces of rigid bodies as files beside the frames: frames/rigid_NNNNNN.vtp with their index rigid.vtp.series, for
+ * ParaView and for pictures. */
+#ifndef CLEAVE_RIGID_SURFACE
+#define CLEAVE_RIGID_SURFACE
+
+#include "output/output.h"
+#include "rigid/rigid.h"
+
+struct rigid_set;
+
+/* Polygons on the surface of a region: segments in the plane, quadrilaterals in space. All arrays are owned. */
+struct rigid_surface {
+    int64_t points, faces;
+    int corners;     /* of a face: 2 in the plane, 4 in space */
+    real *X;         /* [points][DIM_MAX] [m] */
+    int32_t *corner; /* [faces][corners] indices of points */
+};
+
+/* Approximates the surface of a region by polygons between points on it, on a grid of at most about 24 (in the plane
+ * 200) cells along the longest edge of the region. low, high: corners of a box to which an unbounded region is cut [m];
+ * dim: 2 or 3. Release with rigid_surface_free. */
+void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int dim, const real *low,
+                        const real *high);
+
+/* Releases the arrays of *s. */
+void rigid_surface_free(struct rigid_surface *s);
+
+/* Writes the surfaces of all rigid bodies at their present positions, and their motion, for the last frame of the whole
+ * body that was begun, and the index of all these files. part: for the box to which unbounded bodies are cut. Does
+ * nothing without rigid bodies and in one dimension. Returns FAILED if a file cannot be written. */
+status rigids_write_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part);
+
+/* Position and rotation of a rigid body: a point that was at X at t = 0 is at x + turn (X - centre) [m]. */
+struct rigid_placement {
+    real centre[DIM_MAX], x[DIM_MAX], turn[DIM_MAX][DIM_MAX];
+};
+
+/* Reads the placements of `rigids` rigid bodies at frame `number` from the folder of a run into placement[rigids].
+ * Returns false if there is no such file or it is of another number of bodies. */
+bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int number);
+
+#endif

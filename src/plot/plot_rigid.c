@@ -1,0 +1,149 @@
+/* Rigid bodies in maps: the shape of the scene, at the place and with the rotation of the frame, evaluated in each
+ * pixel.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "plot/plot.h"
+#include "shading.h"
+
+static const struct colour RIGID = {120, 120, 126, 255};
+
+/* An unbounded body is shown in a box that is wider than the particles by this share of their longest edge; the picture
+ * grows towards bodies beside the particles by up to BESIDE of its longer side. */
+#define MARGIN 0.08
+#define BESIDE 0.3
+enum { MARCH_MOST = 300 };
+
+struct colour rigid_colour(void) { return RIGID; }
+
+void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
+                       const char *folder, int number)
+{
+    if (!s || s->rigids == 0 || s->dim != f->dim || f->dim < 2) return;
+    struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
+    if (rigids_read_frame(at, s->rigids, folder, number)) {
+        real low[DIM_MAX], high[DIM_MAX], longest = 0;
+        for (int d = 0; d < f->dim; d++) {
+            low[d] = INFINITY, high[d] = -INFINITY;
+            for (int64_t i = 0; i < f->n; i++) low[d] = fmin(low[d], f->X[d][i]), high[d] = fmax(high[d], f->X[d][i]);
+            longest = fmax(longest, high[d] - low[d]);
+        }
+        c->rigids = s->rigids, c->dim = f->dim;
+        c->rigid = NEW("plot.rigid", s->rigids, struct rigid_shown);
+        for (int b = 0; b < s->rigids; b++) {
+            struct rigid_shown *r = &c->rigid[b];
+            *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = at[b]};
+            r->bounded = region_bounds(r->shape, f->dim, r->low, r->high);
+            for (int d = 0; d < f->dim && !r->bounded; d++)
+                r->low[d] = low[d] - MARGIN * longest, r->high[d] = high[d] + MARGIN * longest;
+        }
+    }
+    memory_free(at);
+}
+
+/* Returns the level set of a rigid body at the present position x [DIM_MAX, m]: negative inside [m]. cut: cut an
+ * unbounded body to its box. */
+static double level_at(const struct rigid_shown *r, int dim, const double *x, bool cut)
+{
+    real X[DIM_MAX] = {0};
+    for (int a = 0; a < dim; a++) {
+        X[a] = r->at.centre[a];
+        for (int b = 0; b < dim; b++) X[a] += r->at.turn[b][a] * (x[b] - r->at.x[b]);
+    }
+    double level = region_level_set_value(r->shape, X, dim);
+    for (int d = 0; d < dim && cut && !r->bounded; d++) level = fmax(level, fmax(r->low[d] - X[d], X[d] - r->high[d]));
+    return level;
+}
+
+/* Computes the present position of corner k of the box of a body along the direction `axis` [m]. */
+static double corner_along(const struct rigid_shown *r, int dim, int k, const double *axis)
+{
+    double sum = 0;
+    for (int a = 0; a < dim; a++) {
+        double x = r->at.x[a];
+        for (int b = 0; b < dim; b++) x += r->at.turn[a][b] * ((k >> b & 1 ? r->high[b] : r->low[b]) - r->at.centre[b]);
+        sum += axis[a] * x;
+    }
+    return sum;
+}
+
+void view_show_rigids(struct view *v, const struct plotted_particles *c)
+{
+    const double *axis[2] = {c->camera.right, c->camera.up};
+    const double longest = fmax(v->to[0] - v->from[0], v->to[1] - v->from[1]);
+    const double from[2] = {v->from[0], v->from[1]}, to[2] = {v->to[0], v->to[1]};
+    for (int b = 0; b < c->rigids; b++)
+        for (int k = 0; k < 1 << c->dim; k++)
+            for (int a = 0; a < 2; a++) {
+                const double x = corner_along(&c->rigid[b], c->dim, k, axis[a]);
+                v->from[a] = fmin(v->from[a], fmax(x, from[a] - BESIDE * longest));
+                v->to[a] = fmax(v->to[a], fmin(x, to[a] + BESIDE * longest));
+            }
+}
+
+/* Computes the position of a pixel in the picture plane, with depth z along the direction of view [m]. */
+static void pixel_position(const struct plotted_particles *c, const struct view *v, const int *size, int64_t q,
+                           double depth, double *x)
+{
+    const double a = v->from[0] + (v->to[0] - v->from[0]) * ((double)(q % size[0]) + 0.5) / size[0];
+    const double b = v->from[1] + (v->to[1] - v->from[1]) * ((double)(q / size[0]) + 0.5) / size[1];
+    for (int d = 0; d < 3; d++) x[d] = a * c->camera.right[d] + b * c->camera.up[d] + depth * c->camera.towards[d];
+}
+
+void rigids_paint_flat(struct colour *pixel, int width, int height, const struct view *v,
+                       const struct plotted_particles *c)
+{
+    const int size[2] = {width, height};
+    const double depth = c->normal < 0 ? 0 : c->layer * c->camera.towards[c->normal];
+    for (int b = 0; b < c->rigids; b++)
+        for (int64_t q = 0; q < (int64_t)width * height; q++) {
+            double x[3];
+            if (pixel[q].alpha && c->normal < 0) continue; /* particles of a slice may have left its plane */
+            pixel_position(c, v, size, q, depth, x);
+            if (level_at(&c->rigid[b], c->dim, x, false) <= 0) pixel[q] = RIGID;
+        }
+}
+
+/* Returns the brightness of the surface of a body at x: that of the axes to which its normal points. */
+static double brightness_at(const struct rigid_shown *r, const double *x, const double *towards, double step)
+{
+    double normal[3], length = 0, shade = 0, facing = 0;
+    for (int d = 0; d < 3; d++) {
+        double near[3] = {x[0], x[1], x[2]}, far[3] = {x[0], x[1], x[2]};
+        near[d] -= step, far[d] += step;
+        normal[d] = level_at(r, 3, far, true) - level_at(r, 3, near, true);
+        length += square(normal[d]), facing += normal[d] * towards[d];
+    }
+    for (int d = 0; d < 3; d++) shade += FACE_BRIGHTNESS[d] * square(normal[d]);
+    return length > 0 ? (shade / length) * (0.6 + 0.4 * fmax(facing, 0) / sqrt(length)) : 1;
+}
+
+void rigids_paint_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
+                          const struct plotted_particles *c, double share)
+{
+    const int size[2] = {width, height};
+    for (int b = 0; b < c->rigids; b++) {
+        const struct rigid_shown *r = &c->rigid[b];
+        double near = -INFINITY, far = INFINITY;
+        for (int k = 0; k < 8; k++) {
+            const double z = corner_along(r, 3, k, c->camera.towards);
+            near = fmax(near, z), far = fmin(far, z);
+        }
+        const double small = 1e-3 * (near - far);
+#pragma omp parallel for schedule(static)
+        for (int64_t q = 0; q < (int64_t)width * height; q++) {
+            double z = near + small, level = INFINITY, x[3];
+            for (int k = 0; k < MARCH_MOST && z > fmax(far, (double)depth[q]); k++) {
+                pixel_position(c, v, size, q, z, x);
+                level = level_at(r, 3, x, true);
+                if (level <= small) break;
+                z -= level;
+            }
+            if (!(level <= small) || z <= depth[q]) continue;
+            depth[q] = (float)z;
+            pixel[q] = colour_faded(colour_shaded(RIGID, brightness_at(r, x, c->camera.towards, small)), share);
+        }
+    }
+}

@@ -1,0 +1,305 @@
+/* Surfaces of rigid bodies by surface nets (Gibson 1998): each cell of a grid that the surface crosses has a point in
+ * the middle of the crossings of its edges; each edge that the surface crosses has a face between the cells around it.
+ */
+#include "rigid/rigid_surface.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/memory_stream.h"
+#include "output/output_files.h"
+#include "rigid/rigid_part.h"
+
+enum { CELLS_PLANE = 200, CELLS_SPACE = 24, THICKNESS_CELLS = 6, NODES_MOST = 200000 };
+
+/* Grid over a region, one cell larger than it on all sides, and the values of its level set at the nodes. */
+struct net {
+    int dim;
+    int64_t count[DIM_MAX], nodes; /* of nodes */
+    real from[DIM_MAX], step;
+    real *value;    /* [nodes] negative inside [m] */
+    int32_t *point; /* [nodes] index of the point of the cell above a node; -1: none */
+};
+
+/* Returns the level set of a region cut to the box between low and high [m]. */
+static real cut_level_set(const struct region *shape, const real *X, int dim, const real *low, const real *high)
+{
+    real value = region_level_set_value(shape, X, dim);
+    for (int d = 0; d < dim; d++) value = real_max(value, real_max(low[d] - X[d], X[d] - high[d]));
+    return value;
+}
+
+static void net_make(struct net *g, const struct region *shape, int dim, const real *low, const real *high)
+{
+    real thinnest = INFINITY, longest = 0, nodes;
+    *g = (struct net){.dim = dim, .count = {1, 1, 1}};
+    for (int d = 0; d < dim; d++) {
+        thinnest = real_min(thinnest, high[d] - low[d]);
+        longest = real_max(longest, high[d] - low[d]);
+    }
+    g->step = real_min(longest / (dim == 2 ? CELLS_PLANE : CELLS_SPACE), thinnest / THICKNESS_CELLS);
+    for (;; g->step *= 1.2) {
+        nodes = 1;
+        for (int d = 0; d < dim; d++) nodes *= ceil((high[d] - low[d]) / g->step) + 3;
+        if (nodes <= NODES_MOST) break;
+    }
+    g->nodes = 1;
+    for (int d = 0; d < dim; d++) {
+        g->count[d] = (int64_t)ceil((high[d] - low[d]) / g->step) + 3;
+        g->from[d] = 0.5 * (low[d] + high[d]) - 0.5 * (real)(g->count[d] - 1) * g->step;
+        g->nodes *= g->count[d];
+    }
+    g->value = NEW("rigid.value", g->nodes, real);
+    g->point = NEW("rigid.point", g->nodes, int32_t);
+    for (int64_t k = 0; k < g->nodes; k++) {
+        real X[DIM_MAX];
+        int64_t rest = k;
+        for (int d = 0; d < dim; rest /= g->count[d], d++) X[d] = g->from[d] + (real)(rest % g->count[d]) * g->step;
+        g->value[k] = cut_level_set(shape, X, dim, low, high);
+    }
+}
+
+/* Returns the distance of neighbours along axis d in the arrays of the nodes. */
+static int64_t stride(const struct net *g, int d)
+{
+    return d == 0 ? 1 : d == 1 ? g->count[0] : g->count[0] * g->count[1];
+}
+
+/* Adds the position at which the surface crosses the edge along axis d from corner `bits` of the cell above node k to
+ * sum[DIM_MAX], in cells from the node. Returns 1 if it crosses, else 0. */
+static int edge_crossing_add(const struct net *g, int64_t k, int bits, int d, real *sum)
+{
+    int64_t a = k;
+    for (int e = 0; e < g->dim; e++) a += (bits >> e & 1) * stride(g, e);
+    const real v = g->value[a], w = g->value[a + stride(g, d)];
+    if ((v < 0) == (w < 0)) return 0;
+    for (int e = 0; e < g->dim; e++) sum[e] += e == d ? v / (v - w) : (bits >> e & 1);
+    return 1;
+}
+
+/* Makes the points of all cells that the surface crosses. */
+static void surface_points_make(struct rigid_surface *s, struct net *g)
+{
+    for (int64_t k = 0; k < g->nodes; k++) {
+        real sum[DIM_MAX] = {0}, at[DIM_MAX];
+        int crossings = 0;
+        bool last = false;
+        int64_t rest = k;
+        for (int d = 0; d < g->dim; rest /= g->count[d], d++) {
+            at[d] = (real)(rest % g->count[d]);
+            last |= rest % g->count[d] == g->count[d] - 1;
+        }
+        g->point[k] = -1;
+        for (int bits = 0; bits < 1 << g->dim && !last; bits++)
+            for (int d = 0; d < g->dim; d++)
+                if (!(bits >> d & 1)) crossings += edge_crossing_add(g, k, bits, d, sum);
+        if (crossings == 0) continue;
+        GROW("rigid.X", s->X, (s->points + 1) * DIM_MAX);
+        for (int d = 0; d < DIM_MAX; d++)
+            s->X[s->points * DIM_MAX + d] = d < g->dim ? g->from[d] + (at[d] + sum[d] / crossings) * g->step : 0;
+        g->point[k] = (int32_t)s->points++;
+    }
+}
+
+/* Makes the faces across all edges that the surface crosses. An edge at the rim of the grid is never crossed. */
+static void surface_faces_make(struct rigid_surface *s, const struct net *g)
+{
+    s->corners = g->dim == 2 ? 2 : 4;
+    for (int64_t k = 0; k < g->nodes; k++)
+        for (int d = 0; d < g->dim; d++) {
+            const int64_t next = k + stride(g, d);
+            if (next >= g->nodes || (g->value[k] < 0) == (g->value[next] < 0)) continue;
+            const int64_t a = stride(g, (d + 1) % g->dim), b = g->dim == 2 ? 0 : stride(g, (d + 2) % 3);
+            const int64_t cell[4] = {k, k - a, k - a - b, k - b};
+            const bool outward = (g->value[k] < 0) == (g->dim == 3 || d == 1); /* right-handed about the normal */
+            GROW("rigid.corner", s->corner, (s->faces + 1) * s->corners);
+            for (int c = 0; c < s->corners; c++)
+                s->corner[s->faces * s->corners + c] = g->point[cell[outward ? c : s->corners - 1 - c]];
+            s->faces++;
+        }
+}
+
+void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int dim, const real *low, const real *high)
+{
+    struct net g;
+    *s = (struct rigid_surface){0};
+    net_make(&g, shape, dim, low, high);
+    surface_points_make(s, &g);
+    surface_faces_make(s, &g);
+    memory_free(g.value), memory_free(g.point);
+}
+
+void rigid_surface_free(struct rigid_surface *s)
+{
+    memory_free(s->X), memory_free(s->corner);
+    *s = (struct rigid_surface){0};
+}
+
+/* ---- files ------------------------------------------------------------------------------------------------------- */
+
+/* Makes the surfaces of all bodies, once. Unbounded ones are cut to a box around the particles. */
+static void sursurface_faces_make(struct rigid_set *rigid, const struct particles *part)
+{
+    if (rigid->surface) return;
+    rigid->surface = NEW("rigid.surface", rigid->n, struct rigid_surface);
+    for (int b = 0; b < rigid->n; b++) {
+        real low[DIM_MAX], high[DIM_MAX];
+        if (!region_bounds(rigid->body[b].shape, rigid->dim, low, high))
+            for (int d = 0; d < rigid->dim; d++) {
+                const real beside = 0.08 * particles_longest_edge(part);
+                particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
+                low[d] -= beside, high[d] += beside;
+            }
+        rigid_surface_make(&rigid->surface[b], rigid->body[b].shape, rigid->dim, low, high);
+    }
+}
+
+static void print_array(FILE *to, const char *type, const char *name, int columns)
+{
+    fprintf(to, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type, name,
+            columns);
+}
+
+/* Prints centre, present position and rotation of each body, which rigids_read_frame reads. */
+static void print_motion(FILE *to, const struct rigid_set *rigid)
+{
+    fprintf(to, "<DataArray type=\"Float64\" Name=\"motion\" NumberOfTuples=\"%d\" format=\"ascii\">\n", 15 * rigid->n);
+    for (int b = 0; b < rigid->n; b++) {
+        const struct rigid_body *r = &rigid->body[b];
+        for (int d = 0; d < DIM_MAX; d++) fprintf(to, "%.17g ", d < rigid->dim ? r->centre[d] : 0);
+        for (int d = 0; d < DIM_MAX; d++) fprintf(to, "%.17g ", d < rigid->dim ? r->x[d] : 0);
+        for (int k = 0; k < 9; k++) fprintf(to, "%.17g%c", r->turn[k / 3][k % 3], k < 8 ? ' ' : '\n');
+    }
+    fputs("</DataArray>\n", to);
+}
+
+static void print_points(FILE *to, const struct rigid_set *rigid)
+{
+    fputs("<Points>\n", to);
+    print_array(to, "Float32", "Points", 3);
+    for (int b = 0; b < rigid->n; b++)
+        for (int64_t k = 0; k < rigid->surface[b].points; k++) {
+            real x[DIM_MAX] = {0};
+            rigid_point_position(&rigid->body[b], &rigid->surface[b].X[k * DIM_MAX], x);
+            fprintf(to, "%.7g %.7g %.7g\n", x[0], x[1], x[2]);
+        }
+    fputs("</DataArray>\n</Points>\n", to);
+}
+
+/* Prints the faces as lines in the plane, as polygons in space. */
+static void print_faces(FILE *to, const struct rigid_set *rigid)
+{
+    const char *kind = rigid->dim == 2 ? "Lines" : "Polys";
+    int64_t first = 0, end = 0;
+    fprintf(to, "<%s>\n", kind);
+    print_array(to, "Int32", "connectivity", 1);
+    for (int b = 0; b < rigid->n; first += rigid->surface[b].points, b++)
+        for (int64_t k = 0; k < rigid->surface[b].faces * rigid->surface[b].corners; k++)
+            fprintf(to, "%lld%c", (long long)(first + rigid->surface[b].corner[k]),
+                    (k + 1) % rigid->surface[b].corners ? ' ' : '\n');
+    fputs("</DataArray>\n", to);
+    print_array(to, "Int32", "offsets", 1);
+    for (int b = 0; b < rigid->n; b++)
+        for (int64_t k = 0; k < rigid->surface[b].faces; k++)
+            fprintf(to, "%lld\n", (long long)(end += rigid->surface[b].corners));
+    fprintf(to, "</DataArray>\n</%s>\n<CellData>\n", kind);
+    print_array(to, "Int32", "rigid_body", 1);
+    for (int b = 0; b < rigid->n; b++)
+        for (int64_t k = 0; k < rigid->surface[b].faces; k++) fprintf(to, "%d\n", b);
+    fputs("</DataArray>\n</CellData>\n", to);
+}
+
+static void print_file(FILE *to, const struct rigid_set *rigid, const struct frame_entry *frame)
+{
+    int64_t points = 0, faces = 0;
+    for (int b = 0; b < rigid->n; b++) points += rigid->surface[b].points, faces += rigid->surface[b].faces;
+    fprintf(to,
+            RIGID_FILE_BEGIN "<PolyData>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
+                             "NumberOfTuples=\"1\" format=\"ascii\">\n%.17g\n</DataArray>\n",
+            frame->time);
+    print_motion(to, rigid);
+    fprintf(to, "</FieldData>\n<Piece NumberOfPoints=\"%lld\" NumberOf%s=\"%lld\">\n", (long long)points,
+            rigid->dim == 2 ? "Lines" : "Polys", (long long)faces);
+    print_points(to, rigid);
+    print_faces(to, rigid);
+    fputs("</Piece>\n</PolyData>\n</VTKFile>\n", to);
+}
+
+static void print_index(FILE *to, const struct frame_series *s)
+{
+    const char *between = "";
+    fputs("{\"file-series-version\":\"1.0\",\"files\":[", to);
+    for (int k = 0; k < s->frames; k++) {
+        if (s->entry[k].fields & FRAME_LOST) continue;
+        fprintf(to, "%s\n{\"name\":\"frames/rigid_%06d.vtp\",\"time\":%.17g}", between, k, s->entry[k].time);
+        between = ",";
+    }
+    fputs("\n]}\n", to);
+}
+
+/* Composes a file in memory and writes it: the surfaces, or the index if rigid is NULL. */
+static status compose(const char *path, const struct rigid_set *rigid, const struct frame_series *s)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *to = memory_stream_open(&text, &length);
+    if (!to) return status_set(FAILED, "%s: out of memory", path);
+    if (rigid)
+        print_file(to, rigid, &s->entry[s->frames - 1]);
+    else
+        print_index(to, s);
+    status done = fclose(to) == 0 ? OK : status_set(FAILED, "%s: out of memory", path);
+    if (done == OK) done = file_write_whole(path, text, length);
+    free(text);
+    return done;
+}
+
+static struct path rigid_path(const char *folder, int number)
+{
+    char name[PATH_NAME_ROOM];
+    snprintf(name, sizeof name, "frames/rigid_%06d.vtp", number);
+    return path_join(folder, name);
+}
+
+status rigids_write_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part)
+{
+    const struct frame_series *s = &o->series[0];
+    if (rigid->n == 0 || rigid->dim < 2 || s->frames == 0) return OK;
+    sursurface_faces_make(rigid, part);
+    TRY(compose(rigid_path(o->folder, s->frames - 1).text, rigid, s));
+    return compose(path_join(o->folder, "rigid.vtp.series").text, NULL, s);
+}
+
+/* Reads numbers separated by blanks into value[n]. Returns false if there are fewer. */
+static bool numbers_read(const char *text, real *value, int n)
+{
+    for (int k = 0; k < n; k++) {
+        char *end;
+        value[k] = strtod(text, &end);
+        if (end == text) return false;
+        text = end;
+    }
+    return true;
+}
+
+bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int number)
+{
+    const struct path path = rigid_path(folder, number);
+    char *text, words[64];
+    size_t length;
+    if (rigids == 0 || !path_is_file(path.text) || file_read_whole(path.text, &text, &length) != OK) return false;
+    snprintf(words, sizeof words, "Name=\"motion\" NumberOfTuples=\"%d\"", 15 * rigids);
+    const char *at = strstr(text, words);
+    real *value = NEW("rigid.motion", 15 * rigids, real);
+    const bool read = at && (at = strchr(at, '>')) && numbers_read(at + 1, value, 15 * rigids);
+    for (int b = 0; b < rigids && read; b++) {
+        memcpy(placement[b].centre, value + 15 * b, sizeof placement->centre);
+        memcpy(placement[b].x, value + 15 * b + 3, sizeof placement->x);
+        memcpy(placement[b].turn, value + 15 * b + 6, sizeof placement->turn);
+    }
+    memory_free(value);
+    memory_free(text);
+    return read;
+}
