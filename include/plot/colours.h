@@ -10,6 +10,23 @@ struct colour {
     uint8_t red, green, blue, alpha;
 };
 
+/* Tables of colours for fields, in the order of COLOUR_TABLE_WORDS; by default viridis, and a diverging one for signed
+ * quantities. */
+enum colour_table {
+    COLOURS_USUAL,
+    COLOURS_VIRIDIS,
+    COLOURS_CIVIDIS,
+    COLOURS_INFERNO,
+    COLOURS_MAGMA,
+    COLOURS_GREY,
+    COLOURS_DIVERGING,
+    COLOUR_TABLES
+};
+#define COLOUR_TABLE_WORDS "usual|viridis|cividis|inferno|magma|grey|diverging"
+
+/* Returns the colour at a position of a table, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
+struct colour colour_of_table(enum colour_table table, double position);
+
 /* Returns a colour of the sequential scale, which goes from dark at 0 to light at 1 with uniformly increasing
  * lightness. position: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
 struct colour colour_sequential(double position);

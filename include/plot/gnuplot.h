@@ -26,7 +26,21 @@ struct gnuplot {
 enum { CURVE_COLOURS = 7 };
 extern const char *const curve_colour[CURVE_COLOURS];
 
-/* Starts gnuplot to draw the picture `path` of width x height pixels and sends the style common to all pictures: thin
+/* Size of the pictures of a process. */
+struct picture_size {
+    int width, height; /* [pixel]; 0: the usual size of each picture */
+    double dpi;        /* pixels of a PNG per inch, at PICTURE_DPI pixels of its size */
+};
+enum {
+    PICTURE_DPI = 144
+}; /* a picture of 1000 pixels is as wide as a text page, with letters of the size of the text */
+
+/* Sets the size of all pictures that follow. */
+void picture_size_set(struct picture_size size);
+struct picture_size picture_size_get(void);
+
+/* Starts gnuplot to draw the picture `path` of width x height pixels, or of the size of
+ * picture_size_set, and sends the style common to all pictures: thin
  * grey axes at the bottom and left, sans-serif font, key outside on the right. Stores the process in *g. Returns
  * REFUSED if the path has control characters or the file must not be replaced (file_check_replaceable), FAILED if
  * gnuplot cannot be started. Close with gnuplot_close. */

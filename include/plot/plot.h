@@ -44,6 +44,7 @@ struct projection {
     const struct plot_field *field; /* field to be drawn; NULL: only damage, kind and fragment */
     const float *value;             /* [n] values of the field in the current frame */
     bool in_steps;                  /* the frames are those of load steps */
+    double magnify;                 /* factor on displacements in the picture; 0: 1 */
     const struct scene *scene;      /* scene as run, for its pre-cracks and rigid bodies; NULL: unknown; borrowed */
 };
 
@@ -57,9 +58,15 @@ struct plot_request {
     const char *field;       /* name of the field; NULL: draw the standard pictures */
     struct projection projection;
     enum picture_format format;
-    const char *out; /* output file or folder; NULL: DIR/pictures */
-    bool overwrite;  /* replace `out` even if Cleave did not draw it */
-    bool quiet;      /* pictures of scenes: do not print what was drawn */
+    const char *out;         /* output file or folder; NULL: DIR/pictures */
+    bool overwrite;          /* replace `out` even if Cleave did not draw it */
+    const char *title;       /* title in place of the usual one; NULL: the usual one */
+    const char *range[2];    /* ends of the colours as texts of numbers with units; NULL: by the values */
+    bool cropped;            /* `crop` is set */
+    double crop[2][2];       /* lower and upper end of the picture along its two axes [m] */
+    enum colour_table table; /* colours of fields */
+    int fps;                 /* frames of a film per second */
+    bool quiet;              /* pictures of scenes: do not print what was drawn */
 };
 
 /* Draws all standard pictures of the run in r->folder and prints their names. Returns FAILED if a picture cannot be
@@ -124,9 +131,10 @@ enum { TITLE_LENGTH = 256 };
 struct plotted_particles;
 
 /* Composes the title `name, method: what` of a picture in title[TITLE_LENGTH]. Name and method are read from the run
- * in `folder`; unknown parts are left out. c: particles of the picture, whose time and position of the slice are
- * added; may be NULL. */
-void picture_compose_title(char *title, const char *folder, const char *what, const struct plotted_particles *c);
+ * in r->folder; unknown parts are left out. r->title, if given, is the title instead. c: particles of the picture,
+ * whose position of the slice and factor on displacements are added; may be NULL. */
+void picture_compose_title(char *title, const struct plot_request *r, const char *what,
+                           const struct plotted_particles *c);
 
 /* Unit for display: displayed value = SI value / factor. */
 struct unit {
@@ -204,6 +212,7 @@ struct plotted_particles {
     bool in_steps;         /* the frame is that of a load step */
     int64_t step;          /* number of the time step or load step */
     double spacing;        /* spacing of the particles [m] */
+    double magnify;        /* factor on the displacements in `position` and `gradient` */
     double tall;           /* half height of a particle of a 1D bar [m]; 0: particles are as high as wide */
     float *size;           /* size of the particles and of the material points of coarse cells [m]; NULL: spacing
                             * everywhere */
@@ -227,10 +236,10 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
                               const struct projection *projection);
 
 /* Computes the deformation gradients of all particles of the frame f, [f->n][9], rows along x, y, z [1], as fits to the
- * displacements of near particles that a crack does not separate. spacing: of the particles [m]; scene: for its
- * pre-cracks; NULL: none are known. Returns an allocated array, which the caller releases with memory_free, or NULL if
- * no deformation is visible. */
-float *particle_gradients_make(const struct output_frame *f, double spacing, const struct scene *scene);
+ * displacements of near particles that a crack does not separate. spacing: of the particles [m]; magnify: factor on
+ * displacements; scene: for its pre-cracks; NULL: none are known. Returns an allocated array, which the caller releases
+ * with memory_free, or NULL if no deformation is visible. */
+float *particle_gradients_make(const struct output_frame *f, double spacing, double magnify, const struct scene *scene);
 
 /* Inverts the matrix `a`. Returns false, and leaves *to undefined, if its determinant is 0 or not a number. */
 bool matrix_invert(const double a[3][3], double to[3][3]);
@@ -287,6 +296,8 @@ struct view {
     double top;                          /* damage at the upper end of the colour scale */
     const struct plot_field *field;      /* field of MAP_FIELD */
     double low, high;                    /* values of the field at the ends of the colour scale */
+    int64_t beyond[2];                   /* largest number of particles of a frame below low, above high */
+    enum colour_table table;             /* colours of MAP_FIELD */
     const struct categories *categories; /* named values of MAP_CATEGORY; borrowed */
     int64_t outside;                     /* largest number of particles of a frame outside the rectangle */
     int notches;
@@ -306,15 +317,16 @@ struct view view_around(const struct plotted_particles *cloud, int clouds);
  * in cloud[clouds]. Extreme values of a few particles are ignored. */
 void view_set_field(struct view *v, const struct plot_field *field, const struct plotted_particles *cloud, int clouds);
 
-/* Sets the pre-cracks that the view v shows: those of a plane scene; none if the scene is NULL or has another
- * dimension. scene: kept by reference. */
-void view_set_cracks(struct view *v, const struct scene *scene);
+/* Makes the view *v of cloud[clouds] that the request r asks for: rectangle, ends and table of the colours of its
+ * field, pre-cracks of a plane scene. Returns REFUSED if an end of the colours is no number with a unit of the field,
+ * or if they are in the wrong order; FAILED if there are no positions. */
+status view_make(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud, int clouds);
 
 /* Returns the colour of particle i of c in a map of the kind `map`. v: view with the range of the colour scale. */
 struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);
 
 /* Returns the colour at position a, 0 .. 1, of the colour scale of a map of the kind `map`. v: view, whose field
- * determines the scale of MAP_FIELD. */
+ * and table determine the scale of MAP_FIELD. */
 struct colour map_colour(const struct view *v, enum map map, double position);
 
 /* Paints the particles of c, seen in the rectangle of `view`, into pixel[height][width], row 0 at the bottom. map:
@@ -378,7 +390,7 @@ double curves_largest_value(const struct history *h, int column);
  * as the data block $data. Long histories are reduced to a few thousand rows, the last one included. */
 void curves_write_data(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
 
-/* Writes the gnuplot commands for a heading above the picture, composed of `title` and `what`. */
+/* Writes the gnuplot commands for a heading above the picture: `title`, followed by `what` if it ends in a space. */
 void curves_write_title(FILE *to, const char *title, const char *what);
 
 /* Writes the gnuplot commands for the horizontal axis of a picture over time or load steps, with its range and label.

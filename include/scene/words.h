@@ -12,6 +12,11 @@ bool length_read(real *value, const char *text, char *message, size_t capacity);
  * writes what is wrong to `message` (`capacity` bytes), as the rest of a sentence that begins with the text. */
 bool time_read(real *value, const char *text, char *message, size_t capacity);
 
+/* Reads a number with a unit of the kind whose SI symbol is `symbol` (such as Pa; without a unit if there is none of
+ * this symbol) from `text` into *value [SI]. Returns false if the text is no such number, and writes what is wrong to
+ * `message` (`capacity` bytes), as the rest of a sentence that begins with the text. */
+bool value_read_in_unit(real *value, const char *text, const char *symbol, char *message, size_t capacity);
+
 /* Returns the index of `text` in the words a|b|c, or -1. */
 int word_index(const char *words, const char *text);
 

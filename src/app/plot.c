@@ -16,6 +16,8 @@ struct plot_words {
     struct plot_request request;
     struct run_arguments scene;          /* words of --scene, with its overrides */
     const char *times, *frames, *format; /* as on the command line */
+    struct picture_size size;
+    char *range; /* allocated copy of the value of --range, cut in two */
 };
 
 /* Largest number of frames of a film; still images have PANELS_MAX. */
@@ -98,6 +100,98 @@ static status read_format(struct plot_words *w, const char *text)
     return status_set(REFUSED, "plot: --format %s: png, svg, pdf, mp4 or gif is expected", printable_name(text).text);
 }
 
+/* Reads LOW:HIGH; the unit is that of the field and is checked when the field is known. */
+static status read_range(struct plot_words *w, const char *text)
+{
+    const char *colon = strchr(text, ':');
+    if (!colon || colon == text || !colon[1])
+        return status_set(REFUSED, "plot: --range %s: LOW:HIGH is expected, as 0:200MPa", printable_name(text).text);
+    memory_free(w->range);
+    w->range = NEW("plot.range", strlen(text) + 1, char);
+    strcpy(w->range, text);
+    w->range[colon - text] = '\0';
+    w->request.range[0] = w->range, w->request.range[1] = w->range + (colon - text) + 1;
+    return OK;
+}
+
+/* Reads the rectangle X:X,Y:Y of lengths. */
+static status read_crop(struct plot_words *w, const char *text)
+{
+    char *copy = NEW("plot.crop", strlen(text) + 1, char), *rest = copy, what[256] = "X:X,Y:Y of lengths is expected";
+    bool read = true;
+    strcpy(copy, text);
+    for (int k = 0; k < 4 && read; k++) {
+        char *word = strsep(&rest, k % 2 ? "," : ":");
+        real value = 0;
+        read = word && (rest || k == 3) && length_read(&value, word, what, sizeof what);
+        w->request.crop[k / 2][k % 2] = value;
+    }
+    memory_free(copy);
+    w->request.cropped = true;
+    for (int a = 0; a < 2 && read; a++)
+        if (!(w->request.crop[a][1] > w->request.crop[a][0]))
+            return status_set(REFUSED, "plot: --crop %s: the lower end of each axis is expected first",
+                              printable_name(text).text);
+    return read && !rest ? OK
+                         : status_set(REFUSED, "plot: --crop %s: X:X,Y:Y is expected, as 10mm:30mm,-5mm:5mm; %s",
+                                      printable_name(text).text, what);
+}
+
+/* Reads a positive number of at most `most`. */
+static status read_positive(double *value, const char *option, const char *text, double most)
+{
+    char *end;
+    *value = strtod(text, &end);
+    if (end != text && !*end && *value > 0 && *value <= most) return OK;
+    return status_set(REFUSED, "plot: %s %s: a number above 0, up to %g, is expected", option,
+                      printable_name(text).text, most);
+}
+
+static status read_magnify(struct plot_words *w, const char *text)
+{
+    return read_positive(&w->request.projection.magnify, "--magnify", text, 1e12);
+}
+
+static status read_dpi(struct plot_words *w, const char *text)
+{
+    return read_positive(&w->size.dpi, "--dpi", text, 1200);
+}
+
+static status read_fps(struct plot_words *w, const char *text)
+{
+    return option_read_count(&w->request.fps, "plot: --fps", text, 1, 240);
+}
+
+/* Reads 1200x800 [pixel] or 90mmx60mm. */
+static status read_picture_size(struct plot_words *w, const char *text)
+{
+    enum { LEAST = 300, MOST = 10000 };
+    double size[2], factor = 1;
+    char *end;
+    size[0] = strtod(text, &end);
+    if (strncmp(end, "mm", 2) == 0) factor = PICTURE_DPI / 25.4, end += 2;
+    const bool cross = *end == 'x';
+    size[1] = cross ? strtod(end + 1, &end) : 0;
+    if (factor != 1) end = strncmp(end, "mm", 2) == 0 ? end + 2 : "?";
+    for (int k = 0; k < 2; k++) size[k] *= factor;
+    if (!cross || *end || !(size[0] >= LEAST && size[1] >= LEAST && size[0] <= MOST && size[1] <= MOST))
+        return status_set(REFUSED,
+                          "plot: --size %s: WxH from 300x300 to 10000x10000 or WmmxHmm from 53mmx53mm is expected",
+                          printable_name(text).text);
+    w->size.width = (int)size[0], w->size.height = (int)size[1];
+    return OK;
+}
+
+static status read_colours(struct plot_words *w, const char *text)
+{
+    const int table = word_index(COLOUR_TABLE_WORDS, text);
+    if (table < 0)
+        return status_set(REFUSED, "plot: --colours %s: %s is expected", printable_name(text).text, COLOUR_TABLE_WORDS);
+    w->request.table = (enum colour_table)table;
+    return OK;
+}
+
+static status read_title(struct plot_words *w, const char *text) { return w->request.title = text, OK; }
 static status read_field(struct plot_words *w, const char *text) { return w->request.field = text, OK; }
 static status read_out(struct plot_words *w, const char *text) { return w->request.out = text, OK; }
 static status read_scene_option(struct plot_words *w, const char *text) { return w->scene.scene = text, OK; }
@@ -109,9 +203,23 @@ static const struct {
     const char *name;
     status (*read)(struct plot_words *w, const char *text);
 } options[] = {
-    {"--field", read_field},        {"--times", read_times}, {"--frames", read_frames_option},
-    {"--slice", read_slice},        {"--view", read_view},   {"--format", read_format},
-    {"--scene", read_scene_option}, {"-s", read_override},   {"-o", read_out},
+    {"--field", read_field},
+    {"--times", read_times},
+    {"--frames", read_frames_option},
+    {"--slice", read_slice},
+    {"--view", read_view},
+    {"--format", read_format},
+    {"--scene", read_scene_option},
+    {"-s", read_override},
+    {"-o", read_out},
+    {"--range", read_range},
+    {"--crop", read_crop},
+    {"--magnify", read_magnify},
+    {"--dpi", read_dpi},
+    {"--fps", read_fps},
+    {"--size", read_picture_size},
+    {"--colours", read_colours},
+    {"--title", read_title},
 };
 
 static status read_option(struct plot_words *w, const char *word, const char *value)
@@ -157,6 +265,15 @@ static status words_together(const struct plot_words *w)
                           r->panels, PANELS_MAX);
     if (!w->scene.scene && w->scene.overrides)
         return status_set(REFUSED, "plot: -s changes a scene; it goes with --scene");
+    if (w->scene.scene && (r->range[0] || r->cropped || r->projection.magnify > 0 || r->table || r->title))
+        return status_set(REFUSED,
+                          "plot: --scene draws a scene before it runs: it has no range, colours, crop, title or "
+                          "magnified displacements");
+    if (r->fps && !picture_is_film(r->format))
+        return status_set(REFUSED, "plot: --fps is for films; --format mp4 or gif makes one");
+    if (r->range[0] && !r->field) return status_set(REFUSED, "plot: --range goes with --field, whose values it limits");
+    if (r->cropped && r->projection.outside)
+        return status_set(REFUSED, "plot: --crop is for plane runs and slices, not for --view");
     if (r->projection.outside && r->projection.normal >= 0)
         return status_set(REFUSED, "plot: --slice shows the inside, --view the outside: give one of them");
     if (!w->scene.scene && !r->folder)
@@ -211,9 +328,12 @@ static status draw_words(const struct plot_words *w)
 
 status command_plot(int argc, char **argv)
 {
-    struct plot_words w = {.scene.override = NEW("arguments.override", argc, struct scene_override)};
+    struct plot_words w = {.scene.override = NEW("arguments.override", argc, struct scene_override),
+                           .size.dpi = PICTURE_DPI};
     status s = plot_words_read(&w, argc, argv);
+    picture_size_set(w.size);
     if (s == OK) s = draw_words(&w);
     arguments_free(&w.scene);
+    memory_free(w.range);
     return s;
 }

@@ -23,6 +23,45 @@ static const struct stop diverging[] = {
     {0.4, 200, 217, 228}, {0.5, 226, 226, 226}, {0.6, 240, 209, 192}, {0.7, 244, 165, 130},
     {0.8, 214, 96, 77},   {0.9, 178, 24, 43},   {1.0, 103, 0, 31},
 };
+/* Every ninth part of cividis (Nunez, Anderton & Renslow 2018), the same with any colour vision. */
+static const struct stop cividis[] = {
+    {0, 0, 34, 78},
+    {0.111111, 18, 53, 112},
+    {0.222222, 59, 73, 108},
+    {0.333333, 87, 93, 109},
+    {0.444444, 112, 113, 115},
+    {0.555556, 138, 134, 120},
+    {0.666667, 165, 156, 116},
+    {0.777778, 195, 179, 105},
+    {0.888889, 225, 204, 85},
+    {1, 254, 232, 56},
+};
+/* Every ninth part of inferno and magma (Smith & van der Walt 2015). */
+static const struct stop inferno[] = {
+    {0, 0, 0, 4},
+    {0.111111, 27, 12, 65},
+    {0.222222, 74, 12, 107},
+    {0.333333, 120, 28, 109},
+    {0.444444, 165, 44, 96},
+    {0.555556, 207, 68, 70},
+    {0.666667, 237, 105, 37},
+    {0.777778, 251, 155, 6},
+    {0.888889, 247, 209, 61},
+    {1, 252, 255, 164},
+};
+static const struct stop magma[] = {
+    {0, 0, 0, 4},
+    {0.111111, 24, 15, 61},
+    {0.222222, 68, 15, 118},
+    {0.333333, 114, 31, 129},
+    {0.444444, 158, 47, 127},
+    {0.555556, 205, 64, 113},
+    {0.666667, 241, 96, 93},
+    {0.777778, 253, 150, 104},
+    {0.888889, 254, 202, 141},
+    {1, 252, 253, 191},
+};
+static const struct stop grey[] = {{0, 20, 20, 20}, {1, 235, 235, 235}};
 static const struct stop damage_stops[] = {
     {0.00, 226, 228, 231}, {0.12, 246, 220, 190}, {0.35, 240, 160, 110},
     {0.60, 214, 80, 62},   {0.80, 158, 24, 42},   {1.00, 84, 2, 24},
@@ -50,6 +89,25 @@ static struct colour along_stops(const struct stop *stop, int stops, double at)
 
 struct colour colour_sequential(double position) { return along_stops(sequential, COUNT_OF(sequential), position); }
 struct colour colour_diverging(double position) { return along_stops(diverging, COUNT_OF(diverging), position); }
+
+struct colour colour_of_table(enum colour_table table, double position)
+{
+    switch (table) {
+    case COLOURS_CIVIDIS:
+        return along_stops(cividis, COUNT_OF(cividis), position);
+    case COLOURS_INFERNO:
+        return along_stops(inferno, COUNT_OF(inferno), position);
+    case COLOURS_MAGMA:
+        return along_stops(magma, COUNT_OF(magma), position);
+    case COLOURS_GREY:
+        return along_stops(grey, COUNT_OF(grey), position);
+    case COLOURS_DIVERGING:
+        return colour_diverging(position);
+    default:
+        return colour_sequential(position);
+    }
+}
+
 struct colour colour_damage(double position) { return along_stops(damage_stops, COUNT_OF(damage_stops), position); }
 struct colour colour_bonds(double position) { return along_stops(bond_stops, COUNT_OF(bond_stops), position); }
 struct colour colour_points(void) { return (struct colour){236, 233, 226, 255}; }

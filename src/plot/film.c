@@ -16,7 +16,7 @@
 #include "output/picture_file.h"
 
 enum { NOT_FOUND = 127, FILM_WORDS = 24 };
-static const char *const FRAMES_PER_SECOND = "8";
+static const int FRAMES_PER_SECOND = 8;
 
 /* A running ffmpeg that reads pictures. */
 struct ffmpeg {
@@ -60,20 +60,19 @@ static bool pipe_make(int *ends)
 
 /* Starts ffmpeg for the film PATH.cleave.tmp: H.264 with even sizes, which most players support, or a GIF with a
  * palette of its own. */
-static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
+static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
 {
     struct path to;
+    char rate[16];
     const struct path aside = path_temporary(sheet.path);
     const bool gif = sheet.format == PICTURE_GIF;
     int ends[2];
+    snprintf(rate, sizeof rate, "%d", fps ? fps : FRAMES_PER_SECOND);
     snprintf(to.text, sizeof to.text, "file:%.*s", (int)sizeof to.text - 6, aside.text);
     char *filter = gif ? "split[a][b];[a]palettegen[p];[b][p]paletteuse" : "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
-    char *word[FILM_WORDS] = {"ffmpeg",     "-y",         "-nostdin",
-                              "-loglevel",  "error",      "-f",
-                              "image2pipe", "-framerate", (char *)FRAMES_PER_SECOND,
-                              "-c:v",       "png",        "-i",
-                              "pipe:0",     "-vf",        filter,
-                              "-bitexact",  "-f",         gif ? "gif" : "mp4",
+    char *word[FILM_WORDS] = {"ffmpeg",     "-y",         "-nostdin", "-loglevel", "error", "-f",
+                              "image2pipe", "-framerate", rate,       "-c:v",      "png",   "-i",
+                              "pipe:0",     "-vf",        filter,     "-bitexact", "-f",    gif ? "gif" : "mp4",
                               to.text,      NULL};
     char *h264[] = {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-f", "mp4", to.text, NULL};
     if (!gif) memcpy(word + 16, h264, sizeof h264);
@@ -129,7 +128,7 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
     return fed;
 }
 
-status film_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
+status film_draw(struct sheet sheet, int fps, const char *title, enum map map, const struct view *view,
                  const struct plotted_particles *cloud, int clouds)
 {
     struct ffmpeg f;
@@ -139,7 +138,7 @@ status film_draw(struct sheet sheet, const char *title, enum map map, const stru
         return status_set(FAILED, "%s: the name is too long", sheet.path);
     TRY(file_check_replaceable(sheet.path));
     unlink(path_temporary(sheet.path).text); /* a link of this name is not followed */
-    status s = ffmpeg_start(&f, sheet);
+    status s = ffmpeg_start(&f, sheet, fps);
     for (int k = 0; s == OK && k < clouds; k++) {
         interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
         s = maps_draw((struct sheet){picture.text, PICTURE_PNG}, title, map, view, &cloud[k], 1);

@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -91,9 +92,10 @@ static void set_style(FILE *to)
         fprintf(to, "set linetype %d lc rgb '%s' lw 2.2 pt 7 ps 0.6\n", k + 1, curve_colour[k]);
 }
 
-/* Resolution on paper: a picture of 1000 pixels is then as wide as a text page, with letters of the size of the
- * text. */
-#define PIXELS_PER_INCH 144.0
+static struct picture_size usual = {0, 0, PICTURE_DPI};
+
+void picture_size_set(struct picture_size size) { usual = size; }
+struct picture_size picture_size_get(void) { return usual; }
 
 /* Selects the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. */
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height)
@@ -107,13 +109,16 @@ static void set_terminal(struct gnuplot *g, enum picture_format format, int widt
         fprintf(g->to,
                 "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale 0.5 linewidth "
                 "0.9 background rgb 'white' noenhanced\n",
-                width / PIXELS_PER_INCH, height / PIXELS_PER_INCH);
-    else
+                (double)width / PICTURE_DPI, (double)height / PICTURE_DPI);
+    else {
+        const double fine = usual.dpi / PICTURE_DPI;
+        const int size[2] = {(int)lround(fine * width), (int)lround(fine * height)};
         fprintf(g->to,
                 "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) { set terminal pngcairo size %d,%d "
-                "font 'Liberation Sans,13' background rgb 'white' noenhanced } else { set terminal png "
-                "size %d,%d noenhanced truecolor }\n",
-                width, height, width, height);
+                "font 'Liberation Sans,13' fontscale %.4g linewidth %.4g pointscale %.4g background rgb 'white' "
+                "noenhanced } else { set terminal png size %d,%d noenhanced truecolor }\n",
+                size[0], size[1], fine, fine, fine, size[0], size[1]);
+    }
     fputs("set output ", g->to);
     gnuplot_quote(g->to, g->aside);
     putc('\n', g->to);
@@ -154,7 +159,7 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
         gnuplot_release(g);
         return s;
     }
-    set_terminal(g, format, width, height);
+    set_terminal(g, format, usual.width ? usual.width : width, usual.width ? usual.height : height);
     set_style(g->to);
     return OK;
 }

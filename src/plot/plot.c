@@ -27,17 +27,8 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     if (map == MAP_FRAGMENT) snprintf(what, sizeof what, "%d fragments", (int)cloud[0].fragments);
     if (map == MAP_CRACKS) snprintf(what, sizeof what, "cracks, where damage is above %.2f", CRACK_DAMAGE);
     if (map == MAP_FIELD) plot_field_label(what, sizeof what, view->field);
-    picture_compose_title(title, r->folder, what, &cloud[0]);
+    picture_compose_title(title, r, what, &cloud[0]);
     return maps_draw((struct sheet){path, r->format}, title, map, view, cloud, clouds);
-}
-
-/* Returns the view of the clouds with the pre-cracks of the scene and the range of the field that the request draws. */
-static struct view view_of(const struct plot_request *r, const struct plotted_particles *cloud, int clouds)
-{
-    struct view view = view_around(cloud, clouds);
-    view_set_field(&view, r->projection.field, cloud, clouds);
-    view_set_cracks(&view, r->projection.scene);
-    return view;
 }
 
 /* What the selected frames contain: damage, cracks, two kinds of particles; cracked is the share of particles on
@@ -90,12 +81,11 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
-    const struct view view = view_of(r, cloud, frames->shown);
+    struct view view;
     const struct plotted_particles *last = &cloud[frames->shown - 1];
     const struct contents has = contents_of(cloud, frames->shown);
+    TRY(view_make(&view, r, cloud, frames->shown));
     const enum map map = map_of_field(view.field);
-    if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
-        return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
     const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
                       latest = sheet_path(r, DRAWN_LAST),
                       field = picture_path_of_field(r->folder, view.field->name, picture_ending[r->format]);
@@ -116,9 +106,10 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
                            const struct plotted_particles *cloud)
 {
-    const struct view view = view_of(r, cloud, frames->shown);
+    struct view view;
     const struct path cracks = sheet_path(r, DRAWN_CRACKS), surface = sheet_path(r, DRAWN_SURFACE);
     const struct contents has = contents_of(cloud, frames->shown);
+    TRY(view_make(&view, r, cloud, frames->shown));
     const enum map map = map_of_field(view.field);
     TRY(has.damage || map == MAP_FIELD ? draw_map(r, surface.text, map, &view, cloud, frames->shown)
                                        : report_nothing_to_draw(surface.text, "nothing happens in this run"));
@@ -152,7 +143,7 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
 {
     char title[TITLE_LENGTH];
     const int skipped = frames->shown > 1 && frames->show[0].number == 0;
-    picture_compose_title(title, r->folder, "beside the exact solution", NULL);
+    picture_compose_title(title, r, "beside the exact solution", NULL);
     return bar_and_exact_solution_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, r->folder,
                                        probe, frames->show + skipped, frames->shown - skipped);
 }
@@ -164,7 +155,7 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
     if (exact_probe_find(r->folder, probe)) return plot_draw_bar(r, frames, probe);
     struct output_frame *f = NULL;
     TRY(frames_read(&f, r->folder, frames));
-    picture_compose_title(title, r->folder, "profiles", NULL);
+    picture_compose_title(title, r, "profiles", NULL);
     const status s =
         bar_profiles_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, f, frames->shown);
     frames_free(f, frames->shown);
@@ -206,7 +197,7 @@ static status draw_pictures(struct plot_request *r)
     const struct path pictures = pictures_folder(r->folder);
     TRY(pictures_folder_make(pictures.text));
     if (frames) TRY(draw_frames(r));
-    picture_compose_title(title, r->folder, "", NULL);
+    picture_compose_title(title, r, "", NULL);
     if (history) TRY(history_curves_draw(r->folder, title, r->format));
     if (printf("pictures in %s\n", printable_name(pictures.text).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));

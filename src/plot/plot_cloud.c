@@ -189,10 +189,10 @@ struct camera camera_along(int axis, int side)
     return c;
 }
 
-/* Computes the current position of a particle [m]. */
-static void place_now(const struct output_frame *f, int64_t i, double *x)
+/* Computes the position of a particle in the picture [m]: the current one, with magnified displacements. */
+static void place_now(const struct output_frame *f, int64_t i, double magnify, double *x)
 {
-    for (int d = 0; d < 3; d++) x[d] = d < f->dim ? (double)f->X[d][i] + f->u[d][i] : 0;
+    for (int d = 0; d < 3; d++) x[d] = d < f->dim ? (double)f->X[d][i] + magnify * f->u[d][i] : 0;
 }
 
 static double along(const double *direction, const double *x)
@@ -206,7 +206,7 @@ static void cloud_place(struct plotted_particles *c, const struct output_frame *
 {
     const int64_t k = c->n;
     double x[3], X[3];
-    place_now(f, i, x);
+    place_now(f, i, c->magnify, x);
     for (int d = 0; d < 3; d++) X[d] = d < f->dim ? f->X[d][i] : 0;
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
     for (int a = 0; a < 3; a++)
@@ -250,6 +250,7 @@ void plotted_particles_make(struct plotted_particles *c, const struct output_fra
                                     .normal = -1,
                                     .t = f->t,
                                     .spacing = frame_spacing(f),
+                                    .magnify = projection->magnify > 0 ? projection->magnify : 1,
                                     .in_steps = projection->in_steps,
                                     .step = f->step,
                                     .from = {INFINITY, INFINITY},
@@ -257,7 +258,7 @@ void plotted_particles_make(struct plotted_particles *c, const struct output_fra
     cloud_axes(c, f, projection);
     cloud_allocate(c, f, projection);
     for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, float);
-    c->gradient = particle_gradients_make(f, c->spacing, projection->scene);
+    c->gradient = particle_gradients_make(f, c->spacing, c->magnify, projection->scene);
     for (int64_t i = 0; i < f->n; i++) {
         const double size = f->spacing ? f->spacing[i] : c->spacing;
         if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;

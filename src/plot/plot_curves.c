@@ -43,7 +43,8 @@ void curves_write_data(FILE *to, const struct series *s, const int *column, cons
 void curves_write_title(FILE *to, const char *title, const char *what)
 {
     char text[512];
-    snprintf(text, sizeof text, "%s%s", title, what);
+    const size_t length = strlen(title);
+    snprintf(text, sizeof text, "%s%s", title, length > 0 && title[length - 1] == ' ' ? what : "");
     fputs("set label 1 ", to);
     gnuplot_quote(to, text);
     fputs(" at screen 0.1,0.955 left font ',16' textcolor rgb '#111111'\n", to);

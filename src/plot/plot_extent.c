@@ -10,9 +10,9 @@
 
 /* Neighbours: the nearest ones of a lattice, diagonal ones included [spacings]. Deformations below STRAIN_SEEN are not
  * visible, as particles are drawn a tenth wider than the spacing. A pair of particles that have both lost bonds is
- * connected up to an elongation of PARTED, or of PARTED_MORE times that of 99 % of the pairs that are surely connected,
- * if this is more. A pair is not drawn longer than LONGEST spacings. A particle that has lost more than the share LOOSE
- * of its bonds is rubble, which has its own size. */
+ * connected up to a drawn elongation of PARTED, or of PARTED_MORE times that of 99 % of the pairs that are surely
+ * connected, if this is more. A pair is not drawn longer than LONGEST spacings. A particle that has lost more than the
+ * share LOOSE of its bonds is rubble, which has its own size. */
 #define NEAR_REACH 1.5
 #define STRAIN_SEEN 0.02
 #define PARTED 0.1
@@ -21,13 +21,14 @@
 #define LOOSE 0.6
 enum { SURE_MOST = 100000 };
 
-/* Pairs of neighbours of a frame. limit: elongation above which two particles without all their bonds are apart. */
+/* Pairs of neighbours of a frame. limit: elongation above which two particles without all their bonds are apart;
+ * magnify: factor on displacements in the picture. */
 struct pairs {
     const struct output_frame *f;
     struct particles part; /* reference positions alone */
     struct cells cells;
     const struct scene *scene;
-    double spacing, limit;
+    double spacing, limit, magnify;
 };
 
 /* Returns the relative elongation of the pair i, j [1]. */
@@ -80,7 +81,8 @@ static double parted_limit(const struct pairs *p)
             if (surely_connected(p, i, near.at[k])) sure[n++] = elongation(p->f, i, near.at[k]);
     }
     array_sort(sure, n, sizeof *sure, by_value);
-    const double limit = n > 0 ? fmax(PARTED, PARTED_MORE * sure[(int64_t)(0.99 * (double)(n - 1))]) : PARTED;
+    const double least = PARTED / p->magnify;
+    const double limit = n > 0 ? fmax(least, PARTED_MORE * sure[(int64_t)(0.99 * (double)(n - 1))]) : least;
     memory_free(sure);
     memory_free(near.at);
     return limit;
@@ -108,7 +110,7 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
             double sum = a == b;
-            for (int k = 0; k < 3 && fits; k++) sum += M[a][k] * inverted[k][b];
+            for (int k = 0; k < 3 && fits; k++) sum += p->magnify * M[a][k] * inverted[k][b];
             F[3 * a + b] = isfinite(sum) ? (float)sum : (float)(a == b);
         }
 }
@@ -125,10 +127,14 @@ static bool may_be_deformed(const struct output_frame *f, double spacing)
     return most > STRAIN_SEEN * spacing;
 }
 
-float *particle_gradients_make(const struct output_frame *f, double spacing, const struct scene *scene)
+float *particle_gradients_make(const struct output_frame *f, double spacing, double magnify, const struct scene *scene)
 {
-    if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing)) return NULL;
-    struct pairs p = {.f = f, .spacing = spacing, .scene = scene, .part = {.n = f->n, .n_all = f->n, .dim = f->dim}};
+    if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing / magnify)) return NULL;
+    struct pairs p = {.f = f,
+                      .spacing = spacing,
+                      .magnify = magnify,
+                      .scene = scene,
+                      .part = {.n = f->n, .n_all = f->n, .dim = f->dim}};
     float *F = NEW("plot.gradient", 9 * f->n, float);
     for (int d = 0; d < f->dim; d++) {
         p.part.X[d] = NEW("plot.X", f->n, real);

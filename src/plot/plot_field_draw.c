@@ -42,7 +42,7 @@ static void field_title(char *title, const struct plot_request *r, const struct 
 {
     char name[TITLE_LENGTH];
     plot_field_label(name, sizeof name, r->projection.field);
-    picture_compose_title(title, r->folder, name, c);
+    picture_compose_title(title, r, name, c);
 }
 
 /* Prints the named values and how many more there are. */
@@ -63,8 +63,9 @@ static status say_field(const char *path, const struct view *view, const struct 
     if (view->categories)
         say_categories(view->categories);
     else
-        printf(", colours from %.4g to %.4g%s%s\n", damage ? 0 : view->low, damage ? view->top : view->high,
-               *r->projection.field->unit ? " " : "", r->projection.field->unit);
+        printf(", colours from %.4g to %.4g%s%s%s\n", damage ? 0 : view->low, damage ? view->top : view->high,
+               *r->projection.field->unit ? " " : "", r->projection.field->unit,
+               !damage && view->beyond[0] + view->beyond[1] > 0 ? ", some values beyond" : "");
     return ferror(stdout) || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 
@@ -72,11 +73,8 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
                                 int clouds)
 {
     char title[TITLE_LENGTH];
-    struct view view = view_around(cloud, clouds);
-    view_set_field(&view, r->projection.field, cloud, clouds);
-    view_set_cracks(&view, r->projection.scene);
-    if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
-        return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
+    struct view view;
+    TRY(view_make(&view, r, cloud, clouds));
     if (same_everywhere(cloud, clouds)) {
         char why[96];
         snprintf(why, sizeof why, "%s is %.4g%s%s everywhere", r->projection.field->name, cloud[0].value[0],
@@ -90,8 +88,9 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
         categories_find(&categories, r->projection.field, r->folder, cloud, clouds);
         view.categories = &categories;
     }
-    TRY(picture_is_film(r->format) ? film_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds)
-                                   : maps_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds));
+    const struct sheet sheet = {path, r->format};
+    TRY(picture_is_film(r->format) ? film_draw(sheet, r->fps, title, map, &view, cloud, clouds)
+                                   : maps_draw(sheet, title, map, &view, cloud, clouds));
     return say_field(path, &view, r, clouds, cloud[clouds - 1].n);
 }
 

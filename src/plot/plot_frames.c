@@ -181,8 +181,10 @@ status report_nothing_to_draw(const char *path, const char *why)
                : OK;
 }
 
-void picture_compose_title(char *title, const char *folder, const char *what, const struct plotted_particles *c)
+void picture_compose_title(char *title, const struct plot_request *r, const char *what,
+                           const struct plotted_particles *c)
 {
+    const char *folder = r->folder;
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
     if (summary_string(folder, "name", name, sizeof name) != OK) {
         size_t length = strlen(folder);
@@ -196,5 +198,11 @@ void picture_compose_title(char *title, const char *folder, const char *what, co
         struct unit metre = unit_for_length(fmax(fabs(c->layer), c->spacing));
         snprintf(layer, sizeof layer, ", %c = %.4g %s", 'x' + c->normal, c->layer / metre.factor, metre.name);
     }
-    snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", what, layer);
+    if (r->title)
+        snprintf(title, TITLE_LENGTH, "%s", r->title);
+    else
+        snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", what, layer);
+    const size_t length = strlen(title);
+    if (c != NULL && c->magnify != 1)
+        snprintf(title + length, TITLE_LENGTH - length, ", displacements x %.4g", c->magnify);
 }

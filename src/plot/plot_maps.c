@@ -27,15 +27,17 @@ static const double SHAPE_WANTED = 0.72; /* height over width of the picture */
 static struct layout layout_of(int columns, int panels, double aspect, int right)
 {
     struct layout l = {.columns = columns, .rows = (panels + columns - 1) / columns, .right = right};
-    int width = panels == 1 ? WIDTH_SINGLE : WIDTH;
+    const struct picture_size given = picture_size_get();
+    int width = given.width ? given.width : panels == 1 ? WIDTH_SINGLE : WIDTH;
     int between_x = (columns - 1) * GAP_X, between_y = (l.rows - 1) * GAP_Y;
     double panel = fmax((width - LEFT - right - between_x) / columns, PANEL_MIN);
-    double highest = fmax((HEIGHT_MAX - ABOVE - BELOW - between_y) / l.rows, PANEL_MIN);
+    double highest = fmax(((given.width ? given.height : HEIGHT_MAX) - ABOVE - BELOW - between_y) / l.rows, PANEL_MIN);
     panel = fmin(panel, highest / aspect);
     l.panel_width = (int)fmax(lround(panel), PANEL_MIN);
     l.panel_height = (int)fmax(lround(panel * aspect), PANEL_MIN);
     l.width = LEFT + right + between_x + columns * l.panel_width;
     l.height = ABOVE + BELOW + between_y + l.rows * l.panel_height;
+    if (given.width) l.width = given.width, l.height = given.height;
     return l;
 }
 
@@ -48,7 +50,8 @@ static struct layout layout_choose(int panels, double aspect, int right)
     for (int columns = 1; columns <= panels; columns++) {
         struct layout l = layout_of(columns, panels, aspect, right);
         double area = (double)l.panel_width * l.panel_height;
-        double cost = fabs(log((double)l.height / l.width / SHAPE_WANTED)) - 0.5 * log(area);
+        const double shape = picture_size_get().width ? 0 : fabs(log((double)l.height / l.width / SHAPE_WANTED));
+        double cost = shape - 0.5 * log(area);
         cost += 0.2 * (l.rows * l.columns - panels); /* empty panels */
         if (cost >= best_cost) continue;
         best_cost = cost;
@@ -153,9 +156,12 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         panel_write_directions(to, l, view, c, &metre);
     else
         panel_write_axes(to, l, view, c, &metre, column, lowest);
-    struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
-    raster_paint_particles(pixel, size[0], size[1], view, c, map);
-    panel_write_image(to, pixel, size[0], size[1], from, step, "");
+    const double fine = picture_size_get().dpi / PICTURE_DPI;
+    const int fines[2] = {(int)fmax(lround(fine * size[0]), 1), (int)fmax(lround(fine * size[1]), 1)};
+    for (int k = 0; k < 2; k++) step[k] *= (double)size[k] / fines[k];
+    struct colour *pixel = NEW("plot.pixel", (int64_t)fines[0] * fines[1], struct colour);
+    raster_paint_particles(pixel, fines[0], fines[1], view, c, map);
+    panel_write_image(to, pixel, fines[0], fines[1], from, step, "");
     memory_free(pixel);
 }
 
@@ -192,8 +198,22 @@ static double bar_numbers_width(const struct bar_scale *scale, const char *forma
     return 10.0 * longest;
 }
 
+/* Says at the ends of a colour bar, `height` pixels high, which share of the particles is beyond them. */
+static void draw_beyond(FILE *to, const struct layout *l, const struct view *view, int64_t particles, int height)
+{
+    for (int end = 0; end < 2; end++) {
+        const double y = end ? ABOVE - 12 : ABOVE + height + 14,
+                     share = 100.0 * (double)view->beyond[end] / (double)particles;
+        if (view->beyond[end] > 0)
+            fprintf(to, "set label '%.2g %% %s' at screen %.6g,%.6g left font ',10' textcolor rgb '#555555'\n", share,
+                    end ? "above" : "below", (double)(l->width - l->right + BAR_FROM - 6) / l->width,
+                    1 - y / l->height);
+    }
+}
+
 /* Draws the colour bar as a narrow panel on the right beside the first row, at most as high as a panel. */
-static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map)
+static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map,
+                               int64_t particles)
 {
     struct colour pixel[BAR_STEPS * BAR_COLUMNS];
     const struct bar_scale scale = bar_scale_of(view, map);
@@ -212,6 +232,7 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
             "set label '%s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
             scale.low, scale.high, scale.low, scale.high, scale.tics, format, scale.label,
             (beside + bar_numbers_width(&scale, format)) / l->width, 1 - (ABOVE + 0.5 * shown) / l->height);
+    if (map == MAP_FIELD) draw_beyond(to, l, view, particles, shown);
     panel_write_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
 }
 
@@ -296,7 +317,7 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
         plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
         fputs("unset label\nunset object\n", g.to); /* drawn once for all panels */
     }
-    if (map != MAP_FRAGMENT && map != MAP_CATEGORY) plot_maps_draw_bar(g.to, &l, view, map);
+    if (map != MAP_FRAGMENT && map != MAP_CATEGORY) plot_maps_draw_bar(g.to, &l, view, map, cloud[clouds - 1].n);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }

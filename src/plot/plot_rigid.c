@@ -35,6 +35,7 @@ void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f
         for (int b = 0; b < s->rigids; b++) {
             struct rigid_shown *r = &c->rigid[b];
             *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = at[b]};
+            for (int d = 0; d < f->dim; d++) r->at.x[d] = r->at.centre[d] + c->magnify * (r->at.x[d] - r->at.centre[d]);
             r->bounded = region_bounds(r->shape, f->dim, r->low, r->high);
             for (int d = 0; d < f->dim && !r->bounded; d++)
                 r->low[d] = low[d] - MARGIN * longest, r->high[d] = high[d] + MARGIN * longest;

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "plot/plot.h"
+#include "scene/words.h"
 
 enum { SAMPLE_MOST = 100000 }; /* number of values of which quantiles are computed */
 
@@ -125,9 +126,57 @@ void view_set_field(struct view *v, const struct plot_field *field, const struct
     if (!(v->high > v->low)) v->high = v->low + 1; /* all values are equal */
 }
 
-void view_set_cracks(struct view *v, const struct scene *scene)
+/* Reads an end of the colours of a field. */
+static status range_end_read(real *value, const char *text, const struct plot_field *field)
 {
+    char what[256];
+    if (value_read_in_unit(value, text, field->unit, what, sizeof what)) return OK;
+    return status_set(REFUSED, "plot: --range %s: %s", printable_name(text).text, what);
+}
+
+/* Counts the particles whose values are beyond the ends of the colours. */
+static void count_beyond(struct view *v, const struct plotted_particles *cloud, int clouds)
+{
+    v->beyond[0] = v->beyond[1] = 0;
+    for (int c = 0; c < clouds && cloud[c].value; c++) {
+        int64_t below = 0, above = 0;
+        for (int64_t i = 0; i < cloud[c].n; i++) {
+            below += cloud[c].value[i] < (float)v->low;
+            above += cloud[c].value[i] > (float)v->high;
+        }
+        if (below > v->beyond[0]) v->beyond[0] = below;
+        if (above > v->beyond[1]) v->beyond[1] = above;
+    }
+}
+
+/* Sets the rectangle, and ends and table of the colours, that the request asks for. */
+static status view_set_options(struct view *v, const struct plot_request *r)
+{
+    v->table = r->table;
+    if (r->range[0]) {
+        real low, high;
+        TRY(range_end_read(&low, r->range[0], v->field));
+        TRY(range_end_read(&high, r->range[1], v->field));
+        if (!(high > low))
+            return status_set(REFUSED, "plot: --range %s:%s: the lower end is expected first",
+                              printable_name(r->range[0]).text, printable_name(r->range[1]).text);
+        v->low = low, v->high = v->top = high;
+    }
+    for (int a = 0; a < 2 && r->cropped; a++) v->from[a] = r->crop[a][0], v->to[a] = r->crop[a][1];
+    if (r->cropped) v->outside = 0;
+    return OK;
+}
+
+status view_make(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud, int clouds)
+{
+    *v = view_around(cloud, clouds);
+    view_set_field(v, r->projection.field, cloud, clouds);
+    const struct scene *scene = r->projection.scene;
     if (scene && scene->dim == 2) v->notches = scene->cracks, v->notch = scene->crack;
+    TRY(view_set_options(v, r));
+    count_beyond(v, cloud, clouds);
+    if (isfinite(v->to[0] - v->from[0]) && isfinite(v->to[1] - v->from[1])) return OK;
+    return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
 }
 
 bool matrix_invert(const double a[3][3], double to[3][3])
@@ -147,7 +196,11 @@ bool matrix_invert(const double a[3][3], double to[3][3])
 struct colour map_colour(const struct view *v, enum map map, double a)
 {
     if (map == MAP_KIND) return colour_bonds(a);
-    if (map == MAP_FIELD && v->field) return v->field->scale == BOTH_SIGNS ? colour_diverging(a) : colour_sequential(a);
+    if (map == MAP_FIELD && v->field)
+        return colour_of_table(v->table                        ? v->table
+                               : v->field->scale == BOTH_SIGNS ? COLOURS_DIVERGING
+                                                               : COLOURS_VIRIDIS,
+                               a);
     return colour_damage(a);
 }
 

@@ -1,6 +1,8 @@
 /* Reads words of command lines by the grammar of scenes. */
 #include "scene/words.h"
 
+#include <string.h>
+
 #include "base/edit_distance.h"
 #include "scene_internal.h"
 
@@ -12,6 +14,14 @@ bool length_read(real *value, const char *text, char *message, size_t capacity)
 bool time_read(real *value, const char *text, char *message, size_t capacity)
 {
     return number_read(value, text, UNIT_TIME, false, message, capacity);
+}
+
+bool value_read_in_unit(real *value, const char *text, const char *symbol, char *message, size_t capacity)
+{
+    enum unit unit = UNIT_NONE;
+    for (int k = 0; k < UNITS; k++)
+        if (*symbol && strcmp(unit_rows[k].symbol, symbol) == 0) unit = (enum unit)k;
+    return number_read(value, text, unit, false, message, capacity);
 }
 
 const char *word_nearest(const char *word, const char *const *name, int n)

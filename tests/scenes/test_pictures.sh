@@ -103,6 +103,29 @@ drawn "rigid bodies have their entry in the key" "set label 'rigid' at screen"
 for frame in 0 1 2 3 4; do made results/strip/frames/rigid_00000$frame.vtp; done
 is "their index lists every frame" "$(grep -c 'rigid_00000[0-4].vtp","time"' results/strip/rigid.vtp.series)" 5
 if command -v xmllint >/dev/null; then holds "their file is XML" xmllint --noout results/strip/frames/rigid_000004.vtp; fi
+# Options: ends of the colours, what is beyond them, magnified displacements, a rectangle, size, resolution, title.
+"$cleave" plot results/strip --field stress_yy --times last --range -1MPa:3MPa --magnify 50 --crop 4mm:12mm,2mm:8mm \
+    --size 90mmx70mm --dpi 288 --title "It's a strip" --colours magma -o options.png >out 2>err
+is "plot with options: $(cat err)" $? 0
+holds "the range is that of the option" grep -q "colours from -1e+06 to 3e+06 Pa, some values beyond" out
+drawn "a size of a journal at twice the resolution" "pngcairo size 1020,792 .*fontscale 2 linewidth 2 pointscale 2"
+drawn "the rectangle" "set xrange \[4:12\]"
+drawn "and its height" "set yrange \[2:8\]"
+drawn "the ends of the colours" "set yrange \[-1:3\]"
+drawn "what is beyond them" "set label '[0-9.]* % above' at screen"
+drawn "the title, and that displacements are not as they are" "'It''s a strip, displacements x 50'"
+"$cleave" plot results/strip --field speed --times last --size 90mmx70mm -o size.pdf >out 2>err
+drawn "a PDF of 90 x 70 mm" "pdfcairo size 3.541[0-9]*in,2.75in"
+refused "LOW:HIGH" results/strip --field speed --range 3
+refused "--range 5m" results/strip --field speed --range 0:5m
+refused "the lower end is expected first" results/strip --field speed --range 5m/s:1m/s
+refused "X:X,Y:Y" results/strip --crop 1mm:2mm
+refused "lower end" results/strip --crop 2mm:1mm,0:1mm
+refused "above 0" results/strip --magnify -3
+refused "WxH" results/strip --size 100
+refused "viridis" results/strip --colours rainbow
+refused "for films" results/strip --fps 10
+refused "magnified" --scene strip.yaml --magnify 3
 # What happens in the run is drawn: damage where bonds break, else plastic strain or stress, also with a slit that does
 # not grow.
 "$cleave" plot results/strip -o default.png >out 2>err
