@@ -1,9 +1,11 @@
 /* Return mapping with flow laws (law_update.h), one body for all spaces. In each space the relative stress has
  * components that shrink by 1/(1 + A t) and others that shrink by 1/(1 + B t), with t = da/q and
  *     q^2 = even + odd,   even: of xi_xx + xi_yy in plane stress, of xi in 1D;   odd: of all other components
- *     A = E/(2 (1 - nu)) + C g in plane stress, E + C g in 1D;   B = 3 G + C g;   g = 1/(1 + gamma da)
- * where the trial relative stress is s - g X. In plane stress xi_xx + xi_yy stands for s_xx + s_yy - 3 (X_xx + X_yy),
- * for which q^2 = (xi_xx + xi_yy)^2/4 + 3 (xi_xx - xi_yy)^2/4 + 3 xi_xy^2. */
+ *     A = E/(2 (1 - nu)) + C f in plane stress, E + C f in 1D;   B = 3 G + C f
+ *     g = exp(-gamma da),   f = (1 - g)/(gamma da)
+ * where the trial relative stress is s - g X: the law of the back stress is integrated along a constant direction of
+ * flow, so that steps of any size are exact where the direction does not change. In plane stress xi_xx + xi_yy stands
+ * for s_xx + s_yy - 3 (X_xx + X_yy), for which q^2 = (xi_xx + xi_yy)^2/4 + 3 (xi_xx - xi_yy)^2/4 + 3 xi_xy^2. */
 #include "law_update.h"
 
 #include "flows.h"
@@ -127,28 +129,43 @@ static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct
     return law->kinematic.modulus - law->kinematic.recall * (even + odd) / q;
 }
 
-/* Returns t of a small step, by one linearised evaluation. trial, xi: equation and relative stress at g = 1; *left:
- * receives the factor g of the back stress. */
+/* Recall of the back stress X along a constant direction N of flow, d eps_p = N da: X = left X_n + (2/3) C added N da.
+ */
+struct flow_recall {
+    lanes left, added;
+};
+
+/* Returns the recall after an increment `more` of plastic strain [1]: exp(-x) and (1 - exp(-x))/x with x = gamma more,
+ * below 1e-4 by its series. recall: gamma, > 0 [1]. */
+static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
+{
+    const lanes x = recall * more, left = lanes_exp(-x), least = lanes_max(x, lanes_broadcast(1e-4));
+    const lanes series = 1.0 - x * (0.5 - x * (1.0 / 6 - x * (1.0 / 24)));
+    const lanes_mask small = lanes_less(x, lanes_broadcast(1e-4));
+    return (struct flow_recall){left, lanes_choose(small, series, (1.0 - left) / least)};
+}
+
+/* Returns t of a small step, by one linearised evaluation. trial, xi: equation and relative stress at g = 1; *back:
+ * receives the recall of the step. */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
-                                          lanes *left, const enum space space)
+                                          struct flow_recall *back, const enum space space)
 {
     const lanes least = lanes_min(slope, lanes_broadcast(law->steepest));
     lanes fall;
-    *left = lanes_broadcast(1);
+    back->left = back->added = lanes_broadcast(1);
     if (!(law->kinematic.recall > 0)) return equation_solve(trial, bound, least, space);
     struct flow_equation e = *trial;
     const lanes C = effective_modulus(law, p, xi, e.q, space);
     e.A += C - law->kinematic.modulus, e.B += C - law->kinematic.modulus;
     const lanes t = equation_solve(&e, bound, least, space);
-    *left = 1.0 / (1.0 + law->kinematic.recall * t * equation_stress(&e, t, &fall, space));
+    *back = recall_after(law->kinematic.recall, t * equation_stress(&e, t, &fall, space));
     return t;
 }
 
-/* Returns t of a step of any size, to round-off. *left: factor g of the back stress. bound: yield stress at its start
- * [Pa]. */
-static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound, lanes *left,
-                                           const enum space space)
+/* Returns t of a step of any size, to round-off. *back: receives its recall. bound: yield stress at its start [Pa]. */
+static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound,
+                                           struct flow_recall *back, const enum space space)
 {
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
     lanes xi[SYM_MAX], fall, slope, t = lanes_broadcast(0);
@@ -156,13 +173,13 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     lanes more = flow_strain_bound(law, e.q, p->rate, p->temperature) - p->a;
     more = lanes_min((e.q - bound) / single_rate(&e, space), more);
     more = lanes_max(more, lanes_broadcast(0));
-    *left = lanes_broadcast(1);
+    back->left = back->added = lanes_broadcast(1);
     const int passes = recall > 0 ? PASSES_RECALL : law->flow == FLOW_LINEAR ? 1 : PASSES;
     for (int k = 0; k < passes; k++) {
         const lanes stress = flow_stress(law, p->a + more, p->rate, p->temperature, &slope);
         const lanes least = lanes_max(stress, lanes_broadcast(LEAST_YIELD * law->young));
-        *left = 1.0 / (1.0 + recall * more);
-        e = equation_at(law, p, *left, C * *left, xi, space);
+        if (recall > 0) *back = recall_after(recall, more);
+        e = equation_at(law, p, back->left, C * back->added, xi, space);
         t = equation_solve(&e, least - slope * more, slope, space);
         more = t * equation_stress(&e, t, &fall, space);
     }
@@ -170,9 +187,9 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
 }
 
 /* Computes the increment of plastic strain from the relative stress at the end of the step, and applies it to stress
- * and back stress. left: factor g of the back stress. */
-static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t, lanes left,
-                                     lanes *strain, const enum space space)
+ * and back stress. back: recall of the step. */
+static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
+                                     const struct flow_recall *back, lanes *strain, const enum space space)
 {
     const real C = 2.0 / 3 * law->kinematic.modulus, twice = 2 * law->shear;
     if (space == SPACE_LINE) {
@@ -187,7 +204,8 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
     } else
         for (int c = 0; c < components(space); c++) strain[c] = 1.5 * t * xi[c], p->s[c] -= twice * strain[c];
     const int last = tensor_components(space);
-    for (int c = 0; c < last && law->kinematic.modulus > 0; c++) p->back[c] = left * (p->back[c] + C * strain[c]);
+    for (int c = 0; c < last && law->kinematic.modulus > 0; c++)
+        p->back[c] = back->left * p->back[c] + back->added * (C * strain[c]);
 }
 
 /* Returns the plastic work of a step per reference volume [J/m^3], the trapezoidal rule in stress times volume. */
@@ -202,9 +220,9 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
 
 /* Returns the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress and back stress
  * along the path on which the trial stress grows in proportion, at constant rate, temperature and direction of flow.
- * The back stress on this path is (X + (2/3) C N a)/(1 + gamma a) at the increment a with d eps_p = N da, and its
- * integral X:N log(1 + gamma a)/gamma + (C/gamma) (a - log(1 + gamma a)/gamma),   gamma = 0: X:N a + C a^2/2 back: X at
- * the start of the step [Pa]; more: increment of a [1]; strain: increment of plastic strain [1]. */
+ * The integral of the back stress over the increment a is X:N b + (C/gamma) (a - b),   b = (1 - exp(-gamma a))/gamma
+ * gamma = 0: X:N a + C a^2/2. back: X at the start of the step [Pa]; more: increment of a [1]; strain: increment of
+ * plastic strain [1]. */
 static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_points *p, const lanes *back, lanes more,
                                      const lanes *strain, const enum space space)
 {
@@ -216,29 +234,29 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_poi
     for (int c = 0; c < tensor_components(space); c++) along += (c < 3 ? 1.0 : 2.0) * back[c] * strain[c];
     if (space == SPACE_LINE) along *= 1.5; /* the components across */
     if (!(recall > 0)) return work + along + 0.5 * C * more * more;
-    const lanes part = lanes_log(1.0 + recall * more) / recall;
-    const lanes ratio = lanes_choose(lanes_less(lanes_broadcast(0), more),
-                                     part / lanes_max(more, lanes_broadcast(1e-300)), lanes_broadcast(1));
-    return work + along * ratio + C / recall * (more - part);
+    const lanes added = recall_after(recall, more).added;
+    return work + along * added + C / recall * more * (1.0 - added);
 }
 
 /* Updates eight points in one space, by one mode of solution. Returns the bits of those that yield. */
 static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_points *p, const enum space space,
                                             const enum law_mode mode)
 {
-    lanes xi[SYM_MAX], strain[SYM_MAX], back[SYM_MAX], slope, fall, left;
+    lanes xi[SYM_MAX], strain[SYM_MAX], back[SYM_MAX], slope, fall;
+    struct flow_recall recall;
     struct flow_equation e =
         equation_at(law, p, lanes_broadcast(1), lanes_broadcast(law->kinematic.modulus), xi, space);
     const lanes stress = flow_stress(law, p->a, p->rate, p->temperature, &slope);
     const lanes bound = lanes_max(stress, lanes_broadcast(LEAST_YIELD * law->young));
     const lanes_mask yields = p->active & lanes_less(bound, e.q);
     if (!lanes_any(yields)) return 0;
-    lanes t = mode == LAW_EXPLICIT ? solve_explicit(law, p, &e, xi, bound, slope, &left, space)
-                                   : solve_load_step(law, p, bound, &left, space);
+    lanes t = mode == LAW_EXPLICIT ? solve_explicit(law, p, &e, xi, bound, slope, &recall, space)
+                                   : solve_load_step(law, p, bound, &recall, space);
     t = lanes_choose(yields, t, lanes_broadcast(0));
     if (law->kinematic.recall > 0) {
-        left = lanes_choose(yields, left, lanes_broadcast(1));
-        e = equation_at(law, p, left, law->kinematic.modulus * left, xi, space);
+        recall.left = lanes_choose(yields, recall.left, lanes_broadcast(1));
+        recall.added = lanes_choose(yields, recall.added, lanes_broadcast(1));
+        e = equation_at(law, p, recall.left, law->kinematic.modulus * recall.added, xi, space);
     }
     const bool first_differs = space == SPACE_PLANE_STRESS || space == SPACE_LINE;
     const lanes u = first_differs ? 1.0 / (1.0 + e.A * t) : lanes_broadcast(1), v = 1.0 / (1.0 + e.B * t);
@@ -246,7 +264,7 @@ static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_po
     const lanes more = t * equation_stress(&e, t, &fall, space);
     p->a += more;
     for (int c = 0; c < SYM_MAX; c++) back[c] = p->back[c];
-    flow_apply(law, p, xi, t, left, strain, space);
+    flow_apply(law, p, xi, t, &recall, strain, space);
     if (first_differs && p->thins) p->volume *= 1.0 + (space == SPACE_LINE ? -strain[0] : strain[2]);
     const lanes work =
         mode == LAW_EXPLICIT ? trapezoid(p, strain, space) : path_work(law, p, back, more, strain, space);

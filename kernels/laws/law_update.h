@@ -3,7 +3,8 @@
  * xi:xi), the flow law sigma_y(a, rate, T) and the accumulated plastic strain a,
  *     f = q - sigma_y <= 0,   d eps_p = da (3/2) xi/q,   da >= 0,   da f = 0
  *     dX = (2/3) C d eps_p - gamma X da   (Armstrong & Frederick 1966; gamma = 0: Prager)
- * by implicit Euler steps (Simo & Hughes 1998, chapter 3). Rate and temperature are those at the start of the step. */
+ * by implicit Euler steps (Simo & Hughes 1998, chapter 3), the back stress exactly along the direction of flow of the
+ * step. Rate and temperature are those at the start of the step. */
 #ifndef CLEAVE_KERNELS_LAW_UPDATE
 #define CLEAVE_KERNELS_LAW_UPDATE
 

@@ -31,6 +31,16 @@ static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const 
     for (int k = 0; k < symmetric_component_count(dim); k++) s[k] -= p->plastic_correction[k][i];
 }
 
+/* Returns the stretch of the thickness at point i of a sheet that yields [1]: by Hooke's law, and plastic strain
+ * without change of volume; 1 in other spaces. s: stress, symmetric components [Pa]; m: constants of its material. */
+static ALWAYS_INLINE real thickness_stretch(const struct particles *p, const struct elastic *m, int64_t i,
+                                            const real *s)
+{
+    if (m->space != SPACE_PLANE_STRESS || !m->law || !mesh_points_can_yield(p)) return 1;
+    const real plastic = (p->plastic_correction[0][i] + p->plastic_correction[1][i]) / (m->c11 + m->c12);
+    return 1 - m->law->poisson / m->law->young * (s[0] + s[1]) - plastic;
+}
+
 /* Returns the elastic energy per volume of material point i under the stress s [J/m^3]. In plane strain of a material
  * that yields, the energy of the out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy) is included. s: symmetric
  * components [Pa]; m: constants of its material. */

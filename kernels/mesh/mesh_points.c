@@ -216,16 +216,6 @@ void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 
 /* ---- stress ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the stretch of the thickness at point i of a sheet that yields [1]: by Hooke's law, and plastic strain
- * without change of volume; 1 in other spaces. s: stress, symmetric components [Pa]; m: constants of its material. */
-static ALWAYS_INLINE real thickness_stretch(const struct particles *p, const struct elastic *m, int64_t i,
-                                            const real *s)
-{
-    if (m->space != SPACE_PLANE_STRESS || !m->law || !mesh_points_can_yield(p)) return 1;
-    const real plastic = (p->plastic_correction[0][i] + p->plastic_correction[1][i]) / (m->c11 + m->c12);
-    return 1 - m->law->poisson / m->law->young * (s[0] + s[1]) - plastic;
-}
-
 /* Stores the Cauchy stress of point i in p: s itself at small strain, R sym(s U) R^T/det U at finite strain, with the
  * stress s at the strain e, U = 1 + e and the rotation R of the cell, of sheets that yield also over the stretch of the
  * thickness. At finite strain stores its volume, too. */

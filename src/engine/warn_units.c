@@ -65,6 +65,20 @@ static void units_judge(const struct scene *s, enum accept k, const char *subjec
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
+/* Warns of implausible wave speeds: of units, or of a Poisson's ratio near 1/2, if it alone makes waves fast. subject:
+ * name of the material in messages. */
+static void units_of_waves(const struct scene *s, const char *subject, const struct material *m, struct warnings *to)
+{
+    const real bar = sqrt(m->young / m->density), usual = bar * sqrt(0.6 / (1.4 * 0.2)); /* at 0.4, in 3D */
+    if (!(m->wave_speed > rule[ACCEPT_WAVES].most) || bar > rule[ACCEPT_WAVES].most || m->poisson <= 0.4)
+        units_judge(s, ACCEPT_WAVES, subject, m->wave_speed, "", to);
+    else if (!scene_accepts(s, ACCEPT_WAVES))
+        warnings_add(to,
+                     "%s: its Poisson's ratio of %.6g makes its waves as fast as %.3g m/s, %.2g times as fast as at "
+                     "0.4; if this is meant: accept: [waves]",
+                     subject, m->poisson, m->wave_speed, m->wave_speed / usual);
+}
+
 /* Warns of implausible wave speeds and critical stretches of materials. */
 static void units_of_materials(const struct scene *s, struct warnings *to)
 {
@@ -73,7 +87,7 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         const struct material *a = &s->material[m];
         const real stretch = a->critical_stretch;
         snprintf(subject, sizeof subject, "material %s", a->name);
-        units_judge(s, ACCEPT_WAVES, subject, a->wave_speed, "", to);
+        units_of_waves(s, subject, a, to);
         units_judge(s, ACCEPT_DENSITY, subject, a->density, "", to);
         if (isfinite(a->energy_release_rate)) units_judge(s, ACCEPT_ENERGY, subject, a->energy_release_rate, "", to);
         const real yield = material_first_yield(a);

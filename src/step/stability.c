@@ -437,6 +437,29 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
     return false;
 }
 
+/* Plastic strain of points on the grid with a back stress at which a warning is printed: a shear g of 0.9, at which
+ * the back stress of Prager's law by Jaumann's rate, (C/3) sin g, is 12 % below C g/3 (Nagtegaal & de Jong 1981). */
+#define TURNED_MOST 0.5
+
+/* Warns of the first point on the grid whose back stress may oscillate; returns true if there is one. t: present time
+ * [s]. */
+static bool say_turned(const struct particles *p, const struct scene *s, real t, struct warnings *to)
+{
+    char text[360];
+    for (int64_t i = 0; i < p->n && p->back_stress[0] && p->dim > 1; i++) {
+        if (!(p->plastic_strain[i] > TURNED_MOST) || p->flag[i] & FLAG_MESHED) continue;
+        if (!(s->material[p->material[i]].law.kinematic.modulus > 0)) continue;
+        snprintf(text, sizeof text,
+                 "points with kinematic hardening have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: where "
+                 "this is shear, their back stress turns with Jaumann's rate and oscillates, so that they bear too "
+                 "little beyond a shear of about 1; isotropic hardening does not oscillate",
+                 p->plastic_strain[i], t, p->X[0][i]);
+        warnings_add_and_print(to, text);
+        return true;
+    }
+    return false;
+}
+
 /* Returns FAILED if the energy shows that the run is unstable, although no particle is faster than waves: a body that
  * breaks all its bonds, or one whose velocities change sign in every step. Bodies whose energy is round-off are not
  * tested. */
@@ -455,7 +478,8 @@ status energy_check(struct run *e)
     growth_rate_add_sample(&e->stability->excess, e->clock.step, excess);
     if (!e->stability->stretched)
         e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings) ||
-                                  say_flowed(&e->part, e->clock.t, &e->warnings);
+                                  say_flowed(&e->part, e->clock.t, &e->warnings) ||
+                                  say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
     if (energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);

@@ -102,26 +102,27 @@ for peak in 25:285.714 75:-285.714 125:285.714 175:-285.714; do
 done
 balanced Prager prager
 
-# Armstrong and Frederick's law, k 200 MPa, C 40 GPa, gamma 300: 322.56 MPa first, then k + (C/gamma) tanh(gamma d/2) = 331.56 MPa with the plastic
-# strain d of half a cycle. Euler's implicit steps: first order, half as far off with steps of half the size.
+# Armstrong and Frederick's law, k 200 MPa, C 40 GPa, gamma 300: 322.56 MPa first, then k + (C/gamma) tanh(gamma d/2) = 331.558 MPa with the plastic
+# strain d of half a cycle. Steps of any size along one direction of flow are exact, to the digits of these numbers; 6 in a quarter of a cycle
+# in load steps.
 recall="material={$steel, kinematic: {modulus: 40 GPa, recall: 300}}"
 calm "$work/recall" "$work/explicit.yaml" -s "$recall" -s "$cycles" -s "duration=250 us" -s output.samples=2500
-calm "$work/recall_steps" "$work/steps.yaml" -s "$recall" -s "$cycles_steps" -s 'boundary[0].displacement=["0.01*x"]' -s steps.number=1000
-for peak in 25:322.56 75:-331.56 125:331.56 175:-331.56; do
+calm "$work/recall_steps" "$work/steps.yaml" -s "$recall" -s "$cycles_steps" -s 'boundary[0].displacement=["0.01*x"]' -s steps.number=60
+for peak in 25:322.56405 75:-331.64104 125:331.55721 175:-331.558; do
     t=${peak%:*}
     near "recall: stress at $t us" "$(stress recall ${t}e-6)" "${peak#*:}" 6e-4
-    near "recall in load steps: stress at $t us" "$(stress recall_steps $(compute "$t/250"))" "${peak#*:}" 1.5e-3
+    near "recall in load steps: stress at $t us" "$(stress recall_steps $(compute "$t/250"))" "${peak#*:}" 1e-6
 done
 balanced recall recall
 
-# Ratchet: between +300 and -200 MPa the strain grows by 2.75560e-3 a cycle. First order in the step, so that steps of two sizes tell the
-# limit, to the second order. The load acts on the last point, at 3/4 of the second cell.
-for steps in 250 500; do
+# Ratchet: between +300 and -200 MPa the strain grows by 2.75560e-3 a cycle, with 5 steps in a quarter of a cycle as with 40. Implicit Euler
+# steps of the back stress had 76 % and 7.6 % more. The load acts on the last point, at 3/4 of the second cell.
+for steps in 25 200; do
     calm "$work/ratchet$steps" "$work/steps.yaml" -s "$recall" -s steps.number=$steps -s 'body.box={from: [0], to: [4 mm]}' \
         -s 'boundary=[{name: left, mirror: {axis: x, at: 0}}, {name: right, traction: [100 MPa], face: x+, time: {table: [[0 s, 0], [0.2 s, 3], [0.4 s, -2], [0.6 s, 3], [0.8 s, -2], [1 s, 3]]}}]'
+    near "ratchet: strain of a cycle in $steps steps" \
+        "$(compute "($(column "$work/ratchet$steps" point.displacement_x 1) - $(column "$work/ratchet$steps" point.displacement_x 0.6))/0.5e-3")" 2.7556e-3 1e-4
 done
-cycle() { compute "($(column "$work/ratchet$1" point.displacement_x 1) - $(column "$work/ratchet$1" point.displacement_x 0.6))/0.5e-3"; }
-near "ratchet: strain of a cycle" "$(compute "2*$(cycle 500) - $(cycle 250)")" 2.7556e-3 5e-3
 
 # ---- one cell in the plane and in space ------------------------------------------------------------------------------------
 

@@ -39,6 +39,10 @@ says "a stretch of nothing" 'at a stretch of 1e-07, at 7.2e+03 Pa, below 1e-06: 
 says "a load of nothing beside it" '^warning: loads: the largest stress .* is 1.67e+03 (1.2e+07 Pa; E s_c is 7.2e+03 Pa), above 1e+03' \
     "$glass" -s variables.limit=1e-7
 says "a density in g/cm^3" '^warning: material material: the speed of its waves is 1.82e+05 m/s, above 2e+04: ' "$glass" -s 'variables.rho=2.44 kg/m^3'
+soft="$glass -s method=mpm -s cracks=[] -s material.critical_stretch=inf"
+says "a Poisson's ratio near 1/2" "^warning: material material: its Poisson's ratio of 0.4999 makes its waves as fast as 2.22e+05 m/s, 28 times as fast as at 0.4; " \
+    $soft -s 'space=plane strain' -s material.poisson=0.4999
+silent "a Poisson's ratio of 0.45" "$units\|Poisson.s ratio of" $soft -s 'space=plane strain' -s material.poisson=0.45
 says "a few steps" '^warning: time: the number of time steps is 18 of .* s, below 20: check the units of duration' "$glass" -s duration=2.5us
 silent "some steps" "$units" "$glass" -s duration=3us
 says "very many steps" '^warning: time: the number of time steps is [0-9.]*e+08 of .* s, above 1e+08: ' "$glass" -s duration=100s

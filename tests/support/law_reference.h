@@ -55,14 +55,21 @@ static inline real reference_relative(const struct reference_point *p, real g, r
     return sqrt(sum);
 }
 
+/* Returns the share of the back stress added in an increment `more` of plastic strain that its recall leaves [1]. */
+static inline real reference_added(const struct law *m, real more)
+{
+    const real x = m->kinematic.recall * more;
+    return x > 0 ? -expm1(-x) / x : 1;
+}
+
 /* Returns how far the equivalent stress after an increment `more` of plastic strain is above the yield stress [Pa].
  * stiffness: 3 G. */
 static inline real reference_excess(const struct law *m, const struct reference_point *p, real more, real rate, real T,
                                     real stiffness)
 {
     real xi[SYM_MAX];
-    const real g = 1 / (1 + m->kinematic.recall * more);
-    return reference_relative(p, g, xi) - (stiffness + m->kinematic.modulus * g) * more -
+    const real g = exp(-m->kinematic.recall * more);
+    return reference_relative(p, g, xi) - (stiffness + m->kinematic.modulus * reference_added(m, more)) * more -
            reference_stress(m, p->a + more, rate, T);
 }
 
@@ -79,11 +86,11 @@ static inline void reference_return(const struct law *m, struct reference_point 
         else
             high = middle;
     }
-    const real g = 1 / (1 + m->kinematic.recall * low), q = reference_relative(p, g, xi);
+    const real g = exp(-m->kinematic.recall * low), q = reference_relative(p, g, xi);
     for (int c = 0; c < SYM_MAX; c++) {
         const real strain = low * 1.5 * xi[c] / q;
         p->s[c] -= 2 * m->shear * strain;
-        p->back[c] = g * (p->back[c] + 2.0 / 3 * m->kinematic.modulus * strain);
+        p->back[c] = g * p->back[c] + reference_added(m, low) * (2.0 / 3 * m->kinematic.modulus * strain);
     }
     p->a += low;
 }

@@ -161,7 +161,7 @@ static real path_integral(const struct law *m, const struct law_points *start, c
 
 /* Load steps at random, from 30 % of the yield strain to 30 of them: their work along the path of proportional growth
  * is elastic energy and plastic work. Tolerance: Simpson's rule at the kink of the first yield, 1e-7 of the work; with
- * recall the direction of flow turns within a step, which the law neglects. */
+ * recall the direction of flow turns within a step, but for bars, which the law neglects. */
 static void test_path_energy(void **state)
 {
     (void)state;
@@ -184,7 +184,8 @@ static void test_path_energy(void **state)
                     const real work = path_integral(&m, &start, strain, spaces[s]);
                     const real stored = laws_elastic_energy(&m, &p) - laws_elastic_energy(&m, &start);
                     const real most = laws_elastic_energy(&m, &p) + laws_elastic_energy(&m, &start) + fabs(work);
-                    assert_near(work, stored + p.work[0] - start.work[0], (kinematic > 1 ? 1e-2 : 1e-6) * most);
+                    assert_near(work, stored + p.work[0] - start.work[0],
+                                (kinematic > 1 && s > 0 ? 1e-2 : 1e-6) * most);
                 }
                 assert_true(p.a[0] > 1e-3);
             }
