@@ -19,10 +19,12 @@ struct export_mesh {
  * the scene is faulty. Release *m with export_mesh_free, also after a failure. */
 status export_mesh_make(struct export_mesh *m, const struct export_request *request);
 
-/* Returns the name of the set of load k: that of its boundary, unique among loads. */
+/* Name of a set. */
 struct set_name {
     char text[NAME_MAX_LENGTH];
 };
+
+/* Returns the name of the set of load k: that of its boundary, or nodelist_N (N = k + 1) if an earlier load has it. */
 struct set_name export_set_name(const struct export_mesh *m, int k);
 
 /* Returns, allocated, the positions (counted from 1, ascending) of the particles of load k; as many as it has. */

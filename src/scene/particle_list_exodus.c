@@ -54,9 +54,9 @@ static status block_read(struct exodus_list *x, int64_t number)
                             (long long)number, type, (long long)nodes);
     const int64_t attributes = exodus_dimension(&x->file, "num_att_in_blk", number);
     const int64_t volume = volume_column(&x->file, number, attributes), first = l->n;
-    if (number > 1 && (volume >= 0) != x->volumes)
-        return exodus_fault(&x->file, "block %lld has %s volumes, unlike the blocks before", (long long)number,
-                            volume >= 0 ? "" : "no");
+    if (first > 0 && (volume >= 0) != x->volumes)
+        return exodus_fault(&x->file, "block %lld has %svolumes, unlike the blocks before", (long long)number,
+                            volume >= 0 ? "" : "no ");
     x->volumes = volume >= 0;
     TRY(exodus_integers(&x->file, "connect", number, elements, &node));
     status s = volume >= 0 ? exodus_reals(&x->file, "attrib", number, elements * attributes, &attribute) : OK;

@@ -8,6 +8,7 @@
 #include "tests/support/exodus_mesh.h"
 
 #include "geometry/geometry.h"
+#include "scene/particle_list.h"
 #include "tests/support/folder.h"
 
 enum { EDGES = 12, SIDES = 6 };
@@ -187,6 +188,60 @@ static void blocks_and_sets(void **state)
     unlink("a.exo");
 }
 
+/* Writes a block of spheres with `attributes` numbers each. */
+static void put_spheres(int file, int number, int n, const int *node, int attributes, const real *attribute)
+{
+    exodus_put_block(file, number, "SPHERE", n, 1, node);
+    if (attributes == 0) return;
+    int dim[2] = {0, exodus_dim(file, "num_att_in_blk", number, (size_t)attributes)};
+    char over[32];
+    snprintf(over, sizeof over, "num_el_in_blk%d", number);
+    NC(nc_inq_dimid(file, over, &dim[0]));
+    exodus_put_reals(file, "attrib", number, 2, dim, attribute);
+}
+
+/* Spheres are a list of particles: the second of two attributes without names is the volume, blocks are materials. */
+static void spheres(void **state)
+{
+    (void)state;
+    static const real X[3][2] = {{0, 0}, {2, 0}, {2, 3}};
+    const struct particle_list_form mm = {.scale = 1e-3};
+    struct particle_list l;
+    for (int attributes = 0; attributes < 3; attributes += 2) {
+        const int file = exodus_begin("a.e", 0, 2, 3, X[0], 2, 0, 0);
+        put_spheres(file, 1, 1, (int[]){3}, attributes, (real[]){0.7, 5});
+        put_spheres(file, 2, 2, (int[]){1, 2}, attributes, (real[]){0.7, 6, 0.7, 8});
+        NC(nc_close(file));
+        assert_ok(particle_list_read(&l, "a.e", &mm, 2));
+        assert_int_equal(l.n, 3);
+        assert_int_equal(l.head.volumes, attributes == 2);
+        assert_exact(l.X[1][0], 3e-3);
+        assert_exact(l.X[0][2], 2e-3);
+        assert_true(l.material[0] == 0 && l.material[1] == 1 && l.material[2] == 1);
+        for (int k = 0; k < 3 && l.volume; k++) assert_close(l.volume[k], (k ? 4 + 2 * k : 5) * 1e-9, 1e-15);
+        particle_list_free(&l);
+    }
+    assert_refused(particle_list_read(&l, "a.e", &mm, 3), "a.e: has 2 coordinates; the space has 3");
+    write_plate("a.e", 0, 2);
+    assert_refused(particle_list_read(&l, "a.e", &mm, 2), "block 1 has elements of type BAR2 with 2 nodes; a list of");
+    int file = exodus_begin("a.e", 0, 2, 3, X[0], 2, 0, 0);
+    put_spheres(file, 1, 1, (int[]){3}, 2, (real[]){0.7, 5});
+    put_spheres(file, 2, 1, (int[]){1}, 0, NULL);
+    NC(nc_close(file));
+    assert_refused(particle_list_read(&l, "a.e", &mm, 2), "block 2 has no volumes, unlike the blocks before");
+    file = exodus_begin("a.e", 0, 2, 3, X[0], 1, 0, 0);
+    put_spheres(file, 1, 1, (int[]){3}, 2, (real[]){0.7, -5});
+    NC(nc_close(file));
+    assert_refused(particle_list_read(&l, "a.e", &mm, 2), "element 1: volume: -5e-09 must be larger than 0");
+    file = exodus_begin("a.e", 0, 2, 3, X[0], 2, 0, 0); /* no element in block 1 */
+    put_spheres(file, 2, 1, (int[]){2}, 2, (real[]){0.7, 6});
+    NC(nc_close(file));
+    assert_ok(particle_list_read(&l, "a.e", &mm, 2));
+    assert_true(l.n == 1 && l.material[0] == 1 && l.head.volumes);
+    particle_list_free(&l);
+    unlink("a.e");
+}
+
 /* ---- what is refused --------------------------------------------------------------------------------------------- */
 
 static void refused(const char *message)
@@ -321,7 +376,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_type), cmocka_unit_test(curved_edges), cmocka_unit_test(blocks_and_sets),
-        cmocka_unit_test(bad_files), cmocka_unit_test(claims),       cmocka_unit_test(damaged),
+        cmocka_unit_test(spheres),   cmocka_unit_test(bad_files),    cmocka_unit_test(claims),
+        cmocka_unit_test(damaged),
     };
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }
