@@ -114,6 +114,7 @@ function paintFrame(to, frame, ratio) {
 }
 
 const timeText = (frame) => {
+    if (summary && summary.load_steps) return "load step " + frame.step;
     const last = film.frames[film.frames.length - 1].t;
     const t = unitFor(last, "s");
     return "t = " + number(frame.t / t.factor) + " " + t.name;
@@ -217,7 +218,7 @@ function setFrame(k) {
     view.frame = Math.min(Math.max(k, 0), film.frames.length - 1);
     const frame = film.frames[view.frame];
     byId("frame").value = view.frame;
-    byId("when").textContent = "frame " + (frame.number) + ", " + timeText(frame) + ", step " + number(frame.step);
+    byId("when").textContent = "frame " + frame.number + ", " + timeText(frame) + (summary && summary.load_steps ? "" : ", step " + number(frame.step));
     drawFilm();
     if (page.history) drawCurves();
 }
@@ -259,18 +260,19 @@ function stop() {
     byId("play").textContent = "▶ play";
 }
 
-// The box of the body over all frames, apart from what flies off.
-function boxOf() {
-    const set = particlesOf(film, film.sets[0]), low = [], high = [];
-    const last = positionsOf(film, film.frames[film.frames.length - 1], 1);
+// The box of the body from the start to a frame, apart from what flies off.
+function boxOf(frame, magnify) {
+    const set = particlesOf(film, film.sets[frame.set]), low = [], high = [];
+    const last = positionsOf(film, frame, magnify);
     for (let d = 0; d < film.dim; d++) {
         const range = (values) => {
             const sorted = Float32Array.from(values).sort();
-            return [sorted[Math.floor(0.01 * sorted.length)], sorted[Math.ceil(0.99 * sorted.length) - 1]];
+            const beyond = Math.floor((magnify === 1 ? 0.01 : 0.001) * sorted.length);
+            return [sorted[beyond], sorted[sorted.length - 1 - beyond]];
         };
         let [a, b] = [Infinity, -Infinity];
         for (let i = 0; i < set.n; i++) a = Math.min(a, set.X[d][i] - set.size[i] / 2), b = Math.max(b, set.X[d][i] + set.size[i] / 2);
-        const [from, to] = range(last[d]), room = 0.5 * (b - a);
+        const [from, to] = range(last[d]), room = (magnify > 1 ? 2 : 0.5) * (b - a);
         low.push(Math.max(Math.min(a, from), a - room));
         high.push(Math.min(Math.max(b, to), b + room));
     }
@@ -279,7 +281,7 @@ function boxOf() {
 
 // Shows the whole body: from the front in the plane, obliquely in space.
 function resetView() {
-    const { low, high } = film.box, size = high.map((h, d) => h - low[d]), width = byId("view").clientWidth - BAR;
+    const { low, high } = view.magnify === 1 ? film.box : boxOf(film.frames[view.frame], view.magnify), size = high.map((h, d) => h - low[d]), width = byId("view").clientWidth - BAR;
     if (film.dim === 2) {
         view.height = Math.round(Math.min(Math.max(width * size[1] / size[0] * 1.04, 180), 620));
         view.scale = Math.min(width / size[0], view.height / size[1]) / 1.06;
@@ -366,6 +368,12 @@ function thinnedText() {
     return parts.join(" ");
 }
 
+// Share of the particles of the last frame that are part of cracks.
+function crackedShare() {
+    const damage = damageOf(film.frames[film.frames.length - 1]);
+    return damage ? damage.reduce((n, code) => n + (code > CRACK_CODE), 0) / Math.max(damage.length, 1) : 0;
+}
+
 // The field to begin with: damage where bonds break, else plastic strain, else von Mises.
 function firstField() {
     const asked = new URLSearchParams(location.hash.slice(1)).get("field");
@@ -399,13 +407,13 @@ function showFilm() {
     const damaged = film.fields.some((f) => f.name === "damage"), hide = (id, gone) => (byId(id).style.display = gone ? "none" : "");
     hide("ghost_label", film.dim < 3 || !damaged), hide("cut_label", film.dim < 3), hide("cracks_label", film.dim === 1 || !damaged);
     hide("reset", film.dim === 1);
-    byId("cracks").checked = damaged;
+    byId("cracks").checked = crackedShare() < 0.2;
     byId("cut").append(...["x", "y", "z"].slice(0, film.dim).map((a, d) => element("option", { value: d }, "above " + a)));
     byId("frame").max = film.frames.length - 1;
     byId("hint").textContent = film.dim === 3 ? "Drag turns, with Shift it moves; the wheel zooms; the pointer reads values." : film.dim === 2 ? "Drag moves; the wheel zooms; the pointer reads values." : "Red: particles with broken bonds.";
     byId("thinned").textContent = thinnedText();
     view.magnify = 1;
-    film.box = boxOf();
+    film.box = boxOf(film.frames[film.frames.length - 1], 1);
     view.field = film.fields.find((f) => f.name === firstField());
     view.low = view.field.low, view.high = view.field.high;
     makeLut();

@@ -27,11 +27,13 @@ function showHead() {
 
 // The figures that one looks for first.
 function showCards() {
-    const all = new Map(flat(summary)), wanted = [["crack.start_time", "first bond breaks"], ["crack.length_end", "longest crack grows by"], ["crack.angle_deg", "in the direction"],
+    const all = new Map(flat(summary)), wanted = [["crack.start_time", "first bond breaks"], ["crack.length_end", "longest crack grows by"],
         ["crack.tip_speed_max", "largest tip speed"], ["energy.fracture", "fracture energy"], ["fragments.count", "fragments"], ["energy.balance_error", "error of the energy balance"]];
     for (const [key, meaning] of wanted) {
         if (!all.has(key) || (all.get(key) === 0 && key !== "energy.balance_error")) continue;
-        const value = key.endsWith("_error") ? number(100 * all.get(key), 2) + " %" : quantity(all.get(key), key === "crack.angle_deg" ? "degree" : unitOf(key), 4);
+        if (key === "fragments.count" && all.get(key) < 2) continue;
+        const angle = key === "crack.length_end" && all.has("crack.angle_deg") ? " at " + number(all.get("crack.angle_deg"), 3) + "°" : "";
+        const value = key.endsWith("_error") ? number(100 * all.get(key), 2) + " %" : quantity(all.get(key), unitOf(key), 4) + angle;
         const bar = (summary.uncertainty || {})[key];
         byId("cards").append(element("div", { className: "card" }, element("b", {}, value), element("span", {}, meaning + (bar ? ", ± " + quantity(bar, unitOf(key), 2) : ""))));
     }

@@ -25,7 +25,7 @@ if command -v bash >/dev/null; then
     is "completes a command" "$(complete cleave swe)" "sweep "
     is "completes a key" "$(complete cleave run x.yaml -s particles.sp)" "particles.spacing= "
     is "completes a key of a list" "$(complete cleave run x.yaml -s boundary.0.bod)" "boundary.0.body= boundary.0.body_force= "
-    is "completes an option" "$(complete cleave run --re)" "--resume "
+    is "completes an option" "$(complete cleave run --res)" "--resume "
     is "completes a scene" "$(complete cleave check inputs/plate_cr)" "inputs/plate_crack.yaml "
 fi
 holds "the completion of zsh names a command" grep -q "sweep" "$prefix/share/zsh/site-functions/_cleave"
