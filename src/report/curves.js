@@ -39,6 +39,7 @@ function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
 
 // ---- history --------------------------------------------------------------------------------------------------------
 
+const hasCurves = page.history !== undefined && page.history.rows > 1;
 const history_ = { columns: [], shown: [], over: 0, zoom: null, panels: [], at: null };
 
 function readColumns() {

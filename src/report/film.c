@@ -143,6 +143,19 @@ static bool fits(const struct film *f, int64_t budget)
     return bytes <= budget;
 }
 
+/* Uses what the groups leave of the budget: for extra fields, then for frames. */
+static void film_fill(struct film *f, int64_t budget)
+{
+    const int used = f->used;
+    f->lacks_extra = false;
+    f->lacks_extra = !fits(f, budget);
+    for (int most = f->frames; most > used; most--) {
+        frames_use(f, most);
+        if (fits(f, budget)) return;
+    }
+    frames_use(f, used);
+}
+
 void film_fit(struct film *f, int64_t budget)
 {
     frames_use(f, FRAMES_MOST);
@@ -157,6 +170,7 @@ void film_fit(struct film *f, int64_t budget)
         f->thins_busy = f->every > EVERY_MOST;
         film_group(f);
     }
+    film_fill(f, budget);
 }
 
 /* ---- second reading ---------------------------------------------------------------------------------------------- */

@@ -220,7 +220,7 @@ function setFrame(k) {
     byId("frame").value = view.frame;
     byId("when").textContent = "frame " + frame.number + ", " + timeText(frame) + (summary && summary.load_steps ? "" : ", step " + number(frame.step));
     drawFilm();
-    if (page.history) drawCurves();
+    if (hasCurves) drawCurves();
 }
 
 function setField(name) {

@@ -95,7 +95,7 @@ function showPictures() {
 
 function redraw() {
     if (film) drawFilm();
-    if (page.history) drawCurves();
+    if (hasCurves) drawCurves();
     if (page.table) drawStudy();
 }
 
@@ -105,7 +105,7 @@ showWarnings(summary ? summary.warnings : page.warnings);
 showPictures();
 showOrigin();
 showScene();
-if (page.history) showCurves();
+if (hasCurves) showCurves();
 if (film) showFilm();
 if (page.table) showStudy();
 window.addEventListener("resize", redraw);
