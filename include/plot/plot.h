@@ -139,7 +139,7 @@ void picture_compose_title(char *title, const struct plot_request *r, const char
 /* Unit for display: displayed value = SI value / factor. */
 struct unit {
     double factor;
-    char name[8];
+    char name[32];
 };
 
 /* Returns the unit with the SI prefix in which the value `largest` (in SI units) has one to three digits before the
@@ -149,6 +149,10 @@ struct unit unit_for_largest_value(double largest, const char *name);
 /* Returns a unit of length suitable for values up to `largest` [m]: millimetres between 0.5 mm and 10 m, else metres
  * with an SI prefix. */
 struct unit unit_for_length(double largest);
+
+/* Returns the unit with the prefix for which the number for `largest` has one to three digits before the point, if
+ * `name` is a unit that takes prefixes (s, m, m/s, N, J, Pa, W); else the unit itself. name: unit without prefix. */
+struct unit unit_of_figure(const char *name, double largest);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
@@ -210,6 +214,7 @@ struct plotted_particles {
     double layer;          /* coordinate of the slice along its normal [m] */
     double t;              /* time [s] */
     bool in_steps;         /* the frame is that of a load step */
+    bool equilibrium;      /* the run computes one equilibrium: its time is that of the loads */
     int64_t step;          /* number of the time step or load step */
     double spacing;        /* spacing of the particles [m] */
     double magnify;        /* factor on the displacements in `position` and `gradient` */
@@ -380,6 +385,7 @@ struct series {
     int time;           /* column of the time, or of the number of the load step */
     struct unit second; /* unit of the time; factor 1 without name for load steps */
     enum picture_format format;
+    bool bar; /* the run has one dimension */
 };
 
 /* Returns the largest absolute value in the column with index `column` of the history h; 0 if the column has no
@@ -410,20 +416,20 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
 /* Returns true if the run in `folder` consists of load steps. */
 bool run_has_load_steps(const char *folder);
 
-/* Draws, for a run with load steps, the force over the displacement of each reaction probe, with its peak marked, to
- * the file `sheet`. title: heading of the picture; h: history of the run. If there is no such probe or nothing moves,
- * prints that instead. Returns FAILED if gnuplot fails. */
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h);
+/* Draws the force over the displacement of each reaction probe and rigid body that bears a force, with its peak marked,
+ * to the file `sheet`. title: heading of the picture; h: history of the run. If there is none or nothing moves, prints
+ * that instead if the run has load steps (in_steps). Returns FAILED if gnuplot fails. */
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps);
 
 /* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve), with lines at the
  * fracture energy G_c of the materials, to the file `sheet`. folder: folder of the run; title: heading of the picture;
  * h: history of the run. If no crack has grown, prints that instead. Returns FAILED if gnuplot fails. */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h);
 
-/* Draws all pictures of history.csv of the run in `folder`: crack, energy, sif and path, for load steps also
- * load_displacement and r_curve (names in output/pictures.h). title: heading of each picture; format: a format of
- * still pictures. Returns FAILED if history.csv cannot be read or gnuplot fails. */
-status history_curves_draw(const char *folder, const char *title, enum picture_format format);
+/* Draws all pictures of history.csv of the run in `folder`: crack, energy, sif, path and load_displacement,
+ * for load steps also r_curve (names in output/pictures.h). title: heading of each picture; format: a format of
+ * still pictures; bar: the run has one dimension. Returns FAILED if history.csv cannot be read or gnuplot fails. */
+status history_curves_draw(const char *folder, const char *title, enum picture_format format, bool bar);
 
 /* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
  * frame[frames], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */

@@ -209,8 +209,10 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 status study_check_output_files(const struct study *s, const struct varied_key *key, int keys);
 
 /* Draws the figures of a study over the values of each of its varied keys, pictures/KEY.png in the folder of the
- * study, and pictures/map.png over two keys. key[keys]: keys of the study and their values. Returns FAILED if a
- * picture cannot be drawn. */
-status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
+ * study, and pictures/map.png over two keys. key[keys]: keys of the study and their values; of[asked]: names of the
+ * figures, up to six; 0: the first ones that differ. Returns REFUSED if there is no such figure, FAILED if a picture
+ * cannot be drawn. */
+status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys,
+                  const char *const *of, int asked);
 
 #endif

@@ -21,7 +21,8 @@ extern const int commands_count;
 #define RUN_WORDS "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [--report] [-q]"
 #define CHECK_WORDS "SCENE [-s KEY=VALUE]... [-t THREADS] [--no-trial]"
 #define SWEEP_WORDS                                                                                                    \
-    "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [-o DIR] [-j RUNS] [-t THREADS] [--list] [--collect] [--overwrite] [-q]"
+    "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [--of FIGURE]... [-o DIR] [-j RUNS] [-t THREADS] [--list] [--collect] "    \
+    "[--overwrite] [-q]"
 #define CONVERGE_WORDS                                                                                                 \
     "SCENE [--of FIGURE]... [--budget TIME] [--levels COUNT] [--runs COUNT] [--horizon] [-s KEY=VALUE]... [-o DIR] "   \
     "[-j RUNS] [-t THREADS] [--overwrite] [-q]"

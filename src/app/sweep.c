@@ -10,12 +10,16 @@
 
 static const char usage[] = "sweep " SWEEP_WORDS;
 
+enum { FIGURES_MOST = 6 }; /* panels of a picture */
+
 struct sweep_arguments {
     const char *scene, *folder;
     struct varied_key *key;
     int keys;
     struct study_options options;
     bool list, collect;
+    const char *of[FIGURES_MOST]; /* figures of the pictures */
+    int asked;
 };
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
@@ -28,6 +32,15 @@ static status key_add(struct sweep_arguments *a, const char *text)
     for (int k = 0; k + 1 < a->keys; k++)
         if (strcmp(a->key[k].key, key) == 0)
             return status_set(REFUSED, "-s %s: given twice; give all its values in one list, separated by commas", key);
+    return OK;
+}
+
+/* Appends a figure of the option --of, or returns REFUSED if there are too many or it is missing. */
+static status drawn_figure_add(struct sweep_arguments *a, const char *name)
+{
+    TRY(option_has_value("--of", name != NULL, usage));
+    if (a->asked == FIGURES_MOST) return status_set(REFUSED, "sweep: --of: at most %d figures", FIGURES_MOST);
+    a->of[a->asked++] = name;
     return OK;
 }
 
@@ -45,6 +58,8 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
             TRY(option_read_count(&a->options.jobs, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "-t"))
             TRY(option_read_count(&a->options.threads, word, argv[++k], 1, THREADS_MOST));
+        else if (!strcmp(word, "--of"))
+            TRY(drawn_figure_add(a, k + 1 < argc ? argv[++k] : NULL));
         else if (!strcmp(word, "--list"))
             a->list = true;
         else if (!strcmp(word, "--collect"))
@@ -98,7 +113,7 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
     struct study_table table;
     TRY(study_table_read(&table, s));
     status done = study_write_table(&table, s, a->key, a->keys);
-    if (done == OK && table.figures > 0) done = study_draw(&table, s, a->key, a->keys);
+    if (done == OK && table.figures > 0) done = study_draw(&table, s, a->key, a->keys, a->of, a->asked);
     study_table_free(&table);
     return done;
 }

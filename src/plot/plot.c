@@ -193,12 +193,13 @@ static status draw_frames(struct plot_request *r)
 static status draw_pictures(struct plot_request *r)
 {
     char title[TITLE_LENGTH];
+    const struct scene *scene = r->projection.scene;
     const bool frames = run_has_file(r->folder, "frames.hdf.series"), history = run_has_file(r->folder, "history.csv");
     const struct path pictures = pictures_folder(r->folder);
     TRY(pictures_folder_make(pictures.text));
     if (frames) TRY(draw_frames(r));
     picture_compose_title(title, r, "", NULL);
-    if (history) TRY(history_curves_draw(r->folder, title, r->format));
+    if (history) TRY(history_curves_draw(r->folder, title, r->format, scene && scene->dim == 1));
     if (printf("pictures in %s\n", printable_name(pictures.text).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));
     return OK;

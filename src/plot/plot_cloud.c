@@ -246,12 +246,15 @@ void plotted_particles_make(struct plotted_particles *c, const struct output_fra
 {
     struct projection open = {.normal = -1};
     if (!projection) (void)projection_complete_slice(&open, f), projection = &open;
+    const struct scene *scene = projection->scene;
     *c = (struct plotted_particles){.axis = {0, 1},
                                     .normal = -1,
                                     .t = f->t,
                                     .spacing = frame_spacing(f),
                                     .magnify = projection->magnify > 0 ? projection->magnify : 1,
                                     .in_steps = projection->in_steps,
+                                    .equilibrium =
+                                        scene && (scene->solver == SOLVER_RELAXATION || scene->solver == SOLVER_CG),
                                     .step = f->step,
                                     .from = {INFINITY, INFINITY},
                                     .to = {-INFINITY, -INFINITY}};

@@ -69,30 +69,45 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
             axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
 }
 
-/* Draws crack length and share of peridynamic particles over time. */
+/* Returns true if a column of the history has different values. */
+static bool column_varies(const struct history *h, int column)
+{
+    for (int64_t i = 1; i < h->rows; i++)
+        if (history_at(h, i, column) != history_at(h, 0, column)) return true;
+    return false;
+}
+
+/* Draws crack length and share of peridynamic particles over time, each only if it changes; a bar has no length of
+ * cracks. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
-    int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
-    double largest[2] = {curves_largest_value(s->h, column[0]), curves_largest_value(s->h, column[1])};
-    struct unit metre = unit_for_length(largest[0]);
-    double factor[2] = {metre.factor, 0.01}; /* the share in percent */
+    const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
+    const double largest[2] = {curves_largest_value(s->h, column[0]), curves_largest_value(s->h, column[1])};
+    const bool shown[2] = {largest[0] > 0 && !s->bar, column_varies(s->h, column[1])};
+    const struct unit metre = unit_for_length(largest[0]);
+    const double factor[2] = {metre.factor, 0.01}; /* the share in percent */
     char label[64];
     struct gnuplot g;
-    if (largest[0] == 0 && largest[1] == 0)
-        return report_nothing_to_draw(sheet.path, "no crack, no peridynamic particle");
+    if (!shown[0] && !shown[1])
+        return report_nothing_to_draw(sheet.path, "no crack grows, no particle becomes peridynamic");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
     curves_write_data(g.to, s, column, factor, 2);
     curves_write_title(g.to, title, "crack");
     curves_write_time_axis(g.to, s);
     snprintf(label, sizeof label, "crack length [%s]", metre.name);
-    set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0]);
-    set_axis(g.to, "y2", "share of peridynamic particles [%]", 1, 1.25 * largest[1] / factor[1]);
+    if (shown[0]) set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0]);
+    if (shown[1])
+        set_axis(g.to, shown[0] ? "y2" : "y", "share of peridynamic particles [%]", 1, 1.25 * largest[1] / factor[1]);
     fprintf(g.to,
-            "set border 11\nset lmargin at screen 0.1\nset rmargin at screen 0.9\nset tmargin at screen 0.84\n"
-            "set key at screen 0.1,0.875 left bottom horizontal width 2\n"
-            "plot $data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length (left)', "
-            "$data using 1:3 axes x1y2 with lines lw 2.4 dt (12,5) lc rgb '%s' title 'peridynamic share (right)'\n",
-            curve_colour[0], curve_colour[1]);
+            "set border %d\nset lmargin at screen 0.1\nset rmargin at screen 0.9\nset tmargin at screen 0.84\n"
+            "set key at screen 0.1,0.875 left bottom horizontal width 2\nplot ",
+            shown[0] && shown[1] ? 11 : 3);
+    if (shown[0])
+        fprintf(g.to, "$data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length%s'%s", curve_colour[0],
+                shown[1] ? " (left)" : "", shown[1] ? ", " : "\n");
+    if (shown[1])
+        fprintf(g.to, "$data using 1:3 axes x1%s with lines lw 2.4 dt (12,5) lc rgb '%s' title 'peridynamic share%s'\n",
+                shown[0] ? "y2" : "y1", curve_colour[1], shown[0] ? " (right)" : "");
     return gnuplot_close(&g);
 }
 
@@ -187,12 +202,13 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     return gnuplot_close(&g);
 }
 
-status history_curves_draw(const char *folder, const char *title, enum picture_format format)
+status history_curves_draw(const char *folder, const char *title, enum picture_format format, bool bar)
 {
     struct history h;
     TRY(history_read(&h, folder));
     const bool in_steps = history_find_column(&h, "load_time") >= 0;
-    struct series s = {.h = &h, .time = history_find_column(&h, in_steps ? "step" : "time"), .format = format};
+    struct series s = {
+        .h = &h, .time = history_find_column(&h, in_steps ? "step" : "time"), .format = format, .bar = bar};
     const char *ending = picture_ending[format];
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
@@ -202,9 +218,9 @@ status history_curves_draw(const char *folder, const char *title, enum picture_f
             result = draw_energy((struct sheet){picture_path(folder, DRAWN_ENERGY, ending).text, format}, title, &s);
         if (result == OK) result = sif_curves_draw(folder, title, &s);
         if (result == OK) result = crack_paths_draw(folder, title, &s);
-        if (result == OK && in_steps)
+        if (result == OK)
             result = load_displacement_draw((struct sheet){picture_path(folder, DRAWN_LOAD, ending).text, format},
-                                            title, &h);
+                                            title, &h, in_steps);
         if (result == OK && in_steps)
             result = r_curve_draw((struct sheet){picture_path(folder, DRAWN_R_CURVE, ending).text, format}, folder,
                                   title, &h);
@@ -314,7 +330,7 @@ status bar_profiles_draw(struct sheet sheet, const char *title, const struct out
 {
     struct gnuplot g;
     struct unit unit[3];
-    char label[3][32];
+    char label[3][64];
     const int panels = profile_panels(frame, frames), height = 130 + 263 * panels;
     choose_units(unit, frame, frames);
     snprintf(label[0], sizeof label[0], "velocity [%s]", unit[1].name);

@@ -36,7 +36,18 @@ struct unit unit_for_largest_value(double largest, const char *name)
 
 struct unit unit_for_length(double largest)
 {
-    return largest > 5e-4 && largest < 10 ? (struct unit){1e-3, "mm"} : unit_for_largest_value(largest, "m");
+    return largest > 5e-4 && largest < 0.9995 ? (struct unit){1e-3, "mm"} : unit_for_largest_value(largest, "m");
+}
+
+struct unit unit_of_figure(const char *name, double largest)
+{
+    static const char *const prefixed[] = {"s", "m/s", "N", "J", "Pa", "W"};
+    struct unit u = {1, ""};
+    snprintf(u.name, sizeof u.name, "%s", name);
+    if (strcmp(name, "m") == 0) return unit_for_length(largest);
+    for (size_t k = 0; k < COUNT_OF(prefixed); k++)
+        if (strcmp(name, prefixed[k]) == 0) return unit_for_largest_value(largest, name);
+    return u;
 }
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */

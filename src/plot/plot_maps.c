@@ -107,26 +107,27 @@ void panel_write_axes(FILE *to, const struct layout *l, const struct view *view,
 }
 
 void panel_write_directions(FILE *to, const struct layout *l, const struct view *view,
-                            const struct plotted_particles *c, const struct unit *metre)
+                            const struct plotted_particles *c, const struct unit *metre, double left, double above)
 {
-    const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width;
-    const double corner[2] = {view->from[0] / metre->factor + 34 * pixel, view->from[1] / metre->factor + 20 * pixel};
-    const double length = plot_maps_tic_distance(300 * pixel, 300, 60);
-    fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\nunset arrow\n", to);
+    const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width, x = left + 34;
+    const double y = l->height - (above + l->panel_height + 46); /* above the lower edge of the picture [pixel] */
+    const double length = plot_maps_tic_distance(300 * pixel, 300, 60) / pixel, end = left + l->panel_width - 8;
     for (int d = 0; d < 3; d++) {
-        const double arrow[2] = {26 * pixel * c->camera.right[d], 26 * pixel * c->camera.up[d]};
-        if (hypot(arrow[0], arrow[1]) < 2 * pixel) continue;
-        fprintf(to,
-                "set arrow from %.9g,%.9g rto %.9g,%.9g size screen 0.006,20 front lw 1.3 lc rgb '#333333'\n"
-                "set label %d '%c' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
-                corner[0], corner[1], arrow[0], arrow[1], 40 + d, 'x' + d, corner[0] + 1.45 * arrow[0],
-                corner[1] + 1.45 * arrow[1]);
+        const double arrow[2] = {26 * c->camera.right[d], 26 * c->camera.up[d]};
+        if (hypot(arrow[0], arrow[1]) < 2) continue;
+        fprintf(
+            to,
+            "set arrow from screen %.6g,%.6g to screen %.6g,%.6g size screen 0.006,20 front lw 1.3 lc rgb '#333333'\n"
+            "set label %d '%c' at screen %.6g,%.6g center front font ',11' textcolor rgb '#333333'\n",
+            x / l->width, y / l->height, (x + arrow[0]) / l->width, (y + arrow[1]) / l->height, 40 + d, 'x' + d,
+            (x + 1.45 * arrow[0]) / l->width, (y + 1.45 * arrow[1]) / l->height);
     }
-    const double end = view->to[0] / metre->factor - 8 * pixel, at = corner[1] - 10 * pixel;
-    fprintf(to,
-            "set arrow from %.9g,%.9g to %.9g,%.9g heads size screen 0.004,90 front lw 1.3 lc rgb '#333333'\n"
-            "set label 43 '%.4g %s' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
-            end - length, at, end, at, length, metre->name, end - 0.5 * length, at + 10 * pixel);
+    fprintf(
+        to,
+        "set arrow from screen %.6g,%.6g to screen %.6g,%.6g heads size screen 0.004,90 front lw 1.3 lc rgb '#333333'\n"
+        "set label 43 '%.4g %s' at screen %.6g,%.6g center front font ',11' textcolor rgb '#333333'\n",
+        (end - length) / l->width, (y + 10) / l->height, end / l->width, (y + 10) / l->height, length * pixel,
+        metre->name, (end - 0.5 * length) / l->width, (y + 22) / l->height);
 }
 
 /* Draws panel number `place`, counted row by row: the map of a cloud with axes and title. second: unit of time in the
@@ -147,15 +148,19 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
     }
     fputs("set title '", to);
-    if (c->in_steps)
+    if (c->equilibrium)
+        fputs(c->t > 0 ? "equilibrium" : "without loads", to);
+    else if (c->in_steps)
         fprintf(to, "load step %lld", (long long)c->step);
     else
         fprintf(to, "t = %.3g %s", c->t / second->factor, second->name);
     fputs("' font ',13' offset 0,-0.5\n", to);
     if (c->position[2])
-        panel_write_directions(to, l, view, c, &metre);
+        fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\nunset arrow\n", to);
     else
         panel_write_axes(to, l, view, c, &metre, column, lowest);
+    if (c->position[2] && row == l->rows - 1 && column == 0)
+        panel_write_directions(to, l, view, c, &metre, LEFT, ABOVE + row * (l->panel_height + GAP_Y));
     const double fine = picture_size_get().dpi / PICTURE_DPI;
     const int fines[2] = {(int)fmax(lround(fine * size[0]), 1), (int)fmax(lround(fine * size[1]), 1)};
     for (int k = 0; k < 2; k++) step[k] *= (double)size[k] / fines[k];

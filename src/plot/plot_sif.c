@@ -7,7 +7,7 @@
 #include "plot/plot.h"
 #include "output/summary_read.h"
 
-enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6 };
+enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6, LEAST_ROWS = 3 };
 
 /* Finds the columns of the history whose names end in `quantity`, and stores the parts before it, the names of the
  * probes, in name[most]. Returns their number, at most `most`. */
@@ -91,22 +91,29 @@ status sif_curves_draw(const char *folder, const char *title, const struct serie
     struct factors f;
     struct gnuplot g;
     find_factors(&f, s->h);
+    const struct path path = picture_path(folder, DRAWN_SIF, picture_ending[s->format]);
     if (f.n == 0) return OK;
-    TRY(gnuplot_open(&g, picture_path(folder, DRAWN_SIF, picture_ending[s->format]).text, s->format, 1000, 760));
+    if (s->h->rows < LEAST_ROWS)
+        return report_nothing_to_draw(path.text, "the run has one equilibrium; summary.json has its K_I and K_II");
+    double spread = 0;
+    for (int k = 0; k < f.n; k++) spread = fmax(spread, curves_largest_value(s->h, f.spread[k]));
+    TRY(gnuplot_open(&g, path.text, s->format, 1000, spread > 0 ? 760 : 600));
     curves_write_data(g.to, s, f.column, f.factor, 2 * f.n);
     curves_write_title(g.to, title, "stress-intensity factors");
     curves_write_time_axis(g.to, s);
     fprintf(g.to,
             "set lmargin at screen 0.1\nset rmargin at screen 0.86\nset key at screen 0.875,0.9 left top\n"
             "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n"
-            "set multiplot\nset tmargin at screen 0.905\nset bmargin at screen 0.35\nset format x ''\n"
-            "unset xlabel\n",
+            "set tmargin at screen 0.905\n",
             f.unit.name);
+    if (spread > 0) fputs("set multiplot\nset bmargin at screen 0.35\nset format x ''\nunset xlabel\n", g.to);
     plot_factors(g.to, &f);
-    fputs("set offsets\nundefine $data\n", g.to);
-    curves_write_data(g.to, s, f.spread, f.percent, f.n);
-    plot_spread(g.to, s, &f);
-    fputs("unset multiplot\n", g.to);
+    if (spread > 0) {
+        fputs("set offsets\nundefine $data\n", g.to);
+        curves_write_data(g.to, s, f.spread, f.percent, f.n);
+        plot_spread(g.to, s, &f);
+        fputs("unset multiplot\n", g.to);
+    }
     return gnuplot_close(&g);
 }
 
@@ -178,24 +185,55 @@ static bool ray_of(const struct tip_path *w, double end[2])
     return isfinite(angle);
 }
 
-/* Sets equal ranges on both axes that contain the ends of all paths and the lines of the experiments, with a margin.
- * metre: unit of the axes. */
-static void set_square(FILE *to, const struct tip_path *w, int n, const struct unit *metre)
+/* Size of the picture of paths [pixel], and its margins. */
+enum {
+    PATH_WIDE = 940,
+    PATH_LEFT = 94,
+    PATH_KEY = 244,
+    PATH_ABOVE = 76,
+    PATH_BELOW = 80,
+    PATH_HIGH = 760,
+    PATH_LOW = 200
+};
+
+/* Computes the rectangle low .. high [2, m] that contains the ends of all paths and the lines of the experiments, with
+ * a margin, and at least as high as wide over four. */
+static void paths_extent(const struct tip_path *w, int n, double *low, double *high)
 {
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, end[2], side = 0;
+    double end[2], longer = 0;
+    for (int d = 0; d < 2; d++) low[d] = INFINITY, high[d] = -INFINITY;
     for (int k = 0; k < n; k++)
         for (int d = 0; d < 2; d++) {
             low[d] = fmin(low[d], fmin(w[k].from[d], w[k].to[d]));
             high[d] = fmax(high[d], fmax(w[k].from[d], w[k].to[d]));
             if (ray_of(&w[k], end)) low[d] = fmin(low[d], end[d]), high[d] = fmax(high[d], end[d]);
         }
-    for (int d = 0; d < 2; d++) side = fmax(side, 1.16 * (high[d] - low[d]) / metre->factor);
+    for (int d = 0; d < 2; d++) longer = fmax(longer, high[d] - low[d]);
     for (int d = 0; d < 2; d++) {
-        const double middle = 0.5 * (low[d] + high[d]) / metre->factor;
-        fprintf(to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\n", "xy"[d], middle - 0.5 * side,
-                middle + 0.5 * side, "xy"[d], "xy"[d], metre -> name);
+        const double middle = 0.5 * (low[d] + high[d]),
+                     half = fmax(0.5 * (high[d] - low[d]) + 0.1 * longer, longer / 8);
+        low[d] = middle - half, high[d] = middle + half;
     }
-    fputs("set size ratio -1\n", to);
+}
+
+/* Opens the picture of paths, as high as the rectangle needs, and sets the ranges of its axes in the same scale. */
+static status paths_open(struct gnuplot *g, const char *path, const struct series *s, const double *low,
+                         const double *high, const struct unit *metre)
+{
+    const double wide = PATH_WIDE - PATH_LEFT - PATH_KEY, aspect = (high[1] - low[1]) / (high[0] - low[0]);
+    const double high_most = PATH_HIGH - PATH_ABOVE - PATH_BELOW;
+    const double inner = fmax(fmin(wide, high_most / aspect), PATH_LOW), tall = fmin(inner * aspect, high_most);
+    const double width = inner + PATH_LEFT + PATH_KEY, height = tall + PATH_ABOVE + PATH_BELOW;
+    TRY(gnuplot_open(g, path, s->format, (int)width, (int)height));
+    for (int d = 0; d < 2; d++)
+        fprintf(g->to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\n", "xy"[d], low[d] / metre->factor,
+                high[d] / metre->factor, "xy"[d], "xy"[d], metre -> name);
+    fprintf(g->to,
+            "set size ratio -1\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset tmargin at screen %.4f\n"
+            "set bmargin at screen %.4f\nset key at screen %.4f,%.4f left top\nset samples 2\n",
+            PATH_LEFT / width, 1 - PATH_KEY / width, 1 - PATH_ABOVE / height, PATH_BELOW / height,
+            1 - (PATH_KEY - 14) / width, 1 - PATH_ABOVE / height);
+    return OK;
 }
 
 /* Plots initial cracks, angles of experiments, and paths. */
@@ -232,13 +270,11 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
     const int n = find_tip_paths(path, folder, h);
     if (n == 0) return OK;
     const struct unit metre = unit_for_length(fmax(fabs(path[0].to[0]), fabs(path[0].to[1])));
-    TRY(gnuplot_open(&g, picture_path(folder, DRAWN_PATH, picture_ending[s->format]).text, s->format, 940, 760));
+    double low[2], high[2];
+    paths_extent(path, n, low, high);
+    TRY(paths_open(&g, picture_path(folder, DRAWN_PATH, picture_ending[s->format]).text, s, low, high, &metre));
     curves_write_title(g.to, title, "path of the crack");
     for (int k = 0; k < n; k++) send_tip_path(g.to, h, &path[k], k, metre.factor);
-    set_square(g.to, path, n, &metre);
-    fputs("set lmargin at screen 0.1\nset rmargin at screen 0.74\nset tmargin at screen 0.9\n"
-          "set bmargin at screen 0.105\nset key at screen 0.755,0.89 left top\nset samples 2\n",
-          g.to);
     plot_tip_paths(g.to, path, n, &metre);
     return gnuplot_close(&g);
 }

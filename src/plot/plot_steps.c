@@ -11,7 +11,7 @@
 /* The axis of displacements ends where the force stays below this fraction of its largest value: afterwards the broken
  * body only moves apart. */
 #define FORCE_LEFT 0.01
-enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3 };
+enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3, POINTS_SHOWN = 200 };
 
 bool run_has_load_steps(const char *folder)
 {
@@ -24,17 +24,21 @@ bool run_has_load_steps(const char *folder)
 
 /* ---- load over displacement -------------------------------------------------------------------------------------- */
 
-/* Columns of the components of a vector, for example NAME.force_x; n is 0 if the probe has no such columns. */
+/* Columns of the components of a vector, for example NAME.force_x; n is 0 if the history has no such columns. since:
+ * the vector is the difference from the first row. */
 struct components {
     int n, column[3];
+    bool since;
 };
 
-static struct components components_of(const struct history *h, const char *probe, const char *quantity)
+/* Finds the columns of the components of a quantity of a probe or rigid body, for example NAME.force_x = probe, by and
+ * quantity, followed by the axis. */
+static struct components components_of(const struct history *h, const char *probe, const char *by, const char *quantity)
 {
     struct components c = {0};
     for (int d = 0; d < 3; d++) {
         char name[3 * NAME_MAX_LENGTH];
-        snprintf(name, sizeof name, "%.63s.%.63s_%c", probe, quantity, 'x' + d);
+        snprintf(name, sizeof name, "%.63s%s%.63s%c", probe, by, quantity, 'x' + d);
         const int column = history_find_column(h, name);
         if (column >= 0) c.column[c.n++] = column;
     }
@@ -44,7 +48,8 @@ static struct components components_of(const struct history *h, const char *prob
 static double length_at(const struct history *h, int64_t row, const struct components *c)
 {
     double sum = 0;
-    for (int d = 0; d < c->n; d++) sum += history_at(h, row, c->column[d]) * history_at(h, row, c->column[d]);
+    for (int d = 0; d < c->n; d++)
+        sum += square(history_at(h, row, c->column[d]) - (c->since ? history_at(h, 0, c->column[d]) : 0));
     return sqrt(sum);
 }
 
@@ -92,17 +97,38 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
     return -1;
 }
 
-/* Finds the reaction probes whose supports move. If none moves, takes all reaction probes and draws their forces over
- * the displacement of the first point probe that moves. */
+/* Adds the rigid bodies that bear a force and move, or, if `resting`, also those that rest. Returns true if one moves.
+ */
+static bool reactions_add_rigids(struct reactions *r, const struct history *h, bool resting)
+{
+    char name[NAME_MAX_LENGTH];
+    bool moving = false;
+    for (int k = 0; (k = probe_from(h, k, "_force_x", name)) >= 0 && r->n < REACTIONS_SHOWN; k++) {
+        struct reaction a = {.force = components_of(h, name, "_", "force_"),
+                             .displacement = components_of(h, name, "_", "")};
+        a.displacement.since = true;
+        const bool moves = longest_of(h, &a.displacement) > 0;
+        if (a.displacement.n == 0 || !(longest_of(h, &a.force) > 0) || !(moves || resting)) continue;
+        moving |= moves;
+        memcpy(a.name, name, sizeof name);
+        a.peak = peak_of(h, &a.force);
+        r->of[r->n++] = a;
+    }
+    return moving;
+}
+
+/* Finds the reaction probes whose supports move, and rigid bodies that move under a force. If none moves, takes all of
+ * them and draws their forces over the displacement of the first point probe that moves. */
 static void reactions_find(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
     bool moving = false;
     *r = (struct reactions){0};
-    for (int pass = 0; pass < 2 && r->n == 0; pass++)
+    for (int pass = 0; pass < 2 && r->n == 0; pass++) {
+        moving |= reactions_add_rigids(r, h, pass > 0);
         for (int k = 0; (k = probe_from(h, k, ".force_x", name)) >= 0 && r->n < REACTIONS_SHOWN; k++) {
-            struct reaction a = {.force = components_of(h, name, "force"),
-                                 .displacement = components_of(h, name, "displacement")};
+            struct reaction a = {.force = components_of(h, name, ".", "force_"),
+                                 .displacement = components_of(h, name, ".", "displacement_")};
             const bool moves = longest_of(h, &a.displacement) > 0;
             moving |= moves;
             if (a.displacement.n == 0 || (pass == 0 && !moves)) continue;
@@ -110,8 +136,9 @@ static void reactions_find(struct reactions *r, const struct history *h)
             a.peak = peak_of(h, &a.force);
             r->of[r->n++] = a;
         }
+    }
     for (int k = 0; !moving && (k = probe_from(h, k, ".displacement_x", name)) >= 0 && !r->over[0]; k++) {
-        const struct components displacement = components_of(h, name, "displacement");
+        const struct components displacement = components_of(h, name, ".", "displacement_");
         if (!(longest_of(h, &displacement) > 0)) continue;
         memcpy(r->over, name, sizeof name);
         for (int m = 0; m < r->n; m++) r->of[m].displacement = displacement;
@@ -144,8 +171,8 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     for (int m = 0; m < r->n; m++) {
         const struct reaction *a = &r->of[m];
         char text[3 * NAME_MAX_LENGTH];
-        fprintf(to, "%s$f%d with linespoints lw 2 pt 7 ps 0.5 lc rgb '%s' title ", m == 0 ? "plot " : ", ", m,
-                curve_colour[m]);
+        fprintf(to, "%s$f%d with %s lw 2 lc rgb '%s' title ", m == 0 ? "plot " : ", ", m,
+                h->rows > POINTS_SHOWN ? "lines" : "linespoints pt 7 ps 0.5", curve_colour[m]);
         gnuplot_quote(to, a->name);
         snprintf(text, sizeof text, "%.4g %s at %.4g %s", length_at(h, a->peak, &a->force) / newton.factor, newton.name,
                  length_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
@@ -156,23 +183,30 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h)
+/* Returns the width of the longest text of the key over the width of the picture. */
+static double key_share(size_t longest) { return fmin(0.05 + 0.0085 * (double)longest, 0.5); }
+
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps)
 {
     struct reactions r;
     struct gnuplot g;
     reactions_find(&r, h);
-    if (r.n == 0) return report_nothing_to_draw(sheet.path, "no reaction probe records the force of a support");
+    if (!in_steps && !(r.n > 0 && r.displacement > 0)) return OK;
+    if (r.n == 0) return report_nothing_to_draw(sheet.path, "neither a reaction probe nor a rigid body has a force");
     if (!(r.displacement > 0))
         return report_nothing_to_draw(sheet.path, "no support with a reaction probe and no point probe moves");
     const struct unit newton = unit_for_largest_value(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, h, &r, newton, metre);
+    size_t longest = 24; /* 123.4 kN at 123.4 mm */
+    for (int m = 0; m < r.n; m++) longest = strlen(r.of[m].name) > longest ? strlen(r.of[m].name) : longest;
     curves_write_title(g.to, title, "load and displacement");
     fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen 0.72\nset tmargin at screen 0.9\n"
-            "set bmargin at screen 0.13\nset key at screen 0.735,0.895 left top\nset xrange [0:%.9g]\n"
+            "set lmargin at screen 0.1\nset rmargin at screen %.4f\nset tmargin at screen 0.9\n"
+            "set bmargin at screen 0.13\nset key at screen %.4f,0.895 left top\nset xrange [0:%.9g]\n"
             "set yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
-            1.15 * r.displacement / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
+            1 - key_share(longest), 1.015 - key_share(longest), 1.15 * r.displacement / metre.factor,
+            r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
     char label[3 * NAME_MAX_LENGTH];
     snprintf(label, sizeof label, "displacement%s%.63s [%s]", r.over[0] ? " of " : "", r.over, metre.name);
     gnuplot_quote(g.to, label);
@@ -251,8 +285,8 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
     release_send(g.to, h, area, rate, square, joule.factor);
     curves_write_title(g.to, title, "energy released by the growing crack");
     fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen 0.76\nset tmargin at screen 0.9\n"
-            "set bmargin at screen 0.13\nset key at screen 0.775,0.895 left top\nset xrange [0:%.9g]\n"
+            "set lmargin at screen 0.1\nset rmargin at screen 0.74\nset tmargin at screen 0.9\n"
+            "set bmargin at screen 0.13\nset key at screen 0.755,0.895 left top\nset xrange [0:%.9g]\n"
             "set yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack area [%s]'\n",
             1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
     release_plot(g.to, toughness, n, mean, joule);

@@ -162,7 +162,7 @@ static struct acting acting_of(const struct run *e, const struct load *l, const 
 /* Describes a boundary condition for the key. */
 static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting)
 {
-    char face[16], many[48];
+    char face[16], many[64];
     int length = snprintf(text, TEXT, "%.40s:", b->name);
     snprintf(face, sizeof face, ", %c%c", 'x' + b->face, b->side > 0 ? '+' : '-');
     if (b->kind == BOUNDARY_MIRROR) {

@@ -233,9 +233,10 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
     panel_write_margins(to, l, PICTURE_LEFT, PICTURE_ABOVE);
     for (int a = 0; a < 2; a++)
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + a, v->from[a] / metre->factor, v->to[a] / metre->factor);
-    if (c->position[2])
-        panel_write_directions(to, l, v, c, metre);
-    else
+    if (c->position[2]) {
+        fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\n", to);
+        panel_write_directions(to, l, v, c, metre, PICTURE_LEFT, PICTURE_ABOVE);
+    } else
         panel_write_axes(to, l, v, c, metre, 0, true);
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
     fprintf(to,

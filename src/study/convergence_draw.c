@@ -1,13 +1,15 @@
 /* Pictures of a convergence study: figures over the spacing, and the crack paths of all runs. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/history.h"
 #include "output/output_files.h"
 #include "output/picture_file.h"
-#include "plot/gnuplot.h"
+#include "plot/plot.h"
 #include "study/convergence_study.h"
 
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16 };
@@ -29,34 +31,44 @@ status scalar_results_check_replaceable(const char *folder)
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
 
+/* Returns the unit in which a figure is drawn. */
+static struct unit figure_unit(const struct scalar_result_study *f)
+{
+    return unit_of_figure(f->unit, fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
+}
+
 /* Sends data blocks: $r: every run; $m: means with their errors; $e: extrapolated value with its interval, at spacing
  * 0. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_find_result(&s->table, f->name);
+    const double factor = figure_unit(f).factor;
     fprintf(to, "$r%d << EOD\n", panel);
     for (int k = 0; k < s->study.n; k++)
         if (s->point[k].level >= 0 && isfinite(s->table.value[at][k]))
-            fprintf(to, "%.8g %.10g\n", 1e3 * s->point[k].spacing, s->table.value[at][k]);
+            fprintf(to, "%.8g %.10g\n", 1e3 * s->point[k].spacing, s->table.value[at][k] / factor);
     fprintf(to, "EOD\n$m%d << EOD\n", panel);
     for (int k = 0; k < f->c.levels; k++)
-        fprintf(to, "%.8g %.10g %.10g\n", 1e3 * f->c.level[k].spacing, f->c.level[k].mean, f->c.level[k].error);
-    fprintf(to, "EOD\n$e%d << EOD\n0 %.10g %.10g %.10g\nEOD\n", panel, f->c.extrapolated, f->c.level[0].mean,
-            f->c.uncertainty[0]);
+        fprintf(to, "%.8g %.10g %.10g\n", 1e3 * f->c.level[k].spacing, f->c.level[k].mean / factor,
+                f->c.level[k].error / factor);
+    fprintf(to, "EOD\n$e%d << EOD\n0 %.10g %.10g %.10g\nEOD\n", panel, f->c.extrapolated / factor,
+            f->c.level[0].mean / factor, f->c.uncertainty[0] / factor);
 }
 
 static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel)
 {
     const struct convergence *c = &f->c;
+    const struct unit unit = figure_unit(f);
     const bool seen = (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) && isfinite(c->order_likely);
     char title[256];
-    snprintf(title, sizeof title, *f->unit ? "%.200s [%s]" : "%.200s%s", f->name, f->unit);
+    snprintf(title, sizeof title, *f->unit ? "%.200s [%s]" : "%.200s%s", f->name, unit.name);
     fputs("set title ", to);
     gnuplot_quote(to, title);
     fputs("\nplot ", to);
     if (seen) {
-        fprintf(to, "%.10g + %.10g*(x/%.10g)**%.6g with lines lw 1.6 dt (6,4) lc rgb '%s' notitle, ", c->extrapolated,
-                c->level[0].mean - c->extrapolated, 1e3 * c->level[0].spacing, c->order_likely, curve_colour[1]);
+        fprintf(to, "%.10g + %.10g*(x/%.10g)**%.6g with lines lw 1.6 dt (6,4) lc rgb '%s' notitle, ",
+                c->extrapolated / unit.factor, (c->level[0].mean - c->extrapolated) / unit.factor,
+                1e3 * c->level[0].spacing, c->order_likely, curve_colour[1]);
         fprintf(to, "$e%d using 1:2 with points pt 6 ps 1.3 lw 2 lc rgb '%s' title 'extrapolated', ", panel,
                 curve_colour[1]);
     }
@@ -180,50 +192,88 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k, struct
     return sent;
 }
 
-/* Sets the ranges with a margin around the paths, nonzero also for a straight path. */
-static void send_ranges(FILE *to, const struct extent *e)
+/* Adds a margin around the paths, nonzero also for a straight path. */
+static void extent_widen(struct extent *e)
 {
-    static const char axis[] = "xy";
     const double longer = fmax(e->high[0] - e->low[0], e->high[1] - e->low[1]);
     for (int d = 0; d < 2; d++) {
         const double centre = 0.5 * (e->low[d] + e->high[d]);
-        const double half = fmax(0.55 * (e->high[d] - e->low[d]), 0.2 * longer);
-        fprintf(to, "set %crange [%.7g:%.7g]\n", axis[d], 1e3 * (centre - half), 1e3 * (centre + half));
+        const double half = fmax(0.55 * (e->high[d] - e->low[d]), 0.1 * longer);
+        e->low[d] = centre - half, e->high[d] = centre + half;
     }
 }
 
-static status draw_paths(const struct convergence_study *s)
+/* Height of a picture of paths, PATHS_WIDE wide, and the margins of its panel [pixel]. */
+enum { PATHS_WIDE = 900, PATHS_LEFT = 90, PATHS_RIGHT = 150, PATHS_ABOVE = 50, PATHS_BELOW = 70, PATHS_HIGH = 900 };
+
+static int paths_height(const struct extent *e)
 {
-    struct gnuplot g;
-    struct extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    const double aspect = (e->high[1] - e->low[1]) / (e->high[0] - e->low[0]);
+    const double height = (PATHS_WIDE - PATHS_LEFT - PATHS_RIGHT) * aspect + PATHS_ABOVE + PATHS_BELOW;
+    return isfinite(height) ? (int)fmin(height, PATHS_HIGH) : PATHS_HIGH / 2;
+}
+
+/* Plots of gnuplot's command for the paths of all runs. */
+struct path_plots {
+    char text[16384];
+    size_t used;
+    int drawn;
+};
+
+/* Sends the paths of all runs to `to`, and appends their plots to *p. e: receives the extent of the paths. */
+static void paths_send(FILE *to, const struct convergence_study *s, struct extent *e, struct path_plots *p)
+{
     bool named[LEVELS_MOST] = {false};
-    int drawn = 0;
-    TRY(gnuplot_open(&g, convergence_picture(s->study.folder, "path.png").text, PICTURE_PNG, 900, 720));
-    fputs("set size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\n"
-          "set title 'paths of the longest tip, all runs'\n",
-          g.to);
-    char plots[16384] = "";
-    size_t used = 0;
     for (int k = 0; k < s->study.n; k++) {
         const int level = s->point[k].level;
-        if (level < 0 || !send_path(g.to, s, k, &e)) continue;
+        if (level < 0 || !send_path(to, s, k, e)) continue;
         char title[64] = "";
         if (!named[level]) snprintf(title, sizeof title, "title '%.4g mm'", 1e3 * s->spacings.at[level][0]);
-        const int more =
-            snprintf(plots + used, sizeof plots - used, "%s$w%d with lines lw 1.6 lc rgb '%s' %s",
-                     drawn > 0 ? ", " : "", k, curve_colour[level % CURVE_COLOURS], named[level] ? "notitle" : title);
-        if (more < 0 || used + (size_t)more >= sizeof plots) break;
-        used += (size_t)more;
+        const int more = snprintf(p->text + p->used, sizeof p->text - p->used,
+                                  "%s$w%d with lines lw 1.6 lc rgb '%s' %s", p->drawn > 0 ? ", " : "", k,
+                                  curve_colour[level % CURVE_COLOURS], named[level] ? "notitle" : title);
+        if (more < 0 || p->used + (size_t)more >= sizeof p->text) break;
+        p->used += (size_t)more;
         named[level] = true;
-        drawn++;
+        p->drawn++;
     }
-    if (drawn > 0) {
-        send_ranges(g.to, &e);
-        fprintf(g.to, "plot %s\n", plots);
-    } else
-        fputs("set xrange [0:1]\nset yrange [0:1]\nset label 'no crack grew' at 0.5,0.5 center\nplot NaN notitle\n",
-              g.to);
-    return gnuplot_close(&g);
+}
+
+/* Draws the paths in a picture as high as they need: their data are composed first, since they determine its size. */
+static status draw_paths(const struct convergence_study *s)
+{
+    const struct path picture = convergence_picture(s->study.folder, "path.png");
+    struct gnuplot g;
+    struct extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    struct path_plots plots = {.used = 0};
+    char *data = NULL;
+    size_t length = 0;
+    FILE *to = memory_stream_open(&data, &length);
+    if (!to) return status_set(FAILED, "%s: out of memory", picture.text);
+    paths_send(to, s, &e, &plots);
+    if (fclose(to) != 0) return status_set(FAILED, "%s: out of memory", picture.text);
+    if (plots.drawn > 0) extent_widen(&e);
+    const int height = paths_height(&e);
+    status done = gnuplot_open(&g, picture.text, PICTURE_PNG, PATHS_WIDE, height);
+    if (done == OK) {
+        fputs(data, g.to);
+        fprintf(g.to,
+                "set size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\nset title 'paths of the longest tip, all "
+                "runs'\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset tmargin at screen %.4f\n"
+                "set bmargin at screen %.4f\n",
+                (double)PATHS_LEFT / PATHS_WIDE, 1 - (double)PATHS_RIGHT / PATHS_WIDE, 1 - (double)PATHS_ABOVE / height,
+                (double)PATHS_BELOW / height);
+        for (int d = 0; d < 2 && plots.drawn > 0; d++)
+            fprintf(g.to, "set %crange [%.7g:%.7g]\n", "xy"[d], 1e3 * e.low[d], 1e3 * e.high[d]);
+        fprintf(g.to,
+                plots.drawn > 0 ? "plot %s\n"
+                                : "set xrange [0:1]\nset yrange [0:1]\nset label 'no crack grew' at 0.5,0.5 "
+                                  "center\nplot NaN notitle%s\n",
+                plots.text);
+        done = gnuplot_close(&g);
+    }
+    free(data);
+    return done;
 }
 
 status scalar_results_draw(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)

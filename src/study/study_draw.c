@@ -5,7 +5,8 @@
 
 #include "base/memory.h"
 #include "output/output_files.h"
-#include "plot/gnuplot.h"
+#include "plot/plot.h"
+#include "scene/words.h"
 #include "study_internal.h"
 
 enum { PANELS_MOST = 6, LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST = 4, NOTE_ROOM = 200 };
@@ -81,15 +82,19 @@ static void panels_choose(struct study_picture *p)
     panel_add(p, study_find_result(t, "loop_seconds"));
 }
 
-/* Returns true if all values of the key are numbers with the same unit. */
-static bool key_is_number(const struct varied_key *key, const char **unit)
+/* Chooses the figures that were asked for. REFUSED if there is no such figure. */
+static status panels_of(struct study_picture *p, const char *const *of, int asked)
 {
-    for (int v = 0; v < key->values; v++) {
-        const char *own;
-        if (isnan(value_read_number(key->value[v], &own)) || (v > 0 && strcmp(own, *unit) != 0)) return false;
-        *unit = own;
+    const struct study_table *t = p->table;
+    for (int k = 0; k < asked && k < PANELS_MOST; k++) {
+        const int f = study_find_result(t, of[k]);
+        if (f < 0)
+            return status_set(REFUSED, "sweep: --of %s: there is no such figure in sweep.csv; do you mean %s?",
+                              printable_name(of[k]).text,
+                              word_nearest(of[k], (const char *const *)t->figure, t->figures));
+        p->figure[p->panels++] = f;
     }
-    return true;
+    return OK;
 }
 
 /* Returns true for keys without physical meaning, such as a random seed; runs that differ in them are combined to one
@@ -309,6 +314,18 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
     return OK;
 }
 
+/* Returns the unit in which the figure of a panel is drawn. */
+static struct unit panel_unit(const struct study_picture *p, int panel)
+{
+    const double *value = p->table->value[p->figure[panel]];
+    char unit[UNIT_ROOM];
+    double largest = 0;
+    for (int c = 0; c < p->table->cases; c++)
+        if (isfinite(value[c])) largest = fmax(largest, fabs(value[c]));
+    study_result_unit(unit, sizeof unit, p->header, p->table->figure[p->figure[panel]]);
+    return unit_of_figure(unit, largest);
+}
+
 /* Sets margins, title and axis labels of a panel. up: label of the vertical axis, NULL for numbers. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
@@ -316,16 +333,17 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
     const int x = column * (p->left + WIDE + p->right) + p->left;
     const int y = p->height - row * (TITLE + HIGH + p->below) - TITLE;
     const char *figure = p->table->figure[p->figure[panel]];
-    char unit[UNIT_ROOM], text[512];
+    const struct unit unit = panel_unit(p, panel);
+    char text[512];
     fprintf(to, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)x / p->width,
             (double)(x + WIDE) / p->width);
     fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
             (double)(y - HIGH) / p->height);
-    study_result_unit(unit, sizeof unit, p->header, figure);
-    snprintf(text, sizeof text, *unit ? "%s [%s]" : "%s%s", figure, unit);
+    snprintf(text, sizeof text, *unit.name ? "%s [%s]" : "%s%s", figure, unit.name);
+    const double room = p->left + WIDE + p->right - CHARACTER, wide = 9.5 * (double)strlen(text);
     fputs("set title ", to);
     gnuplot_quote(to, text);
-    putc('\n', to);
+    fprintf(to, " font ',%.3g'\n", fmax(13 * fmin(1, room / wide), 7));
     snprintf(text, sizeof text, *p->unit ? "%s [%s]" : "%s%s", p->key[p->across].key, p->unit);
     screen_label(to, p, text, x + 0.5 * WIDE, y - HIGH - p->below + 0.9 * ROW, "center");
     if (up) screen_label(to, p, up, x - p->left + 0.8 * ROW, y - 0.5 * HIGH, "center rotate by 90");
@@ -338,13 +356,14 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across];
     struct point_of *point = means_find(p, p->figure[panel]);
+    const double factor = panel_unit(p, panel).factor;
     const char *unit;
     for (int l = 0; l < p->lines; l++) {
         fprintf(to, "$p%d_%d << EOD\n", panel, l);
         for (int v = 0; v < across->values; v++) {
             const struct point_of *at = &point[l * across->values + v];
             const double x = p->numbers ? value_read_number(across->value[v], &unit) : v;
-            if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean, at->scatter);
+            if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean / factor, at->scatter / factor);
         }
         fputs("NaN NaN NaN\nEOD\n", to); /* gnuplot refuses a block without points */
     }
@@ -432,10 +451,11 @@ static status draw_study_map(struct study_picture *p, int up)
     fprintf(g.to, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", across->values - 0.5, key_up->values - 0.5);
     for (int panel = 0; panel < p->panels; panel++) {
         struct point_of *point = means_find(p, p->figure[panel]);
+        const double factor = panel_unit(p, panel).factor;
         fprintf(g.to, "$m%d << EOD\n", panel);
         for (int l = 0; l < key_up->values; l++)
             for (int v = 0; v < across->values; v++)
-                fprintf(g.to, "%d %d %.10g\n", v, l, point[l * across->values + v].mean);
+                fprintf(g.to, "%d %d %.10g\n", v, l, point[l * across->values + v].mean / factor);
         memory_free(point);
         fputs("EOD\n", g.to);
         panel_begin(g.to, p, panel, key_up->key);
@@ -471,18 +491,20 @@ static status draw_all(struct study_picture *p)
         if (p->key[k].values < 2) continue;
         p->across = k;
         p->unit = "";
-        p->numbers = key_is_number(&p->key[k], &p->unit);
+        p->numbers = varied_key_is_number(&p->key[k], &p->unit);
         if (!p->numbers) p->unit = "";
         TRY(draw_lines(p));
     }
     return map_keys(p, &up, &p->across) ? draw_study_map(p, up) : OK;
 }
 
-status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys)
+status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys,
+                  const char *const *of, int asked)
 {
     char header[HEADER_ROOM];
     struct study_picture p = {.table = t, .study = s, .key = key, .keys = keys, .header = header};
-    panels_choose(&p);
+    TRY(panels_of(&p, of, asked));
+    if (asked == 0) panels_choose(&p);
     if (p.panels == 0) return OK;
     study_read_history_header(header, sizeof header, s);
     p.value_at = NEW("study.value_at", keys, int *);

@@ -53,4 +53,7 @@ void study_picture_name(char *name, const char *key);
  * into at most `max_intervals` intervals. */
 double axis_tick_distance(double range, int max_intervals);
 
+/* Returns true if all values of the key are numbers with the same unit, and stores a pointer to the unit in *unit. */
+bool varied_key_is_number(const struct varied_key *key, const char **unit);
+
 #endif

@@ -85,3 +85,13 @@ void study_picture_name(char *name, const char *key)
     for (char *c = name; *c; c++)
         if (*c == '/') *c = '_';
 }
+
+bool varied_key_is_number(const struct varied_key *key, const char **unit)
+{
+    for (int v = 0; v < key->values; v++) {
+        const char *own;
+        if (isnan(value_read_number(key->value[v], &own)) || (v > 0 && strcmp(own, *unit) != 0)) return false;
+        *unit = own;
+    }
+    return true;
+}

@@ -243,6 +243,29 @@ for line in "2 4.2 5.5" "2 5.2 9.9" "23 1.3" "57 0.9"; do holds "numbers of a cu
 holds "their sum leaves work out" grep -a -q 'using 1:(0+$2) with' all
 for label in "crack length \[mm\]" "force \[kN\]" "displacement \[µm\]" "energy \[mJ\]"; do holds "an axis: $label" grep -a -q "$label" all; done
 
+# Figures of a sweep are those of --of, in units with a prefix.
+: >all
+"$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.start_time --of energy.kinetic -o varied >out 2>err
+for title in "crack.start_time .[µnm]s." "energy.kinetic .[mµn]J."; do holds "a figure of a sweep: $title: $(cat err)" grep -a -q "set title '$title'" all; done
+is "no other" "$(grep -a -c "set title '[a-z]" all)" 2
+"$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.begin -o varied >out 2>err
+is "sweep --of an unknown figure: exit status" $? 2
+holds "it names the nearest" grep -q "no such figure in sweep.csv; do you mean crack\." err
+
+# Load over displacement of a rigid body that moves, from its columns; metres where they are meant; a bar has no length of cracks.
+mkdir pressed
+cat >pressed/history.csv <<'END'
+time [s],step,hammer_force_x [N],hammer_force_y [N],hammer_moment_z [N m],hammer_x [m],hammer_y [m],crack_length [m],pd_share [1]
+0,0,0,0,0,0.1,2.5,0,1
+1e-3,1,300,400,0,0.1,2.49,1.5,1
+2e-3,2,0,1200,0,0.1,2.47,2.5,1
+END
+: >all
+"$cleave" plot pressed >out 2>err
+for line in "10 0.5" "30 1.2"; do holds "force over the way of a rigid body: $line" grep -a -q "^$line$" all; done
+holds "metres" grep -a -q "crack length \[m\]" all
+holds "no axis for a share that stays the same" sh -c "! grep -a -q 'share of peridynamic' all"
+
 # A stand-in for ffmpeg: it reads pictures, writes a film of one box, and can fail or wait.
 cat >bin/ffmpeg <<'END'
 #!/bin/sh

@@ -162,7 +162,10 @@ static void axes_have_prefixes(void **state)
         assert_true(fabs(u.factor / axis[k].factor - 1) < 1e-12);
         assert_string_equal(u.name, axis[k].name);
     }
-    assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(40).factor == 1);
+    assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(6).factor == 1);
+    assert_string_equal(unit_of_figure("s", 3e-5).name, "µs");
+    assert_string_equal(unit_of_figure("m", 0.02).name, "mm");
+    assert_true(unit_of_figure("kg m/s", 3e-5).factor == 1);
 }
 
 /* A single distant particle changes neither the rectangle nor the range of colours, and is counted as outside. */
@@ -237,6 +240,29 @@ static void pixels_count(const struct plotted_particles *c, double half, int *pa
     raster_paint_particles(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
     for (int q = 0; q < PIXELS * PIXELS; q++) *(pixel[q].alpha ? painted : blank) += 1;
     memory_free(pixel);
+}
+
+/* Ends of the colours that are asked for, with units; what is beyond them is counted, also of the usual ends. */
+static void ends_of_colours_are_counted(void **state)
+{
+    (void)state;
+    struct output_frame f = block_make(40, 25, 1, 2);
+    struct plotted_particles c;
+    struct plot_request r = {.range = {"-1 kPa", "2 kPa"}, .projection.normal = -1};
+    float *value = NEW("test.value", f.n, float);
+    for (int64_t i = 0; i < f.n; i++) value[i] = (float)(i - 500) * 10; /* -5000 .. 4990 */
+    r.projection.value = value;
+    assert_int_equal(plot_field_find(&r.projection.field, "stress_xx", 2), OK);
+    plotted_particles_make(&c, &f, &r.projection);
+    struct view v;
+    assert_int_equal(view_make(&v, &r, &c, 1), OK);
+    assert_true(v.low == -1000 && v.high == 2000 && v.beyond[0] == 400 && v.beyond[1] == 299);
+    r.range[1] = "2 mm";
+    assert_int_equal(view_make(&v, &r, &c, 1), REFUSED);
+    r.range[0] = NULL;
+    assert_int_equal(view_make(&v, &r, &c, 1), OK);
+    assert_true(v.beyond[1] >= 2 && v.beyond[1] <= 5); /* 0.2 %, at least 3, of 1000 particles, one sign apart */
+    plotted_particles_free(&c), memory_free(value), frame_free(&f);
 }
 
 /* A body that is stretched by 30 %, sheared or turned has no gap inside; its area is that of the body times det F, but
@@ -408,6 +434,7 @@ int main(void)
         cmocka_unit_test(stretched_solids_are_closed),
         cmocka_unit_test(slits_are_lines_of_the_body),
         cmocka_unit_test(rigid_bodies_are_shown),
+        cmocka_unit_test(ends_of_colours_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
