@@ -153,7 +153,7 @@ $(BUILD)/tests/robustness/test_faults: $(BUILD)/tests/robustness/faults.o $(if $
 $(BUILD)/tests/robustness/test_faults: LIBS = $(SHARED) $(if $(LINUX),$(WRAPPED:%=-Wl,--wrap=%) -ldl)
 
 # Files of these tests are written and read by the library of their format, which the program does without.
-$(BUILD)/tests/unit/geometry/test_exodus $(BUILD)/tests/unit/export/test_exodus_file: WRITERS := -lnetcdf
+$(BUILD)/tests/unit/geometry/test_exodus_mesh $(BUILD)/tests/unit/export/test_exodus_file: WRITERS := -lnetcdf
 
 # The fuzzer (tests/robustness/fuzz.c): sources under sanitizers, which tell it of branches; kernels as they are.
 FUZZED   := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fsanitize-coverage=trace-pc
