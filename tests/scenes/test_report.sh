@@ -74,14 +74,14 @@ whole bare.html results/plate
 holds "says why it has no picture" grep -q '"picture_missing": ".*gnuplot' bare.html
 
 # A run that goes on, and the same run after an interruption.
-"$cleave" run plate.yaml -q -t 1 -o going -s duration=5ms -s output.every=2us >out 2>err &
+"$cleave" run plate.yaml -q -t 1 -o going -s duration=5ms -s output.frames= -s output.every=2us >out 2>err &
 run=$!
 waited=0
 until grep -q 000003 going/frames.hdf.series 2>/dev/null || [ $waited -ge 600 ]; do sleep 0.1; waited=$((waited + 1)); done
 "$cleave" report going -o going.html -q
 is "a run that goes on: exit status" $? 0
 whole going.html
-kill -INT $run
+kill -TERM $run
 wait $run
 is "the run is interrupted: exit status" $? 130
 "$cleave" report going -q
