@@ -135,7 +135,6 @@ function readPoint(e) {
 }
 
 function showStudy() {
-    readStudy();
     const sweep = page.kind === "sweep";
     section("study").querySelector("h2").textContent = sweep ? study.rows.length + " runs" : "Figures with error bars";
     const select = (names, chosen, call) => {

@@ -62,7 +62,7 @@ function showFigures() {
     const bars = summary.uncertainty || {};
     section("figures").querySelector("div").append(...[...groups].map(([group, list]) => element("div", {}, element("h3", {}, group.replace(/\.(\d+)/g, (all, k) => " " + (Number(k) + 1)).replace(/[._]/g, " ")),
         element("table", {}, ...list.map(([name, value, key]) => element("tr", {}, element("td", {}, name.replace(/_/g, " ")),
-            element("td", { className: "number", title: key + " = " + value + " " + unitOf(key) }, (typeof value === "number" ? quantity(value, unitOf(key), 5) : String(value)) + (bars[key] ? " ± " + quantity(bars[key], unitOf(key), 2) : ""))))))));
+            element("td", { className: typeof value === "number" ? "number" : "", title: key + " = " + value + " " + unitOf(key) }, (typeof value === "number" ? quantity(value, unitOf(key), 5) : String(value)) + (bars[key] ? " ± " + quantity(bars[key], unitOf(key), 2) : ""))))))));
     if (Object.keys(bars).length) byId("figures").append(element("p", { className: "soft small" }, "± is the half-width of the 95 % interval, from a convergence study of this scene."));
 }
 
@@ -74,10 +74,19 @@ function showOrigin() {
         ["particles", number(summary.particles) + ", peridynamic " + number(summary.particles_pd_start) + " at the start, " + number(summary.particles_pd_end) + " at the end"]);
     rows.push(["run ended", page.ended], ["page made", page.made + " by cleave " + page.version + (page.commit ? " (commit " + page.commit + ")" : "") + " on " + page.machine]);
     byId("origin").querySelector("table").append(...rows.filter(([, text]) => text).map(([what, text]) => element("tr", {}, element("td", { className: "soft" }, what), element("td", {}, text))));
-    if (!page.scene || page.kind !== "run") return;
+    if (!page.scene) return;
     const file = page.title.replace(/[^A-Za-z0-9_.-]/g, "_") + ".yaml", save = element("button", {}, "save " + file);
     save.addEventListener("click", () => download(file, URL.createObjectURL(new Blob([page.scene], { type: "text/yaml" }))));
-    byId("repeat").append(element("p", {}, "To repeat it, ", save, " and run ", element("code", {}, "cleave run " + file + " -t " + (summary ? summary.threads : 1)), ". The result is the same to the last bit on any number of threads."));
+    byId("repeat").append(element("p", {}, "To repeat it, ", save, " and run ", element("code", {}, commandOf(file)),
+        page.kind === "run" ? ". The result is the same to the last bit on any number of threads." : page.kind === "converge" ? ", with the options that it was given." : "."));
+}
+
+// The command that repeats what the page shows.
+function commandOf(file) {
+    if (page.kind === "run") return "cleave run " + file + " -t " + (summary ? summary.threads : 1);
+    if (page.kind === "converge") return "cleave converge " + file;
+    const quoted = (text) => (/^[A-Za-z0-9_.,=+-]*$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'");
+    return "cleave sweep " + file + study.keys.map((key) => " -s " + quoted(key + "=" + [...new Set(study.rows.map((row) => at(row, key)))].join(","))).join("");
 }
 
 function showScene() {
@@ -99,6 +108,7 @@ function redraw() {
     if (page.table) drawStudy();
 }
 
+if (page.table) readStudy();
 showHead();
 if (summary) showCards(), showFigures();
 showWarnings(summary ? summary.warnings : page.warnings);

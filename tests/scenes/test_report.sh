@@ -145,10 +145,16 @@ is "a sweep: exit status" $? 0
 whole sweep/report.html
 holds "a sweep's table" grep -q '"table": "run,state,particles.spacing,thickness,' sweep/report.html
 if command -v gnuplot >/dev/null; then holds "a sweep's pictures" grep -q '"name": "map.png"' sweep/report.html; fi
-"$cleave" converge plate.yaml -s particles.spacing=2mm --runs 1 --levels 3 -o study -q >out 2>err
-"$cleave" report study -q
+"$cleave" converge plate.yaml -s particles.spacing=2mm --runs 1 --levels 3 -o results/plate_converge -q >out 2>err
+"$cleave" report results/plate_converge -o study.html -q
 is "a convergence study: exit status" $? 0
-whole study/report.html
-holds "the study's table" grep -q '"table": "figure,unit,value,uncertainty,' study/report.html
+whole study.html
+holds "the study's table" grep -q '"table": "figure,unit,value,uncertainty,' study.html
+
+# With the study beside it, a run of its scene has error bars, and so has its page.
+"$cleave" run plate.yaml -s particles.spacing=2mm -o results/bars -q --report >out 2>err
+whole results/bars/report.html results/bars
+holds "error bars" grep -q 'uncertainty.": {.u000a *."[a-z_.]*.": [0-9]' results/bars/report.html
+is "the processor in the summary" "$(figure results/bars processor)" "$("$cleave" info | sed -n 's/^processor *//p')"
 
 finish
