@@ -207,9 +207,13 @@ int accuracy_cheapest(const struct accuracy_dot *dot, int n, double error);
  * critical step, unless they are the usual ones. text: capacity `size` [byte]. */
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size);
 
-/* Draws results/bench/accuracy_<problem>.png for every problem with known points, and accuracy.png with all
- * problems. */
+/* Draws results/bench/accuracy_<problem>.png for every problem with known points, and accuracy.png
+ * (accuracy_chart). */
 status accuracy_draw(const struct accuracy_plan *plan);
+
+/* Draws results/bench/accuracy.png: all problems with the fronts of peridynamics, of material points and of both
+ * together, and the number of problems on which each is cheapest (accuracy_chart.c). */
+status accuracy_chart(const struct accuracy_plan *plan);
 
 /* Writes results/bench/accuracy.md and prints the same table. */
 status accuracy_page(const struct accuracy_plan *plan);

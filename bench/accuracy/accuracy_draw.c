@@ -1,4 +1,4 @@
-/* Pictures of the cost-accuracy table: one per problem with a panel for each case, and one page with all problems.
+/* Pictures of the cost-accuracy table: one per problem with a panel for each case.
  *
  * A dot is a run, at its time on one thread. Runs on the Pareto front (no other is better in both time and error) have
  * the colour of their family, and a label if there is space. All others are small and grey. A cross at the upper edge
@@ -320,7 +320,5 @@ status accuracy_draw(const struct accuracy_plan *plan)
         snprintf(name, sizeof name, "accuracy_%s", accuracy_problem[k]->name);
         TRY(draw_and_free(&one, name));
     }
-    struct page all = {0};
-    for (int k = 0; k < accuracy_problems; k++) add_panel(&all, plan, accuracy_problem[k], -1, -1);
-    return draw_and_free(&all, "accuracy");
+    return accuracy_chart(plan);
 }

@@ -157,7 +157,8 @@ static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_store_read(plan));
-    return accuracy_table_write(plan);
+    TRY(accuracy_table_write(plan));
+    return accuracy_draw(plan);
 }
 
 static status accuracy_measure_all(struct accuracy_plan *plan, const char *only, bool quick)

@@ -140,6 +140,8 @@ particles,steps,stable,version,settings ] || fail "columns of accuracy.csv"
 for file in accuracy.json accuracy.md accuracy.png accuracy.svg accuracy_bar.png accuracy_bar.svg cost_accuracy.csv; do
     [ -s $file ] || fail "$file is missing"
 done
+grep -q 'Which is cheapest? At 5 % error: pd on [01] of 1 problems, mpm [01], adaptive [01]' accuracy.svg || fail "the picture does not answer its question"
+rm accuracy.svg
 cd ../..
 
 # The stored table has the form of bench/accuracy/cost_accuracy.csv, and is rewritten from known results without a run.
