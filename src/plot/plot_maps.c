@@ -37,7 +37,10 @@ static struct layout layout_of(int columns, int panels, double aspect, int right
     l.panel_height = (int)fmax(lround(panel * aspect), PANEL_MIN);
     l.width = LEFT + right + between_x + columns * l.panel_width;
     l.height = ABOVE + BELOW + between_y + l.rows * l.panel_height;
-    if (given.width) l.width = given.width, l.height = given.height;
+    if (given.width) {
+        l.right += given.width - l.width; /* the bar stays beside the panels */
+        l.width = given.width, l.height = given.height;
+    }
     return l;
 }
 

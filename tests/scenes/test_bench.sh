@@ -149,6 +149,7 @@ cd ../..
 cp results/bench/cost_accuracy.csv kept
 rm results/bench/cost_accuracy.csv
 "$cleave" bench accuracy=chart >out || fail "accuracy=chart failed"
+[ -s results/bench/accuracy.svg ] || fail "accuracy=chart draws no picture"
 cmp -s kept results/bench/cost_accuracy.csv || fail "accuracy=chart writes another table"
 
 # Couplings: columns, and values known from the literature and from an independent prototype.
