@@ -17,6 +17,7 @@ enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
 enum pd_model {
     PD_BOND,         /* elastic, brittle */
     PD_BOND_PLASTIC, /* elastic-plastic, brittle; needs the plastic arrays of struct bonds */
+    PD_BOND_SOFT,    /* elastic, softening; needs struct softened */
     PD_OSPD,         /* ordinary state-based (Silling et al. 2007); needs struct state */
     PD_MOSPD,        /* modified state-based: with the rotations of the particles (pd/state_laws.h) */
     PD_MODELS
@@ -117,6 +118,12 @@ typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
+
+/* Lets bonds begin to soften that are stretched beyond their onset, in the row blocks (the bonds of eight particles)
+ * that the last sweep has marked as due, unless the stress across the bond forbids it (pd/bond_begin.c). Both rows of a
+ * bond decide alike. Energy that a bond loses at once, as it was beyond its onset already, is added to the fracture
+ * energy. Called by bond_forces. */
+KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Computes pressure (from the dilatation), spring stiffness and rotation of all families (all neighbours of a particle)
  * from the present positions into b->state: the first of the two loops of a state-based force. Call it before these

@@ -47,6 +47,29 @@ struct bond_plasticity {
     real stretch, path;
 };
 
+/* Bonds that soften (data/softening.h). A row block stores the arrays [columns 8] once one of its bonds has begun.
+ * A bond that may not soften yet, or is brittle, has onset = most = SOFTENING_NEVER, and `end` is the stretch above
+ * which it is examined. Bonds begin between two sweeps, by row blocks that a sweep has marked as due. */
+#define SOFTENING_NEVER 1e30f
+enum softening_due {
+    DUE_NOT,
+    DUE_NEW,
+    DUE_AGAIN,     /* the stress forbade a bond to begin; examined again when limit.retries */
+    DUE_DENIED = 4 /* bit that is set while row blocks are examined: becomes AGAIN */
+};
+struct softened {
+    const struct softening_curve *curve; /* NULL: no bond softens */
+    float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of a bond [1] */
+    uint8_t *begun;                      /* [row blocks] 1: the arrays are valid */
+    uint8_t *due;                        /* [row blocks] enum softening_due */
+    bool any_due;                        /* an entry of `due` is not DUE_NOT */
+    bool at_points;                      /* bonds of material points have begun since this was cleared */
+    uint8_t *needed;                     /* [row blocks 8] working memory: the dilatation of the row is needed */
+    real *dilatation;                    /* [row blocks 8] working memory: trace of the strain of the family [1] */
+    const struct image *image;           /* [images] borrowed */
+    real least_ratio;                    /* no bond ends below the trigger of its row times this [1] */
+};
+
 /* Origin of a mirror image: its source, and the axis normal to its plane of symmetry (-1: clamped plane). */
 struct state_image {
     int32_t source;
@@ -191,6 +214,7 @@ struct bonds {
     int32_t *broken;       /* [row blocks 8] bonds broken by load since the start */
     struct state state;
     struct clamped clamped;
+    struct softened soft;
     struct active_set active; /* active row blocks */
     real core;                /* stiffness of the cores (kernels/pd/bond_core.h) over that of the bonds [1] */
     real stiffness;           /* c V V of a bond between reference particles: force = stiffness w s [N] */
@@ -203,6 +227,57 @@ static inline bool row_block_is_complete(const struct bonds *b, int64_t row_bloc
     return load_eight_bytes(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
 
+/* State of a bond that softens, as in struct softened. */
+struct bond_softness {
+    float most, onset, end;
+};
+
+/* Returns the state of a bond of the given range that may not soften yet, or is brittle. */
+static inline struct bond_softness bond_softness_closed(struct softening_range range)
+{
+    return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST))};
+}
+
+/* Stores the state of the bond with index q. */
+static inline void bond_softness_put(struct softened *s, int64_t q, struct bond_softness state)
+{
+    s->most[q] = state.most, s->onset[q] = state.onset, s->end[q] = state.end;
+}
+
+/* State of an entry without a bond. */
+static const struct bond_softness bond_softness_none = {1, 1, 2};
+
+/* Returns true if a bond of row block `row_block` (the bonds of eight particles) has begun to soften. */
+static inline bool row_block_softens(const struct bonds *b, int64_t row_block)
+{
+    return b->soft.curve && b->soft.begun[row_block];
+}
+
+/* Returns true if the bond with index q, in row block `row_block`, has begun to soften or may do so without question.
+ */
+static inline bool bond_softens(const struct bonds *b, int64_t row_block, int64_t q)
+{
+    return row_block_softens(b, row_block) && b->soft.onset[q] < SOFTENING_NEVER;
+}
+
+/* Returns the share 1 - d of its stiffness that the bond with index q, in row block `row_block`, has at the stretch
+ * `stretch` [1]. */
+static inline real bond_kept_share(const struct bonds *b, int64_t row_block, int64_t q, real stretch)
+{
+    if (stretch <= 0 || !bond_softens(b, row_block, q)) return 1;
+    return softening_kept(b->soft.curve, b->soft.onset[q], b->soft.end[q], real_max(b->soft.most[q], stretch));
+}
+
+/* Returns half the energy that the softening of the bond with index q, in row block `row_block`, has dissipated so far
+ * [J], the share of one of its two rows; 0 if the bond is broken. */
+static inline real bond_half_spent(const struct bonds *b, int64_t row_block, int64_t q)
+{
+    if (!bond_softens(b, row_block, q) || b->w[q] == 0) return 0;
+    return 0.5 * b->stiffness * b->w[q] *
+           softening_spent(b->soft.curve, b->soft.onset[q], b->soft.end[q], b->soft.most[q]) /
+           fabs(b->inverse_length[q]);
+}
+
 /* Recomputes the common properties b->common[column] of one column (eight bonds, one of each particle of a row block)
  * from the stored weights and lengths of its bonds. Required after a change of w or of the sign of inverse_length;
  * usually called through bonds_update_common_of_bond. */
@@ -212,6 +287,10 @@ void bonds_update_column_common(const struct bonds *b, int64_t column);
  * length has changed. row: the row (all bonds of one particle) of the bond, whose row block no longer follows a
  * stencil. */
 void bonds_update_common_of_bond(struct bonds *b, int64_t row, int64_t bond);
+
+/* Makes a row block store the state of bonds that soften, of which none has begun. limit: of the bonds. */
+void row_block_open_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                             int64_t row_block);
 
 /* Writes the columns of a row block that stored none and followed a stencil (a list of columns shared by many row
  * blocks of a lattice), so that its bonds can be changed. Does nothing if the columns are already written. May be

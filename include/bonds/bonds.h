@@ -81,9 +81,10 @@ real bonds_critical_step_of_existing(const struct bonds *b, const struct particl
 
 /* Copies broken bonds, counts of broken bonds and damage from the bonds `old` of an earlier particle set
  * `old_particles` to the bonds b of the particles p. new_index: index in p of each particle of `old_particles`, images
- * included; -1: the particle is not in p. In both sets peridynamic particles must have all their neighbours. */
-void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bonds *old,
-                           const struct particles *old_particles, const int32_t *new_index);
+ * included; -1: the particle is not in p. limit: of the bonds. In both sets peridynamic particles must have all their
+ * neighbours. */
+void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                           const struct bonds *old, const struct particles *old_particles, const int32_t *new_index);
 
 /* Saves (a->saving) or restores which bonds are broken and their plastic state; neighbours and weights are not stored,
  * since bonds_make rebuilds them. A trial archive (a->scope) contains only the plastic state, without the work of
@@ -102,7 +103,14 @@ void state_update_weighted_volumes(struct bonds *b, const struct particles *p, c
  * violated one, or NULL if all hold. */
 const char *bonds_find_violation(const struct bonds *b);
 
-/* Returns the bond energy released by all bonds broken since the start [J]. */
+/* Returns the energy that bonds which still exist have dissipated by softening [J]. */
+real bonds_softening_energy(const struct bonds *b);
+
+/* Returns the damage that the softening of its intact bonds adds to the particle of a row, the sum of d V_j over its
+ * family's volume [1]; 0 if row is -1. */
+real bonds_row_softening(const struct bonds *b, const struct particles *p, int64_t row);
+
+/* Returns the energy released by all bonds broken since the start, and dissipated by softening [J]. */
 real bonds_fracture_energy(const struct bonds *b);
 
 /* Returns eight bits: bit l is set if the particle in lane l (0 to 7) of row block `row_block` has an intact bond. */

@@ -6,6 +6,7 @@
 #include "data/cells.h"
 #include "data/material.h"
 #include "data/region.h"
+#include "data/softening.h"
 #include "data/voids.h"
 
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
@@ -38,16 +39,33 @@ struct family {
  * all or none of its force in the first step that finds it beyond its limit. */
 enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FORCE_NONE };
 
+/* Time steps between two examinations of bonds that were not allowed to soften; empirical. */
+enum { SOFTENING_RETRY_STEPS = 8 };
+
 /* Critical stretches by pair of materials [materials^2]; INFINITY: never breaks. */
 struct bond_limit {
     const real *critical_stretch; /* [1] */
     int materials;
     enum last_force last_force;
-    real dt; /* time between the positions of two steps [s] */
+    real dt;                                /* time between the positions of two steps [s] */
+    const struct softening_pair *softening; /* [materials^2] softening by pair of materials; NULL: bonds are brittle */
+    const struct softening_curve *curve;    /* of all bonds that soften */
+    bool retries; /* bonds that were not allowed to soften are examined again in this step (kernels/pd/soften.c) */
 };
 
 /* Limit of bonds that never break, for all pairs of materials. */
 extern const struct bond_limit bond_limit_never;
+
+/* Returns the stretches [1] at which the bond between particles i and j begins to soften and ends; both are the
+ * critical stretch where it is brittle. */
+static inline struct softening_range bond_range_of(const struct particles *p, const struct bond_limit *limit, int64_t i,
+                                                   int64_t j)
+{
+    const int pair = p->material[i] * limit->materials + p->material[j];
+    const real strength = bond_strength_factor(p, i, j);
+    if (limit->softening) return softening_range_of(limit->curve, &limit->softening[pair], strength);
+    return (struct softening_range){limit->critical_stretch[pair] * strength, limit->critical_stretch[pair] * strength};
+}
 
 /* Yield stretch s_y and hardening modulus over the elastic one, H_b/k_e, by pair of materials [materials^2]; stretch
  * NULL: no bond yields. */

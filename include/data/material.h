@@ -14,6 +14,9 @@ enum space { SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID };
 /* Returns the dimension of a space. */
 static inline int space_dim(enum space s) { return s == SPACE_LINE ? 1 : s == SPACE_SOLID ? 3 : 2; }
 
+/* How the force of a bond that softens falls beyond its peak (softening.h). */
+enum softening { SOFTENING_LINEAR, SOFTENING_BILINEAR, SOFTENING_EXPONENTIAL };
+
 /* A material. */
 struct material {
     char name[NAME_MAX_LENGTH];
@@ -21,6 +24,10 @@ struct material {
     real young, poisson, density; /* [Pa] [1] [kg/m^3] */
     real energy_release_rate;     /* G_c [J/m^2]; NAN: not given */
     real critical_stretch;        /* s_c [1], computed from G_c if not given; INFINITY: never breaks */
+    real tensile_strength;        /* sigma_t of a material whose bonds soften [Pa]; NAN: its bonds are brittle */
+    enum softening softening;     /* of bonds that soften */
+    bool softening_given;         /* the scene names it */
+    real onset_stretch;           /* s_0 at which bonds begin to soften; critical_stretch if they are brittle [1] */
     real yield_stress;            /* sigma_y [Pa]; INFINITY or 0: elastic */
     real yield_tangent;           /* E_t: slope of the uniaxial stress-strain curve beyond sigma_y, below E [Pa] */
     struct {
@@ -35,6 +42,9 @@ struct material {
     real shear_speed, rayleigh_speed; /* [m/s]; 0 in 1D */
     real bulk;                        /* E in 1D, in-plane k2 = (c11 + c12)/2 in 2D, K in 3D [Pa] */
 };
+
+/* Returns true if the bonds of the material soften (softening.h). */
+static inline bool material_softens(const struct material *m) { return m->tensile_strength > 0; }
 
 /* Returns true if the material yields. */
 static inline bool material_yields(const struct material *m)

@@ -137,6 +137,7 @@ struct frame_state {
     real *plastic_work;                /* plastic work per volume [J/m^3] */
     real *plastic_strain;              /* plastic strain of material points, mean over the bonds of PD particles;
                                         * NULL: use the particles' own [1] */
+    real *damage;                      /* damage with that of softening bonds; NULL: use the particles' own [1] */
     uint8_t *level;                    /* refinement level of the coarse cell that holds the material point; 0 if
                                         * none */
 };

@@ -24,9 +24,11 @@ struct run_clock {
 
 /* Constants of the materials, and the arrays that `source` of the bonds refers to. */
 struct material_tables {
-    struct elastic *elastic;       /* [materials] */
-    struct state_modulus *modulus; /* [materials] of state-based models, else NULL */
-    real *pair_stretch;            /* [materials^2] critical stretch of bonds between two materials */
+    struct elastic *elastic;               /* [materials] */
+    struct state_modulus *modulus;         /* [materials] of state-based models, else NULL */
+    real *pair_stretch;                    /* [materials^2] critical stretch of bonds between two materials */
+    struct softening_pair *pair_softening; /* [materials^2] softening of these bonds; NULL: none soften */
+    struct softening_curve curve;          /* of bonds that soften */
     /* [materials^2] yield stretch and hardening of bonds between two materials; NULL: elastic */
     real *pair_yield, *pair_hardening;
     int *mirror_axis;                 /* [boundaries] axis of a mirror; -1: clamped */

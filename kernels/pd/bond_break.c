@@ -27,11 +27,12 @@ static void set_flag(struct particles *p, int32_t i, int flag)
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* Returns half the elastic energy of bond q at the given stretch [J], the share of one of its two rows. Only for
- * bond-based models. */
-static real half_energy(const struct bonds *b, int64_t q, real stretch)
+/* Returns half the elastic energy of bond q of a row at the given stretch [J], the share of one of its two rows. Only
+ * for bond-based models. */
+static real half_energy(const struct bonds *b, int64_t row, int64_t q, real stretch)
 {
-    return 0.25 * b->stiffness * b->w[q] * square(bond_entry_elastic_stretch(b, q, stretch)) /
+    const real elastic = bond_entry_elastic_stretch(b, row / LANES, q, stretch);
+    return 0.25 * b->stiffness * b->w[q] * (b->soft.curve ? stretch * elastic : square(elastic)) /
            fabs(b->inverse_length[q]);
 }
 
@@ -59,13 +60,30 @@ static void row_changed(struct bonds *b, int64_t row)
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
 /* Replaces the force of a breaking bond on particle i, which the force kernel has added to p->f, by `share` [1] times
- * its force with the states before bonds broke. */
+ * its force with the states before bonds broke. A bond that softens becomes brittle. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
     bond_force_of_any_model(b, p, bond, i, true, given);
+    if (bond_softens(b, b->row_of[i] / LANES, bond->entry)) /* it has gone from the onset past its end in one step */
+        b->soft.onset[bond->entry] = b->soft.most[bond->entry] = SOFTENING_NEVER;
     bond_force_of_any_model(b, p, bond, i, false, f);
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
+}
+
+/* Ends bond q of a row, which has softened until its end and has no force: adds what its softening has dissipated to
+ * the fracture energy of the row, and marks it as broken. */
+static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64_t q)
+{
+    b->soft.most[q] = b->soft.end[q];
+    b->fracture_energy[row] += bond_half_spent(b, row / LANES, q);
+    bond_end(b, p, row, q, b->particle[row], b->nbr[q]);
+}
+
+/* Returns true if bond q of a row has softened. */
+static bool has_softened(const struct bonds *b, int64_t row, int64_t q)
+{
+    return bond_softens(b, row / LANES, q) && b->soft.most[q] > b->soft.onset[q];
 }
 
 /* Breaks bond q of a row: replaces its force on the particle by that of the step in which it breaks (bond_last.h), adds
@@ -78,8 +96,9 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
     const struct bond bond = {q, j, b->inverse_length[q], b->w[q]};
     const bool state = b->state.modulus != NULL;
     last_force(b, p, &bond, i, last.share);
-    b->fracture_energy[row] += state ? state_row_energy(b, p, row, last.lag)
-                                     : half_energy(b, q, bond_stretch_earlier(p, b->inverse_length[q], i, j, last.lag));
+    b->fracture_energy[row] +=
+        state ? state_row_energy(b, p, row, last.lag)
+              : half_energy(b, row, q, bond_stretch_earlier(p, b->inverse_length[q], i, j, last.lag));
     if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_plastic_work_of(b, &bond);
     bond_end(b, p, row, q, i, j);
     row_changed(b, row);
@@ -95,7 +114,8 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     const int32_t i = b->particle[row], j = b->nbr[q];
     const bool state = b->state.modulus != NULL;
     const real stretch = bond_stretch_earlier(p, b->inverse_length[q], i, j, 0);
-    const real before = state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch);
+    const real before = state ? state_row_energy(b, p, row, 0) : half_energy(b, row, q, stretch);
+    const real spent = bond_half_spent(b, row / LANES, q);
     if (w > 0)
         b->w[q] = w;
     else if (b->inverse_length[q] > 0)
@@ -104,7 +124,9 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
         b->w[q] = 0;
     bonds_update_common_of_bond(b, row, q);
     row_changed(b, row);
-    b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch)));
+    b->fracture_energy[row] +=
+        0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, row, q, stretch)));
+    b->fracture_energy[row] += spent - bond_half_spent(b, row / LANES, q);
 }
 
 void bond_break_entry(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
@@ -124,6 +146,26 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     row_changed(b, row);
 }
 
+/* Marks row block g as due: one of its bonds may begin to soften before the next sweep (bond_begin.c). */
+static void mark_due(struct bonds *b, int64_t g)
+{
+    if (b->soft.due[g] == DUE_NOT) b->soft.due[g] = DUE_NEW;
+    __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
+}
+
+/* Returns true if bond q of a row, from particle i to j, is beyond its end. Marks the row block as due if the bond is
+ * beyond its onset and has not begun to soften. */
+static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
+                    int32_t i, int32_t j)
+{
+    const real stretch = bond_stretch_earlier(p, b->inverse_length[q], i, j, 0);
+    if (!b->soft.curve) return stretch > bond_breaking_stretch(p, limit, i, j);
+    if (bond_softens(b, row / LANES, q)) return stretch > b->soft.end[q];
+    const struct softening_range range = bond_range_of(p, limit, i, j);
+    if (stretch > range.onset && range.onset < range.end) mark_due(b, row / LANES);
+    return stretch > range.end;
+}
+
 /* Breaks the bonds of one row (all bonds of one particle) whose stretch exceeds their limit. Returns the number of
  * bonds broken. */
 static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
@@ -134,8 +176,11 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
         const int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
-        if (!(bond_stretch_earlier(p, b->inverse_length[q], i, j, 0) > bond_breaking_stretch(p, limit, i, j))) continue;
-        bond_break(b, p, limit, row, q);
+        if (!is_past(b, p, limit, row, q, i, j)) continue;
+        if (has_softened(b, row, q))
+            bond_finish(b, p, row, q);
+        else
+            bond_break(b, p, limit, row, q);
         broken++;
     }
     return broken;
@@ -194,10 +239,12 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
 }
 
 /* Returns the mask of those rows of row block g that may have a bond above its breaking limit: above the limit stored
- * for the row where strength is random, else above the smallest critical stretch of all materials. */
+ * for the row where strength is random or bonds soften, else above the smallest critical stretch of all materials. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
-    const lanes least = p->strength ? lanes_load(b->trigger + g * LANES) : lanes_broadcast(least_limit(limit));
+    const bool stored = p->strength || b->soft.curve;
+    const lanes share = lanes_broadcast(b->soft.curve && !b->soft.begun[g] ? b->soft.least_ratio : 1);
+    const lanes least = stored ? lanes_load(b->trigger + g * LANES) * share : lanes_broadcast(least_limit(limit));
     return p->dim == 1   ? rows_past(b, p, g, least, 1)
            : p->dim == 2 ? rows_past(b, p, g, least, 2)
                          : rows_past(b, p, g, least, 3);
@@ -205,6 +252,7 @@ static lanes_mask rows_due(const struct bonds *b, const struct particles *p, con
 
 int64_t bond_break_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block)
 {
+    if (limit->softening && !b->soft.begun[row_block]) mark_due(b, row_block);
     const lanes_mask past = rows_due(b, p, limit, row_block);
     int64_t broken = 0;
     for (int l = 0; l < LANES && row_block * LANES + l < b->rows && lanes_any(past); l++)

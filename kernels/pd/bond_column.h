@@ -73,6 +73,16 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
                 VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                         \
     } while (0)
 
+/* Calls VISIT(column) for every column of a row block as FOR_COLUMNS does, or VISIT_BRITTLE(column) if MODEL is
+ * PD_BOND_SOFT and no bond of the row block has begun to soften. */
+#define FOR_COLUMNS_BY_LAW(B, ROW_BLOCK, MODEL, VISIT, VISIT_BRITTLE)                                                  \
+    do {                                                                                                               \
+        if ((MODEL) != PD_BOND_SOFT || (B)->soft.begun[ROW_BLOCK])                                                     \
+            FOR_COLUMNS(B, ROW_BLOCK, VISIT);                                                                          \
+        else                                                                                                           \
+            FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
+    } while (0)
+
 /* Returns the values of the particle array `from` at the neighbours of the eight bonds of column s. */
 static ALWAYS_INLINE lanes column_gather_neighbours(const struct column s, const real *from)
 {

@@ -20,7 +20,8 @@
 #define TINY 1e-300 /* keeps the root finite in lanes without a bond, where the distance is 0 */
 
 /* Sums over the columns of a row block: positions x0, x1, x2 of its eight particles [m], forces on them over the
- * stiffness f0, f1, f2, and the largest (stretch) and smallest (press) stretch of their bonds [1]. */
+ * stiffness f0, f1, f2, and the largest (stretch) and smallest (press) stretch of their bonds [1]; where bonds soften,
+ * the largest stretch less the end of the bond. */
 struct bond_sums {
     lanes x0, x1, x2, f0, f1, f2, stretch, press;
 };
@@ -40,7 +41,9 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     const lanes inverse = lanes_inverse_square_root(distance2), w = column_weight(s);
     const lanes stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
     const lanes force = bonds_normalised_force(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
-    sum.stretch = column_max_intact(s, sum.stretch, stretch);
+    const lanes beyond =
+        model == PD_BOND_SOFT ? stretch - lanes_load_floats(s.b->soft.end + s.number * LANES) : stretch;
+    sum.stretch = column_max_intact(s, sum.stretch, beyond);
     sum.press = column_min_intact(s, sum.press, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
@@ -74,7 +77,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     if (dim > 1) row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
     if (dim > 2) row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
     *pressed = lanes_any(sum.press < CORE_FROM - 1);
-    return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
+    return lanes_any(sum.stretch > (model == PD_BOND_SOFT ? zero : lanes_load(b->trigger + g * LANES)));
 }
 
 /* Computes the forces on the particles of row block g, repulsive cores included, and breaks its bonds beyond their
@@ -83,7 +86,8 @@ static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct partic
                                                   int64_t g, const int dim, const enum pd_model model)
 {
     bool pressed;
-    const bool past = bond_force_row_block(b, p, g, dim, model, &pressed);
+    const bool past = model == PD_BOND_SOFT && !b->soft.begun[g] ? bond_force_row_block(b, p, g, dim, PD_BOND, &pressed)
+                                                                 : bond_force_row_block(b, p, g, dim, model, &pressed);
     if (__builtin_expect(pressed, 0)) row_block_add_core_forces(b, p, g);
     return past ? bond_break_row_block(b, p, limit, g) : 0;
 }

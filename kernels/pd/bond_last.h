@@ -22,11 +22,14 @@ static inline real bond_stretch_earlier(const struct particles *p, real inverse_
     return sqrt(distance2) * fabs(inverse_length) - 1;
 }
 
-/* Returns the stretch at which the bond i-j breaks [1]: critical stretch of its materials times its strength. */
+/* Returns the stretch at which the bond i-j breaks if it is brittle [1]: critical stretch of its materials times its
+ * strength. A bond that softens spends as much energy. */
 static inline real bond_breaking_stretch(const struct particles *p, const struct bond_limit *limit, int32_t i,
                                          int32_t j)
 {
-    return limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] * bond_strength_factor(p, i, j);
+    const int pair = p->material[i] * limit->materials + p->material[j];
+    const bool alone = limit->softening && limit->softening[pair].strength_scatters;
+    return limit->critical_stretch[pair] * (alone ? 1 : bond_strength_factor(p, i, j));
 }
 
 /* When a bond breaks within a time step: `lag`, the time before the present positions at which its stretch exceeded the

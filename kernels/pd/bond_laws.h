@@ -32,42 +32,81 @@ static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t q
     return stretch - plastic;
 }
 
+/* Returns the stretch times the share of their stiffness that the eight bonds with indices q to q + 7 keep, in a row
+ * block that softens [1] (data/softening.h). most: their largest stretches, the present ones included [1]. */
+static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t q, lanes stretch, lanes most)
+{
+    const struct softening_curve *c = b->soft.curve;
+    const lanes onset = lanes_load_floats(b->soft.onset + q);
+    const lanes x = (most - onset) / (lanes_load_floats(b->soft.end + q) - onset);
+    lanes level = lanes_broadcast(0);
+    for (int k = 0; k < c->pieces; k++) level = lanes_max(level, c->level[k] - c->slope[k] * x);
+    return lanes_choose(stretch > 0.0, stretch * (onset * level / most), stretch);
+}
+
+/* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices q to q + 7
+ * as their largest ones where they exceed these. A bond beyond its end keeps its largest stretch, which tells whether
+ * it has softened before. */
+static ALWAYS_INLINE lanes bonds_soften(const struct bonds *b, int64_t q, lanes stretch)
+{
+    const lanes before = lanes_load_floats(b->soft.most + q), most = lanes_max(before, stretch);
+    const lanes_mask grows = (stretch > before) & (stretch <= lanes_load_floats(b->soft.end + q));
+    if (lanes_any(grows)) lanes_store_floats(b->soft.most + q, lanes_choose(grows, stretch, before));
+    return bonds_softened_stretch(b, q, stretch, most);
+}
+
 /* Returns the force of the eight bonds with indices q to q + 7, divided by stiffness and weight [1]. It equals the
- * stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), or its elastic part where bonds yield; the plastic
- * state of those is updated. stretch: total stretch; w: weights, 0 for broken bonds [1]. */
+ * stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), or its elastic part where bonds yield, or less where
+ * they soften; the state of those is updated. stretch: total stretch; w: weights, 0 for broken bonds [1]. */
 static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, const struct bonds *b, int64_t q,
                                                   lanes stretch, lanes w)
 {
-    return model == PD_BOND_PLASTIC ? bonds_return_mapping(b, q, stretch, w > 0.0) : stretch;
+    return model == PD_BOND_PLASTIC ? bonds_return_mapping(b, q, stretch, w > 0.0)
+           : model == PD_BOND_SOFT  ? bonds_soften(b, q, stretch)
+                                    : stretch;
 }
 
 /* Returns the elastic part of the stretch of the eight bonds with indices q to q + 7 [1]: the total stretch `stretch`
- * less the stored plastic stretch of models that yield. */
+ * less the stored plastic stretch of models that yield; where bonds soften, the stretch times the share of their
+ * stiffness that they keep. */
 static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, const struct bonds *b, int64_t q,
                                                  lanes stretch)
 {
+    if (model == PD_BOND_SOFT)
+        return bonds_softened_stretch(b, q, stretch, lanes_max(lanes_load_floats(b->soft.most + q), stretch));
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + q) : stretch;
 }
 
-/* Returns the elastic part of the stretch of the bond at entry q [1]. */
-static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t q, real stretch)
+/* Returns the elastic part of the stretch of the bond with index q in a row block, as bonds_elastic_stretch [1]. */
+static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t q, real stretch)
 {
+    if (b->soft.curve) return stretch * bond_kept_share(b, row_block, q, stretch);
     return b->plastic_stretch ? stretch - b->plastic_stretch[q] : stretch;
 }
 
-/* Returns the elastic energy of eight bonds divided by stiffness, weight and reference length [1]. elastic: elastic
- * part of their stretches [1]. */
-static ALWAYS_INLINE lanes bonds_normalised_energy(lanes elastic) { return 0.5 * elastic * elastic; }
+/* Returns the elastic energy of eight bonds divided by stiffness, weight and reference length [1]. stretch: their
+ * stretches; elastic: elastic part of these, which is their normalised force [1]. */
+static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, lanes stretch, lanes elastic)
+{
+    return 0.5 * (model == PD_BOND_SOFT ? stretch : elastic) * elastic;
+}
 
 /* ---- one bond, for samples and frames ---------------------------------------------------------------------- */
 
-/* Returns the elastic part of the stretch of a bond in the row of particle i [1]. */
-static inline real bond_elastic_stretch_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
-                                           int32_t i)
+/* Returns the stretch of a bond in the row of particle i [1]. */
+static inline real bond_stretch_of(const struct particles *p, const struct bond *bond, int32_t i)
 {
     real distance2 = 0;
     for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][bond->nbr] - p->x[d][i]);
-    return bond_entry_elastic_stretch(b, bond->entry, sqrt(distance2) * bond->inverse_length - 1);
+    return sqrt(distance2) * bond->inverse_length - 1;
+}
+
+/* Returns the elastic part of the stretch of a bond in the row of particle i, its force over stiffness and weight
+ * [1]. */
+static inline real bond_elastic_stretch_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                           int32_t i)
+{
+    return bond_entry_elastic_stretch(b, b->row_of[i] / LANES, bond->entry, bond_stretch_of(p, bond, i));
 }
 
 /* Returns the force of a bond in the row of particle i [N], equal to the force kernel's; tension is positive. */
@@ -90,7 +129,9 @@ static inline void bond_force_vector(const struct bonds *b, const struct particl
 static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     if (bond->w == 0) return 0;
-    return 0.5 * b->stiffness * bond->w * square(bond_elastic_stretch_of(b, p, bond, i)) / bond->inverse_length;
+    const real elastic = bond_elastic_stretch_of(b, p, bond, i);
+    return 0.5 * b->stiffness * bond->w * (b->soft.curve ? bond_stretch_of(p, bond, i) : elastic) * elastic /
+           bond->inverse_length;
 }
 
 /* Returns the plastic work of a bond [J]: closed form, since hardening is linear and the path only grows. */

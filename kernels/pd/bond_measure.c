@@ -37,7 +37,7 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
     const lanes w = column_weight(s), inverse = column_inverse_length(s);
     const lanes length = lanes_inverse_square_root(inverse * inverse); /* cheaper than a division */
     const lanes elastic = bonds_elastic_stretch(model, s.b, s.number * LANES, stretch);
-    return lanes_choose(w > 0.0, w * bonds_normalised_energy(elastic) * length, lanes_broadcast(0));
+    return lanes_choose(w > 0.0, w * bonds_normalised_energy(model, stretch, elastic) * length, lanes_broadcast(0));
 }
 
 /* Returns half the elastic energy of the bonds of the particles in row block g (each bond belongs to two particles),
@@ -49,7 +49,9 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
     lanes sum = lanes_broadcast(0), press = lanes_broadcast(0), x[DIM_MAX];
     for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
 #define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, model)
-    FOR_COLUMNS(b, g, VISIT);
+#define VISIT_BRITTLE(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, PD_BOND)
+    FOR_COLUMNS_BY_LAW(b, g, model, VISIT, VISIT_BRITTLE);
+#undef VISIT_BRITTLE
 #undef VISIT
     real total = lanes_any(press < CORE_FROM - 1) ? row_block_core_energy(b, p, g) / (0.5 * b->stiffness) : 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
@@ -79,7 +81,9 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
     for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_broadcast(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
 #define VISIT(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, model)
-    FOR_COLUMNS(b, g, VISIT);
+#define VISIT_BRITTLE(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, PD_BOND)
+    FOR_COLUMNS_BY_LAW(b, g, model, VISIT, VISIT_BRITTLE);
+#undef VISIT_BRITTLE
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
         for (int s = 0; s < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; s++)

@@ -51,6 +51,8 @@ static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct par
     lanes elastic = a.stretch;
     for (int l = 0; b->plastic_stretch && l < LANES && k + l < c->n; l++)
         elastic[l] -= b->plastic_stretch[c->entry[k + l]];
+    for (int l = 0; b->soft.curve && l < LANES && k + l < c->n; l++)
+        elastic[l] *= bond_kept_share(b, b->row_of[c->from[k + l]] / LANES, c->entry[k + l], elastic[l]);
     const lanes share = (-0.5 * b->stiffness) * (a.w * elastic * a.inverse);
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, share * a.y[d]);
 }
@@ -128,6 +130,7 @@ int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, 
                     struct pd_motion *motion)
 {
     struct clamped *c = &b->clamped;
+    if (b->soft.any_due && limit->softening) bonds_begin_to_soften(b, p, limit);
     if (c->n == 0) return sweep(b, p, limit, motion);
     INVARIANT(p->dim > 1 && (!motion || motion->loaded));
     if (c->stale) weights_follow(b);

@@ -14,6 +14,7 @@
 
 typedef real lanes __attribute__((vector_size(LANES * sizeof(real))));
 typedef real lanes_anywhere __attribute__((vector_size(LANES * sizeof(real)), aligned(sizeof(real)), may_alias));
+typedef float lanes_floats __attribute__((vector_size(LANES * sizeof(float)), aligned(sizeof(float)), may_alias));
 typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))));
 typedef uint64_t lanes_bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
 typedef int16_t lanes_units __attribute__((vector_size(LANES * sizeof(int16_t)), may_alias));
@@ -23,6 +24,18 @@ static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (cons
 
 /* Stores the eight entries of a from address `to` on, which need not be aligned. */
 static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to = a; }
+
+/* Returns the eight floats from address `from` on, which need not be aligned. */
+static ALWAYS_INLINE lanes lanes_load_floats(const float *from)
+{
+    return __builtin_convertvector(*(const lanes_floats *)from, lanes);
+}
+
+/* Stores the eight entries of a, rounded to floats, from address `to` on, which need not be aligned. */
+static ALWAYS_INLINE void lanes_store_floats(float *to, lanes a)
+{
+    *(lanes_floats *)to = __builtin_convertvector(a, lanes_floats);
+}
 
 /* Returns a vector whose eight entries are a. */
 static ALWAYS_INLINE lanes lanes_broadcast(real a) { return (lanes){a, a, a, a, a, a, a, a}; }

@@ -7,7 +7,8 @@
 
 #define PD_VARIANTS(X)                                                          \
     X(1, BOND) X(2, BOND) X(3, BOND)                                            \
-    X(1, BOND_PLASTIC) X(2, BOND_PLASTIC) X(3, BOND_PLASTIC)
+    X(1, BOND_PLASTIC) X(2, BOND_PLASTIC) X(3, BOND_PLASTIC)                    \
+    X(1, BOND_SOFT) X(2, BOND_SOFT) X(3, BOND_SOFT)
 
 #define STATE_VARIANTS(X) X(2, OSPD) X(3, OSPD) X(2, MOSPD) X(3, MOSPD)
 

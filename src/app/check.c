@@ -207,14 +207,17 @@ static void say_materials(const struct run *e)
         else
             printf("material       %s: waves at %.4g m/s", a->name, a->wave_speed);
         if (!in_steps && a->rayleigh_speed > 0) printf(", Rayleigh %.4g m/s", a->rayleigh_speed);
-        if (isfinite(a->critical_stretch))
-            printf(", bonds break at a stretch of %.4g", a->critical_stretch);
+        if (material_softens(a))
+            printf(", bonds soften");
+        else if (isfinite(a->critical_stretch))
+            printf(", bonds break at a stretch of %.4g", a->critical_stretch), print_brittle_strength(e->scene, a);
         else
             printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
         const real most = e->tables.elastic[m].trigger_mean;
         if (isfinite(most)) printf(", conversion above %.4g Pa", most);
         if (e->part.strength && a->scatter.given) say_scatter(&e->part, m);
         printf("\n");
+        print_softening(e->scene, a);
     }
 }
 

@@ -455,7 +455,7 @@ static void hint_method(const struct run *e, struct warnings *to)
     if (s->method == METHOD_MPM || !scene_is_dynamic(s) || has_notch(s)) return;
     if (s->bodies > 1 || s->rigids > 0) return;
     for (int m = 0; m < s->materials; m++)
-        weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);
+        weakest = real_min(weakest, s->material[m].young * s->material[m].onset_stretch);
     const real reached = stress_reached(e);
     if (isinf(weakest))
         warnings_add(to,

@@ -44,6 +44,15 @@ struct cost {
  * are made for comparison. The run cannot be used afterwards. Returns FAILED if one of the first steps fails. */
 status cost_measure(struct cost *c, struct run *run, const struct run_arguments *a);
 
+/* ---- check_strength.c -------------------------------------------------------------------------------------------- */
+
+/* Prints strengths, law and limits of the horizon of a material whose bonds soften; nothing for others. */
+void print_softening(const struct scene *s, const struct material *m);
+
+/* Prints the strength that brittle bonds of material m have at the horizon of the scene, as a clause; nothing where
+ * bonds are not known to have one. */
+void print_brittle_strength(const struct scene *s, const struct material *m);
+
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
 /* Prints the solver of load steps and the rule by which cracks grow. */

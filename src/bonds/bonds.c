@@ -292,6 +292,7 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     rows_list(b, old, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
+    rows_soften(b, old, s, p);
     bonds_state_start(b, s);
 
     bonds_rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
@@ -365,6 +366,9 @@ void bonds_free(struct bonds *b)
     memory_free(b->plastic_path);
     memory_free(b->pair);
     memory_free(b->plastic_work);
+    memory_free(b->soft.most), memory_free(b->soft.onset), memory_free(b->soft.end);
+    memory_free(b->soft.begun), memory_free(b->soft.due);
+    memory_free(b->soft.needed), memory_free(b->soft.dilatation);
     bonds_state_free(b);
     clamped_bonds_free(b);
     active_set_free(&b->active);

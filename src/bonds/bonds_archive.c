@@ -45,6 +45,7 @@ status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *
     const bool whole = a->scope == ARCHIVE_ALL;
     if (whole) {
         TRY(weights_archive(b, a));
+        TRY(softness_archive(b, a));
         b->clamped.stale = true;
     }
     if (b->plastic_stretch) {

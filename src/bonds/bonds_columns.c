@@ -87,6 +87,11 @@ static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sp
     b->inverse_length = make("bonds.inverse_length", b->room * LANES, sizeof *b->inverse_length);
     b->w = make("bonds.w", b->room * LANES, sizeof *b->w);
     b->common = make("bonds.common", b->room, sizeof *b->common);
+    if (s->limit.softening) {
+        b->soft.most = memory_new_sparse("bonds.most", b->room * LANES, sizeof(float));
+        b->soft.onset = memory_new_sparse("bonds.onset", b->room * LANES, sizeof(float));
+        b->soft.end = memory_new_sparse("bonds.end", b->room * LANES, sizeof(float));
+    }
     if (!s->yield.stretch) return;
     b->yield = s->yield;
     b->plastic_stretch = NEW("bonds.plastic_stretch", b->room * LANES, real);
@@ -104,6 +109,12 @@ static void columns_extend(struct bonds *b, int64_t room)
                                                     sizeof *b->inverse_length);
     b->w = memory_resize_uninitialised("bonds.w", b->w, had * each, room * each, sizeof *b->w);
     b->common = memory_resize_uninitialised("bonds.common", b->common, had, room, sizeof *b->common);
+    if (b->soft.most) {
+        b->soft.most = memory_resize_uninitialised("bonds.most", b->soft.most, had * each, room * each, sizeof(float));
+        b->soft.onset =
+            memory_resize_uninitialised("bonds.onset", b->soft.onset, had * each, room * each, sizeof(float));
+        b->soft.end = memory_resize_uninitialised("bonds.end", b->soft.end, had * each, room * each, sizeof(float));
+    }
     b->room = room;
 }
 
@@ -128,6 +139,7 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
     b->room = old->room;
     b->first = old->first, b->nbr = old->nbr, b->inverse_length = old->inverse_length, b->w = old->w,
     b->common = old->common;
+    b->soft.most = old->soft.most, b->soft.onset = old->soft.onset, b->soft.end = old->soft.end;
     b->holes = old->holes;
     old->holes = (struct bond_holes){0};
     holes_add(b, old, kept);
@@ -154,4 +166,5 @@ void columns_forget_taken(struct bonds *old, const struct bonds *b)
 {
     if (!old || old->w != b->w) return;
     old->first = old->nbr = NULL, old->inverse_length = old->w = NULL, old->common = NULL;
+    old->soft.most = old->soft.onset = old->soft.end = NULL;
 }

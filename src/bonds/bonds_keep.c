@@ -31,6 +31,11 @@ static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, in
     columns_copy(b->nbr, old->nbr, LANES * sizeof *b->nbr, b, old, g, from);
     columns_copy(b->inverse_length, old->inverse_length, LANES * sizeof(real), b, old, g, from);
     columns_copy(b->w, old->w, LANES * sizeof(real), b, old, g, from);
+    if (old->soft.curve && old->soft.begun[from]) {
+        columns_copy(b->soft.most, old->soft.most, LANES * sizeof(float), b, old, g, from);
+        columns_copy(b->soft.onset, old->soft.onset, LANES * sizeof(float), b, old, g, from);
+        columns_copy(b->soft.end, old->soft.end, LANES * sizeof(float), b, old, g, from);
+    }
     if (b->plastic_stretch) {
         columns_copy(b->plastic_stretch, old->plastic_stretch, LANES * sizeof(real), b, old, g, from);
         columns_copy(b->plastic_path, old->plastic_path, LANES * sizeof(real), b, old, g, from);
@@ -43,6 +48,7 @@ void row_block_copy_unchanged(struct bonds *b, const struct bonds *old, int64_t 
     b->stencil[g] = old->stencil[from];
     b->implicit[g] = old->implicit[from], b->changed[g] = old->changed[from];
     if (!b->implicit[g] && b->w != old->w) columns_keep(b, old, g, from);
+    if (b->soft.curve) b->soft.begun[g] = old->soft.begun[from], b->soft.due[g] = old->soft.due[from];
     b->made[g] = old->made[from];
     b->aligned[g] = old->aligned[from];
     if (b->state.weighted)

@@ -14,6 +14,7 @@ struct row {
     real *inverse_length; /* [n] 1/r; negative: broken [1/m] */
     real *w;              /* [n] weights; 0: broken or cut [1] */
     struct bond_plasticity *plastic;
+    struct bond_softness *soft;     /* [n] only where bonds soften */
     real trigger;                   /* stretch above which the vector test reports a bond [1] */
     real family_volume, cut_volume; /* volume of the family; of neighbours behind cut or broken bonds [m^3] */
 };
@@ -49,6 +50,23 @@ struct row_maker {
     const struct site_map *map; /* `at` NULL: particles are not on a lattice */
     int room;                   /* largest number of bonds of a row */
 };
+
+/* Allocates what belongs to the rows b of bonds that soften. old: previous rows; NULL: none. Does nothing if all bonds
+ * are brittle. */
+void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_source *s, const struct particles *p);
+
+/* Sets the softening of the bonds of `row`, found by row_find_neighbours, of particle i: that of the previous row of
+ * the particle, if there is one, else none has begun. */
+void row_soften(struct row *row, const struct row_maker *m, int32_t i);
+
+/* Copies the softening of row `from` of the rows `old` to row `row` of b. new_index: index in the particles p of each
+ * particle of `old`, images included; -1: none. limit: of the bonds. */
+void bonds_take_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
+                         const struct bonds *old, int64_t from, const int32_t *new_index);
+
+/* Saves or restores which row blocks have begun to soften or are due, and the state of their bonds. Call it after
+ * the columns of changed row blocks are restored. */
+status softness_archive(struct bonds *b, struct archive *a);
 
 /* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
  * such a row exists, and either that m->fresh[i] is 0, or that the row has the complete family and the particle is

@@ -16,6 +16,7 @@ void row_buffer_make(struct row *row, int capacity)
     row->inverse_length = BARE("bonds.row", capacity + 1, real);
     row->w = BARE("bonds.row", capacity + 1, real);
     row->plastic = BARE("bonds.row", capacity + 1, struct bond_plasticity);
+    row->soft = BARE("bonds.row", capacity + 1, struct bond_softness);
 }
 
 void row_buffer_free(struct row *row)
@@ -24,6 +25,7 @@ void row_buffer_free(struct row *row)
     memory_free(row->inverse_length);
     memory_free(row->w);
     memory_free(row->plastic);
+    memory_free(row->soft);
 }
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
@@ -155,12 +157,11 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Returns the stretch above which the vector test reports bond i-j as possibly broken: its critical stretch, slightly
- * reduced (TRIGGER_MARGIN). */
+/* Returns the stretch above which the vector test reports bond i-j: that at which it breaks or begins to soften,
+ * slightly reduced (TRIGGER_MARGIN). */
 real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
 {
-    return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] *
-           bond_strength_factor(p, i, j) * (1 - TRIGGER_MARGIN);
+    return bond_range_of(p, &s->limit, i, j).onset * (1 - TRIGGER_MARGIN);
 }
 
 /* Computes lengths and weights of the bonds found by row_search. Bonds that a pre-crack cuts get weight 0 and a
@@ -249,6 +250,7 @@ void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i)
 void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
+    if (m->source->limit.softening) row_soften(row, m, i);
     if (row_is_still_valid(m, i)) {
         row_copy(row, m->old, before);
         return;

@@ -82,6 +82,22 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
+/* Stores the softening of the bonds of row block g, in the columns in which row_block_fill has put them, if one has
+ * begun. */
+static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
+{
+    bool begun = false;
+    int used[LANES] = {0};
+    for (int l = 0; l < rows; l++)
+        for (int k = 0; k < buffer->row[l].n; k++) begun |= buffer->row[l].soft[k].onset < SOFTENING_NEVER;
+    b->soft.begun[g] = begun;
+    for (int k = 0; k < b->column_count[g] && begun; k++)
+        for (int l = 0; l < LANES; l++)
+            bond_softness_put(&b->soft, (b->column[g] + k) * LANES + l,
+                              buffer->column[k].inverse_length[l] == 0 ? bond_softness_none
+                                                                       : buffer->row[l].soft[used[l]++]);
+}
+
 void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g, int rows, bool by_offset,
                     const struct particles *p)
 {
@@ -106,6 +122,7 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
         for (int l = 1; l < LANES; l++) consecutive = consecutive && column->nbr[l] == column->nbr[0] + l;
         column->first = consecutive ? column->nbr[0] : -1;
     }
+    if (b->soft.curve) row_block_fill_softness(b, buffer, g, rows);
     row_block_note(b, buffer, g, rows);
     row_block_store(b, buffer, g, p);
 }

@@ -278,5 +278,5 @@ real bonds_fracture_energy(const struct bonds *b)
 {
     real sum = 0; /* few rows have any; a serial sum is equal on any number of threads */
     for (int64_t r = 0; r < b->rows; r++) sum += b->fracture_energy[r];
-    return sum;
+    return sum + bonds_softening_energy(b);
 }

@@ -19,8 +19,8 @@ static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
     }
 }
 
-void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bonds *old,
-                           const struct particles *old_particles, const int32_t *new_index)
+void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                           const struct bonds *old, const struct particles *old_particles, const int32_t *new_index)
 {
     for (int64_t from = 0; from < old->rows; from++) {
         const int32_t i = new_index[old->particle[from]], row = i < 0 ? -1 : b->row_of[i];
@@ -30,6 +30,7 @@ void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bo
         b->plastic_work[row] = old->plastic_work[from];
         b->broken[row] = old->broken[from];
         if (!old->changed[from / LANES]) continue;
+        if (old->soft.curve) bonds_take_softness(b, p, limit, row, old, from, new_index);
         for (struct bond_iterator it = bond_iterator_of_row(old, from); bond_next(&it);)
             if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, new_index[it.bond.nbr]);
     }

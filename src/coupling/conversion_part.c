@@ -62,7 +62,10 @@ int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examine
 {
     const struct conversion_sync sync = {sync_listed, e, meet_others};
     struct coupling_state *c = e->coupling;
-    if (!faces_examined && broken_bonds == 0 && !c->approaches && !may_convert(e->scene, &e->part, e->frame)) return 0;
+    if (!faces_examined && broken_bonds == 0 && !c->approaches && !e->bonds.soft.at_points &&
+        !may_convert(e->scene, &e->part, e->frame))
+        return 0;
+    e->bonds.soft.at_points = false;
     frame_levels_postpone_conversion(&e->frame->levels, &e->part);
     const int64_t converted =
         convert_flagged_points(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,

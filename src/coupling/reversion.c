@@ -55,10 +55,10 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_largest_principal(stress, p->dim) < limit;
 }
 
-/* Finds the peridynamic particles that may not revert themselves: sets held[i] to 1 for particles with a broken bond,
- * inside rule->kept, or whose stress has been low for less than the hold time, and cut[i] to 1 for those with a broken
- * bond. Updates low_since, the time from which on the stress has been low [s]. Returns the number of peridynamic
- * particles with held[i] = 0. */
+/* Finds the peridynamic particles that may not revert themselves: sets held[i] to 1 for particles with a broken bond
+ * or one that has softened, inside rule->kept, or whose stress has been low for less than the hold time, and cut[i] to
+ * 1 for those with a broken bond. Updates low_since, the time from which on the stress has been low [s]. Returns the
+ * number of peridynamic particles with held[i] = 0. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -72,7 +72,7 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
             p->low_since[i] = INFINITY;
         else if (!(p->low_since[i] < INFINITY))
             p->low_since[i] = t;
-        cut[i] = p->damage[i] > 0;
+        cut[i] = p->damage[i] > 0 || bonds_row_softening(b, p, b->row_of[i]) > 0;
         held[i] = cut[i] || !(t - p->low_since[i] >= rule->hold_time) ||
                   (rule->kept && region_contains(rule->kept, X, p->dim, ON_SURFACE * rule->source->family.spacing));
         rested += !held[i];

@@ -41,8 +41,29 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
         tables->pair_stretch[a * s->materials + b] = face->critical_stretch;
         tables->pair_stretch[b * s->materials + a] = face->critical_stretch;
     }
-    source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->last_force, 0};
+    source->limit = (struct bond_limit){
+        .critical_stretch = tables->pair_stretch, .materials = s->materials, .last_force = s->last_force};
     if (scene_is_single_equilibrium(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
+}
+
+/* Sets how bonds soften for each pair of materials: they begin as those of the material that softens first. */
+static void make_softening(const struct scene *s, struct material_tables *tables, struct bond_source *source)
+{
+    bool any = false;
+    for (int m = 0; m < s->materials; m++) any |= material_softens(&s->material[m]);
+    if (!any) return;
+    tables->pair_softening = NEW("engine.pair_softening", s->materials * s->materials, struct softening_pair);
+    for (int a = 0; a < s->materials; a++) {
+        if (material_softens(&s->material[a])) tables->curve = softening_curve_of(s->material[a].softening);
+        for (int b = 0; b < s->materials; b++) {
+            const struct material *m = &s->material[a], *n = &s->material[b];
+            const struct material *first = m->onset_stretch <= n->onset_stretch ? m : n;
+            tables->pair_softening[a * s->materials + b] =
+                (struct softening_pair){first->onset_stretch, tables->pair_stretch[a * s->materials + b],
+                                        first->scatter.given && first->scatter.of == SCATTER_STRENGTH};
+        }
+    }
+    source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;
 }
 
 /* Sets yield stretch s_y = sigma_y/E and hardening H_b/k_e = H/E for each pair of materials, from the material that
@@ -79,12 +100,12 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
 }
 
 /* Returns the principal stress at which material points convert [Pa]: alpha times conversion.stress, by default times
- * the stress at s_c (E s_c where nothing yields). With a larger stress points may exceed the strain at which bonds
- * break. INFINITY for no conversion; only adaptive runs convert. */
+ * the stress at s_c, where bonds soften at s_0 (E s_c where nothing yields). With a larger stress points may exceed the
+ * strain at which bonds break. INFINITY for no conversion; only adaptive runs convert. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
-    real most = isnan(s->conversion.stress) ? material_stress_at(m, m->critical_stretch) : s->conversion.stress;
+    real most = isnan(s->conversion.stress) ? material_stress_at(m, m->onset_stretch) : s->conversion.stress;
     return s->conversion.alpha * most;
 }
 
@@ -107,6 +128,7 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                               .trigger_mean = conversion_trigger(s, given)};
     }
     make_limits(s, tables, source);
+    make_softening(s, tables, source);
     make_yields(s, tables, source);
     make_states(s, tables, source);
 }
@@ -288,7 +310,8 @@ static status make_affordable(const struct scene *s, const struct particles *p, 
 
 static void tables_free(struct material_tables *t)
 {
-    memory_free(t->pair_stretch), memory_free(t->pair_yield), memory_free(t->pair_hardening);
+    memory_free(t->pair_stretch), memory_free(t->pair_softening), memory_free(t->pair_yield),
+        memory_free(t->pair_hardening);
     memory_free(t->elastic), memory_free(t->modulus), memory_free(t->impedance);
     memory_free(t->mirror_axis), memory_free(t->mirror), crack_list_free(&t->cracks);
     voids_free(&t->voids), memory_free(t->void_mirror);
@@ -327,7 +350,7 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
 {
     if (s->model == MODEL_OSPD) return PD_OSPD;
     if (s->model == MODEL_MOSPD) return PD_MOSPD;
-    return source->yield.stretch ? PD_BOND_PLASTIC : PD_BOND;
+    return source->yield.stretch ? PD_BOND_PLASTIC : source->limit.softening ? PD_BOND_SOFT : PD_BOND;
 }
 
 /* Computes the critical time step and the time step; takes both from the run that is continued, if `before` is

@@ -38,7 +38,7 @@ void engine_transfer_particles(struct run *e, struct predecessor *before)
 void engine_transfer_bonds(struct run *e, const struct predecessor *before)
 {
     struct run *old = before->run;
-    bonds_transfer_damage(&e->bonds, &e->part, &old->bonds, &old->part, before->now);
+    bonds_transfer_damage(&e->bonds, &e->part, &e->source.limit, &old->bonds, &old->part, before->now);
     state_update_weighted_volumes(&e->bonds, &e->part, &e->source);
     bonds_free(&old->bonds);
     particles_free(&old->part);

@@ -95,12 +95,14 @@ static void warn_of_materials(const struct scene *s, const struct material_table
 {
     for (int m = 0; m < s->materials; m++) {
         const struct material *a = &s->material[m];
-        if (isfinite(tables->elastic[m].trigger) && tables->elastic[m].trigger_mean > a->young * a->critical_stretch)
+        if (isfinite(tables->elastic[m].trigger) && tables->elastic[m].trigger_mean > a->young * a->onset_stretch)
             warnings_add(to,
                          "material %s: material points convert to bonds at a stress of %.4g Pa, above the %.4g Pa (E "
-                         "s_c) at which bonds break, so that they may exceed the critical stretch before they convert: "
+                         "%s) at which bonds %s, so that they may exceed %s stretch before they convert: "
                          "use a lower conversion.stress",
-                         a->name, tables->elastic[m].trigger_mean, a->young * a->critical_stretch);
+                         a->name, tables->elastic[m].trigger_mean, a->young * a->onset_stretch,
+                         material_softens(a) ? "s_0" : "s_c", material_softens(a) ? "begin to soften" : "break",
+                         material_softens(a) ? "this" : "the critical");
     }
 }
 

@@ -172,13 +172,13 @@ static real units_stress_at_start(const struct particles *p)
     return most;
 }
 
-/* Returns the smallest strength E s_c of the materials and interfaces that can break [Pa]; INFINITY if none can. */
+/* Returns the smallest strength E s_c (of bonds that soften, E s_0) of the materials and interfaces that can break [Pa]; INFINITY if none can. */
 static real least_strength(const struct scene *s)
 {
     real least = INFINITY, young = INFINITY;
     for (int m = 0; m < s->materials; m++) {
         young = real_min(young, s->material[m].young);
-        least = real_min(least, s->material[m].young * s->material[m].critical_stretch);
+        least = real_min(least, s->material[m].young * s->material[m].onset_stretch);
     }
     for (int k = 0; k < s->interfaces; k++)
         if (s->interface[k].critical_stretch > 0) least = real_min(least, young * s->interface[k].critical_stretch);

@@ -42,6 +42,11 @@ static status carries_method(const struct scene *s)
 static status carries_materials(const struct scene *s, bool bond_style)
 {
     if (any_yields(s)) return lammps_refuse(s, "yield_stress: plastic bonds are not in LAMMPS; inf is expected");
+    for (int m = 0; m < s->materials; m++)
+        if (material_softens(&s->material[m]))
+            return lammps_refuse(s,
+                                 "tensile_strength: bonds that soften are not in LAMMPS; without it, bonds are brittle "
+                                 "and their strength is E s_c");
     if (s->model == MODEL_OSPD && s->materials > 1)
         return lammps_refuse(s, "peri/lps mixes two materials by other rules than families here; one material, or "
                                 "model: bond, is expected");

@@ -174,7 +174,7 @@ static void copy_level(const struct frame_source *s, const int32_t *row, int64_t
 /* Copies the damage of the particles of rows first .. end - 1. */
 static void copy_damage(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    copy_scalars(rows, row, first, end, s->p->damage);
+    copy_scalars(rows, row, first, end, s->extra.state.damage ? s->extra.state.damage : s->p->damage);
 }
 
 static void copy_plastic_strain(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end,

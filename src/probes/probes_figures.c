@@ -68,7 +68,7 @@ void particle_readings(const struct observed_run *o, int64_t i, real *value)
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
     for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][i];
     if (p->plane_strain) *value++ = particle_plane_strain_stress(p, i);
-    *value++ = p->damage[i];
+    *value++ = p->damage[i] + bonds_row_softening(o->bonds, p, o->bonds->row_of[i]);
     if (p->plastic_work) *value++ = plastic_strain_reading(o, i);
     if (p->temperature) *value++ = p->temperature[i];
 }

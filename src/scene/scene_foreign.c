@@ -33,13 +33,14 @@ static const struct foreign {
     {"s_c|sc|s0|s00|stretch|critical_bond_stretch|max_stretch|critical_strain|failure_strain|fracture_strain|"
      "strain_to_failure|critical_value",
      "material.critical_stretch", "the stretch at which a bond breaks"},
-    {"strength|tensile_strength|ultimate_strength|ultimate_tensile_strength|failure_stress|fracture_stress|sigma_c|"
+    {"strength|ultimate_strength|ultimate_tensile_strength|failure_stress|fracture_stress|sigma_c|"
      "sigma_t|f_t|ft|UTS|failure|fracture|damage_model|failure_model|breaking",
-     "material.energy_release_rate material.toughness material.critical_stretch material.scatter",
-     "=bonds break by their stretch, which follows from `energy_release_rate` or `toughness`; or give "
-     "`critical_stretch`, about strength/E"},
-    {"softening|traction_separation|bilinear|trilinear|damage_evolution", "material.critical_stretch",
-     "=Cleave does not do softening: bonds are elastic up to their critical stretch, and break there"},
+     "material.tensile_strength material.energy_release_rate material.toughness material.scatter",
+     "=with `tensile_strength` bonds soften, and spend `energy_release_rate` in all; without it they break at the "
+     "stretch that follows from `energy_release_rate`"},
+    {"traction_separation|bilinear|trilinear|damage_evolution|cohesive_law",
+     "material.softening material.tensile_strength",
+     "=with `tensile_strength`, bonds soften by `softening`: linear, bilinear, exponential"},
     {"damage", "output.fields probes.break probes.tip material.critical_stretch",
      "=damage is a result, the share of broken bonds, in every frame; what breaks bonds is `energy_release_rate`, "
      "`toughness` or `critical_stretch` of the material"},

@@ -59,6 +59,10 @@ static status interface_strength(struct reader *r, const struct yaml_node *n, st
         return fault(r, yaml_node_find(n, "energy_release_rate"),
                      "body %s has parts of different materials; an interface joins bodies of one material each",
                      one->parts > 0 ? one->name : other->name);
+    if (material_softens(&s->material[one->material]) || material_softens(&s->material[other->material]))
+        return fault(r, yaml_node_find(n, "energy_release_rate"),
+                     "joins bodies of which one has a tensile_strength; an interface of its own energy is brittle, and "
+                     "goes with brittle bodies so far");
     if (one->material == other->material) TRY(material_apart(r, n, other));
     const struct material *a = &s->material[one->material], *b = &s->material[other->material];
     struct material between = a->young < b->young ? *a : *b;

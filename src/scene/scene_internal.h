@@ -461,6 +461,15 @@ status check_joined(struct reader *r, const struct yaml_node *root);
  * space of the scene [1]. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
+/* Sets m->onset_stretch, at which the bonds of material m begin to soften; m->critical_stretch must be set. n: the
+ * material in the scene. REFUSED where bonds cannot soften, or where they break before the tensile strength is
+ * reached (scene_softening.c). */
+status read_softening(struct reader *r, const struct yaml_node *n, struct material *m);
+
+/* Returns REFUSED if material k, read from n, softens by another law than an earlier one: bonds between two materials
+ * have one curve. */
+status check_one_softening(struct reader *r, const struct yaml_node *n, int k);
+
 /* REFUSED for friction with a contact law or beside boundaries that do not support it. */
 status check_friction(struct reader *r, const struct yaml_node *root);
 

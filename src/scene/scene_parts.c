@@ -128,7 +128,7 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
 {
     const struct scene *s = r->scene;
     bool line = s->space == SPACE_LINE;
-    m->energy_release_rate = m->law.specific_heat = m->law.taylor_quinney = NAN;
+    m->energy_release_rate = m->law.specific_heat = m->law.taylor_quinney = m->tensile_strength = NAN;
     m->poisson = line ? 0 : bond_based_poisson_ratio(s->space);
     strcpy(m->name, "material");
     TRY(read_group(r, n, n, "material", m));
@@ -146,7 +146,7 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
                      s->model == MODEL_OSPD ? "ospd" : "mospd");
     material_compute_constants(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
-    if (m->critical_stretch > 0) return OK;
+    if (m->critical_stretch > 0) return read_softening(r, n, m);
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
 }
 
@@ -166,6 +166,7 @@ status read_materials(struct reader *r, const struct yaml_node *root)
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
                 return fault(r, yaml_node_find(n, "name"), "%s is the name of another material", s->material[k].name);
+        TRY(check_one_softening(r, n, k));
     }
     return OK;
 }

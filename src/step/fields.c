@@ -141,6 +141,17 @@ static real *plastic_strain_make(const struct particles *p, const struct bonds *
     return strain;
 }
 
+/* Returns the damage [n]: the volume share of broken bonds, and of those that soften the share of stiffness that they
+ * have lost. Returns NULL if no bond softens. The caller frees it. */
+static real *damage_make(const struct particles *p, const struct bonds *bonds)
+{
+    if (!bonds->soft.curve) return NULL;
+    real *damage = NEW("report.damage", p->n, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) damage[i] = p->damage[i] + bonds_row_softening(bonds, p, bonds->row_of[i]);
+    return damage;
+}
+
 /* Returns the level of the cell of every particle [n]; 0 outside meshes. The caller frees it. */
 static uint8_t *cell_levels_make(const struct reference_frame *frame, const struct particles *part)
 {
@@ -171,6 +182,7 @@ void frame_fields_compute(struct run *e, unsigned requested, struct frame_extra 
     if (requested & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
     if (requested & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds);
     extra->state.plastic_strain = plastic_strain_make(&e->part, &e->bonds);
+    extra->state.damage = damage_make(&e->part, &e->bonds);
     if (requested & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
     if (!extra->more) return;
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->frame->shown.gradient[k];
@@ -182,6 +194,7 @@ void frame_fields_free(struct frame_extra *extra)
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) memory_free(extra->state.gradient[k]);
     memory_free(extra->state.plastic_work);
     memory_free(extra->state.plastic_strain);
+    memory_free(extra->state.damage);
     memory_free(extra->state.level);
     memory_free(extra->more_state.level);
 }

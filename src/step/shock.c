@@ -12,7 +12,7 @@ static real speed_limit(const struct scene *s)
     real least = INFINITY;
     for (int m = 0; m < s->materials; m++) {
         const struct material *own = &s->material[m];
-        real strain = s->method == METHOD_MPM ? INFINITY : own->critical_stretch;
+        real strain = s->method == METHOD_MPM ? INFINITY : own->onset_stretch;
         if (material_yields(own)) strain = real_min(strain, material_first_yield(own) / own->young);
         least = real_min(least, strain * own->wave_speed);
     }

@@ -100,6 +100,7 @@ static bool sweep_moves(const struct scene *s, const struct run_report *report)
 static void push_bonds(struct run *e, struct step *now)
 {
     loads_clear_forces(&e->loads, &e->part);
+    e->source.limit.retries = e->clock.step % SOFTENING_RETRY_STEPS == 0;
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
                               sweep_moves(e->scene, e->report) ? &now->motion : NULL);
 }

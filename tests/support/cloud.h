@@ -130,7 +130,8 @@ static inline void cloud_source(struct plotted_particles *c)
     s->cells = &c->cells;
     s->material = c->material;
     s->materials = CLOUD_MATERIALS;
-    s->limit = (struct bond_limit){c->limit, CLOUD_MATERIALS, LAST_FORCE_HALF, 0};
+    s->limit =
+        (struct bond_limit){.critical_stretch = c->limit, .materials = CLOUD_MATERIALS, .last_force = LAST_FORCE_HALF};
     s->yield = (struct bond_yield){c->yield, c->hardening, CLOUD_MATERIALS};
     if (s->family.surface == SURFACE_MOMENTS && surface_weights_make(&c->surface, &c->p, s, s->rotates) == OK)
         s->surface = &c->surface;

@@ -1,0 +1,105 @@
+/* Softening of bonds: how the force of a bond falls from its peak to 0 (Zaccariotto et al. 2015 for bilinear curves;
+ * Bromley & Lipton 2023 for bonds whose damage depends on their largest stretch).
+ *
+ * With the largest stretch k so far, the onset s_0 and the end s_f, the force over stiffness and weight is
+ *
+ *     s (1 - d(k)) for s > 0,   s for s <= 0,     1 - d(k) = f(k)/k,   f(k) = s_0 G((k - s_0)/(s_f - s_0))
+ *
+ * G falls from 1 at x = 0 to 0 at x = 1 and is the largest of some straight lines: exact for linear and bilinear
+ * softening; exponential softening, (exp(-5 x) - exp(-5))/(1 - exp(-5)), has eight chords, at most 0.8 % of the
+ * strength above it. Unloading is along the secant to the origin. The energy dissipated, over stiffness, weight and
+ * length, has a closed form: the area under the curve up to k less f(k) k/2. Up to the end it is s_c^2/2, the energy of
+ * a brittle bond of critical stretch s_c, which determines s_f. */
+#ifndef CLEAVE_SOFTENING
+#define CLEAVE_SOFTENING
+
+#include <math.h>
+
+#include "base/base.h"
+#include "material.h"
+
+#define SOFTENING_LEAST 1e-6   /* least relative distance of onset and critical stretch; closer, a bond is brittle */
+enum { SOFTENING_PIECES = 8 }; /* largest number of straight pieces of a curve */
+
+/* The curve G(x), the largest of `pieces` straight lines and 0. */
+struct softening_curve {
+    int pieces;
+    real level[SOFTENING_PIECES], slope[SOFTENING_PIECES]; /* piece k: level - slope x [1] */
+    real from[SOFTENING_PIECES + 1];                       /* x where piece k begins; 1 behind the last [1] */
+    real area;                                             /* integral of G from 0 to 1 [1] */
+};
+
+/* Softening of the bonds between two materials. onset: s_0, INFINITY: they are brittle; critical: s_c [1];
+ * strength_scatters: a random strength scales s_0 alone, else both. */
+struct softening_pair {
+    real onset, critical;
+    bool strength_scatters;
+};
+
+/* Stretches at which a bond begins to soften and ends [1]; equal if it is brittle. */
+struct softening_range {
+    real onset, end;
+};
+
+/* Peak stress of a material whose bonds soften, over s_0 E' (E' = E, in plane strain E/(1 - nu^2)) [1]:
+ * under uniaxial tension, equal biaxial tension, and pure shear. NAN where the space has no such stress; shear is
+ * computed in the plane only. */
+struct softening_strength {
+    real tension, biaxial, shear;
+};
+
+/* Returns the curve of a softening law. */
+struct softening_curve softening_curve_of(enum softening law);
+
+/* Returns the stretch s_f at which a bond ends that dissipates as much as a brittle one of critical stretch `critical`
+ * [1]. onset: s_0, at most `critical` [1]. */
+static inline real softening_end(const struct softening_curve *c, real onset, real critical)
+{
+    return onset + (square(critical) - square(onset)) / (2 * onset * c->area);
+}
+
+/* Returns onset and end of a bond. strength: its random factor of strength, 1 without scatter [1]. */
+static inline struct softening_range softening_range_of(const struct softening_curve *c,
+                                                        const struct softening_pair *pair, real strength)
+{
+    const real critical = pair->critical * (pair->strength_scatters ? 1 : strength);
+    const real onset = pair->onset * strength;
+    if (!(onset < critical * (1 - SOFTENING_LEAST))) return (struct softening_range){critical, critical};
+    return (struct softening_range){onset, softening_end(c, onset, critical)};
+}
+
+/* Returns G(x) [1]. */
+static inline real softening_level(const struct softening_curve *c, real x)
+{
+    real level = 0;
+    for (int k = 0; k < c->pieces; k++) level = real_max(level, c->level[k] - c->slope[k] * x);
+    return level;
+}
+
+/* Returns 1 - d(k), the share of its stiffness that a bond keeps in tension [1]. most: its largest stretch k, at least
+ * the onset [1]. */
+static inline real softening_kept(const struct softening_curve *c, real onset, real end, real most)
+{
+    return onset * softening_level(c, (most - onset) / (end - onset)) / most;
+}
+
+/* Returns the energy that a bond has dissipated, over stiffness, weight and length [1]. most: as in softening_kept. */
+real softening_spent(const struct softening_curve *c, real onset, real end, real most);
+
+/* Computes the peaks of stress of uniformly strained bonds of all directions, over s_0 E', from the curve and the ratio
+ * kappa of critical stretch to onset, squared [1], by quadrature over directions. Each bond is taken to be at its
+ * largest stretch. */
+struct softening_strength softening_strength_of(const struct softening_curve *c, enum space space, real kappa);
+
+/* Returns the onset s_0 at which the tensile strength of bonds is m->tensile_strength [1], by fixed-point iteration:
+ * s_0 = strength/(E' tension(kappa)). m->critical_stretch must be set. The result exceeds m->critical_stretch where the
+ * horizon is too large for this strength. */
+real softening_onset_of(const struct material *m, enum space space);
+
+/* Returns E', the modulus of uniaxial tension: E, in plane strain E/(1 - nu^2) [Pa]. */
+static inline real material_tension_modulus(const struct material *m, enum space space)
+{
+    return space == SPACE_PLANE_STRAIN ? m->young / (1 - square(m->poisson)) : m->young;
+}
+
+#endif

@@ -1,0 +1,213 @@
+/* Bonds that begin to soften. A sweep marks row blocks (the bonds of eight particles) with a bond beyond its onset as
+ * due; before the next sweep the bonds between due row blocks are examined, while all positions are of one time. Both
+ * rows of a bond then decide alike. A bond begins one step late; the energy that its force loses at once counts as
+ * fracture energy, and the balance stays of second order.
+ *
+ * Lateral bonds of a compressed body are stretched, though no stress pulls at them. A bond from i to j of direction n
+ * may therefore begin only where n . sigma . n > 0.2 E s (solids and plane strain; 0.19 E s in plane stress). With the
+ * elastic constants of bonds, lambda = G, and n . eps . n = s, this is
+ *
+ *     (tr eps_i + tr eps_j)/2 + 1.5 s > 0
+ *
+ * where eps is the strain that fits the stretches of the bonds of a particle best, s = n . eps . n, weighted by the
+ * stiffness that they keep: exact for uniform strain, beside faces, too. (Where lambda = G, so that E = 2.5 G: sigma =
+ * G (tr eps + 2 s) > 0.5 G s.) Uniaxial compression gives tr eps = -2 s. */
+#include <math.h>
+
+#include "bond_last.h"
+#include "kernels/kernels.h"
+
+#define PULL 1.5   /* see above */
+#define PIVOT 1e-6 /* least pivot of a fit over the sum of its weights [1] */
+
+/* The bonds of a row that are examined: from particle i to j, at the stretch `stretch`, with the range of softening
+ * that they would have [1]. */
+struct candidate {
+    struct softening_range range;
+    real stretch;
+    int32_t i, j;
+};
+
+/* Returns the state of row block g while row blocks are examined; other threads may set DUE_DENIED in it. */
+static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
+
+/* Returns true if the bond `bond` of row block g, from particle i, is beyond its onset, has not begun to soften, and
+ * leads to a row block that is due, too; stores it in *c. */
+static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
+                         const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
+{
+    const int64_t other = b->row_of[bond->nbr]; /* images have no rows */
+    if (bond->w == 0 || bond_softens(b, g, bond->entry)) return false;
+    if (other >= 0 && due_of(b, other / LANES) == DUE_NOT) return false;
+    c->i = i, c->j = bond->nbr;
+    c->stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
+    c->range = bond_range_of(p, limit, i, bond->nbr);
+    return c->stretch > c->range.onset && c->range.onset < c->range.end;
+}
+
+/* Returns the row whose dilatation stands for that of particle or image j: its own, or that of its source; -1 if the
+ * row does not hold the whole family. */
+static int64_t row_of_dilatation(const struct bonds *b, const struct particles *p, int32_t j)
+{
+    const int64_t row = b->row_of[image_source_particle(p, b->soft.image, j)];
+    return row >= 0 && b->whole[row] ? row : -1;
+}
+
+/* Marks in b->soft.needed the rows whose dilatation the candidates of row block g need. Several threads may mark one
+ * row. */
+static void mark_needed(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
+{
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+            struct candidate c;
+            if (!is_candidate(&c, b, p, limit, g, &it.bond, b->particle[row])) continue;
+            const int64_t ends[] = {row_of_dilatation(b, p, c.i), row_of_dilatation(b, p, c.j)};
+            for (int e = 0; e < 2; e++)
+                if (ends[e] >= 0) __atomic_store_n(&b->soft.needed[ends[e]], 1, __ATOMIC_RELAXED);
+        }
+}
+
+/* Normal equations of the strain of a family, n unknowns: A eps = b; and the sums of weights and of weighted stretches.
+ */
+struct strain_fit {
+    int n;
+    real A[SYM_MAX][SYM_MAX], b[SYM_MAX], all, sum;
+};
+
+/* Adds a bond of reference direction e, with the stretch `stretch` and the weight w, to the equations. */
+static void fit_add(struct strain_fit *fit, const real *e, int dim, real stretch, real w)
+{
+    real product[SYM_MAX];
+    for (int s = 0; s < fit->n; s++) {
+        int a, b;
+        symmetric_component_axes(dim, s, &a, &b);
+        product[s] = (a == b ? 1 : 2) * e[a] * e[b];
+    }
+    for (int s = 0; s < fit->n; s++) {
+        for (int t = 0; t < fit->n; t++) fit->A[s][t] += w * product[s] * product[t];
+        fit->b[s] += w * product[s] * stretch;
+    }
+    fit->all += w, fit->sum += w * stretch;
+}
+
+/* Solves the equations by elimination and returns the trace of the strain [1]. A family of too few directions, whose
+ * pivot is below PIVOT times the sum of weights, has D times its mean stretch. */
+static real fit_trace(struct strain_fit *fit, int dim)
+{
+    real trace = 0;
+    for (int k = 0; k < fit->n; k++) {
+        if (!(fit->A[k][k] > PIVOT * fit->all)) return fit->all > 0 ? dim * fit->sum / fit->all : 0;
+        for (int r = 0; r < fit->n; r++) {
+            const real factor = r == k ? 0 : fit->A[r][k] / fit->A[k][k];
+            for (int c = k; c < fit->n; c++) fit->A[r][c] -= factor * fit->A[k][c];
+            fit->b[r] -= factor * fit->b[k];
+        }
+    }
+    for (int k = 0; k < dim; k++) trace += fit->b[k] / fit->A[k][k];
+    return trace;
+}
+
+/* Computes the dilatation of one row [1]. */
+static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
+{
+    const int32_t i = b->particle[row];
+    struct strain_fit fit = {.n = symmetric_component_count(p->dim)};
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        const struct bond *bond = &it.bond;
+        real e[DIM_MAX];
+        if (bond->w == 0) continue;
+        const real stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
+        for (int d = 0; d < p->dim; d++) e[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
+        fit_add(&fit, e, p->dim, stretch, bond->w * bond_kept_share(b, row / LANES, bond->entry, stretch));
+    }
+    return fit_trace(&fit, p->dim);
+}
+
+/* Returns true if the stress across a candidate allows it to soften. Both rows of a bond get the same answer: one with
+ * a row of half a family, at a material point, has the dilatation of its other particle. */
+static bool is_pulled(const struct bonds *b, const struct particles *p, const struct candidate *c)
+{
+    const int64_t one = row_of_dilatation(b, p, c->i), two = row_of_dilatation(b, p, c->j);
+    if (p->dim == 1 || (one < 0 && two < 0)) return true;
+    const real *dilatation = b->soft.dilatation;
+    const real sum = one < 0 ? 2 * dilatation[two] : two < 0 ? 2 * dilatation[one] : dilatation[one] + dilatation[two];
+    return 0.5 * sum + PULL * c->stretch > 0;
+}
+
+/* Lets the bond with index q of a row begin to soften. Adds half of the energy that it loses at once and that the
+ * closed form of its dissipation does not count to the fracture energy of the row. */
+static void bond_begin(struct bonds *b, int64_t row, int64_t q, const struct candidate *c)
+{
+    struct softened *s = &b->soft;
+    bond_softness_put(s, q, (struct bond_softness){(float)c->range.onset, (float)c->range.onset, (float)c->range.end});
+    const real reached = real_min(c->stretch, s->end[q]);
+    const real lost = 0.5 * square(c->stretch) * (1 - bond_kept_share(b, row / LANES, q, c->stretch)) -
+                      softening_spent(s->curve, s->onset[q], s->end[q], reached);
+    b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
+}
+
+/* Marks particle i, of which a bond begins to soften, for conversion if it is a material point: its stress does not
+ * know that its bonds soften. */
+static void mark_point(struct bonds *b, struct particles *p, int32_t i)
+{
+    if (p->kind[i] != KIND_MPM) return;
+    p->flag[i] |= FLAG_NEAR;
+    __atomic_store_n(&b->soft.at_points, true, __ATOMIC_RELAXED);
+}
+
+/* Examines the candidates of row block g: those that the stress allows begin to soften. Sets DUE_DENIED in its state
+ * if the stress does not allow one. */
+static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
+{
+    bool denied = false;
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
+        for (int64_t k = 0; k < b->column_count[g]; k++) {
+            const struct bond bond = bond_read(b, g, k, (int)(row % LANES));
+            struct candidate c;
+            if (!is_candidate(&c, b, p, limit, g, &bond, b->particle[row])) continue;
+            if (!is_pulled(b, p, &c)) {
+                denied = true;
+                continue;
+            }
+            if (!b->soft.begun[g]) row_block_open_softness(b, p, limit, g);
+            bond_begin(b, row, bond.entry, &c);
+            mark_point(b, p, c.i);
+        }
+    if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
+}
+
+/* Returns true if a row block became due in the last sweep. Then all due row blocks are examined, so that both rows of
+ * a bond are examined in one step. */
+static bool any_new(const struct bonds *b)
+{
+    bool found = false;
+    for (int64_t g = 0; g < b->row_blocks && !found; g++) found = b->soft.due[g] == DUE_NEW;
+    return found;
+}
+
+void bonds_begin_to_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit)
+{
+    bool any = false;
+    if (!limit->retries && !any_new(b)) return;
+#pragma omp parallel
+    {
+#pragma omp for schedule(dynamic, 64)
+        for (int64_t g = 0; g < b->row_blocks; g++)
+            if (p->dim > 1 && b->soft.due[g] != DUE_NOT) mark_needed(b, p, limit, g);
+#pragma omp for schedule(dynamic, 64)
+        for (int64_t row = 0; row < b->rows; row++) {
+            if (!b->soft.needed[row]) continue;
+            b->soft.dilatation[row] = row_dilatation(b, p, row);
+            b->soft.needed[row] = 0;
+        }
+#pragma omp for schedule(dynamic, 64)
+        for (int64_t g = 0; g < b->row_blocks; g++)
+            if (due_of(b, g) != DUE_NOT) row_block_examine(b, p, limit, g);
+#pragma omp for schedule(static) reduction(| : any)
+        for (int64_t g = 0; g < b->row_blocks; g++) {
+            b->soft.due[g] = b->soft.due[g] & DUE_DENIED ? DUE_AGAIN : DUE_NOT;
+            any |= b->soft.due[g] != DUE_NOT;
+        }
+    }
+    b->soft.any_due = any;
+}

@@ -1,0 +1,59 @@
+/* The strength of a material as `cleave check` prints it: that of bonds which soften, or the one that bonds have. */
+#include <math.h>
+#include <stdio.h>
+
+#include "check_parts.h"
+#include "data/softening.h"
+
+#define FREE_OF_TRAPPING 2  /* kappa from which on the lattice hardly holds cracks back; measured */
+#define SPENDS_MORE_PLANE 8 /* kappa above which cracks spend about 5 % more than G_c; measured */
+#define SPENDS_MORE_SOLID 5
+
+/* Returns the horizon at which material m has the given ratio kappa of critical stretch to onset, squared [m]. */
+static real horizon_of_ratio(const struct scene *s, const struct material *m, real kappa)
+{
+    const struct softening_curve curve = softening_curve_of(m->softening);
+    const real phi = kappa > 1 ? softening_strength_of(&curve, s->space, kappa).tension : 1;
+    const real onset = m->tensile_strength / (material_tension_modulus(m, s->space) * phi);
+    return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
+}
+
+/* Prints at which horizons the law of a material holds. */
+static void say_horizons(const struct scene *s, const struct material *m)
+{
+    const real more = s->dim == 3 ? SPENDS_MORE_SOLID : SPENDS_MORE_PLANE;
+    printf("               horizon %.4g m", s->horizon * s->spacing);
+    if (!isnan(m->energy_release_rate))
+        printf(", %.3g of E G_c/strength^2",
+               s->horizon * s->spacing * square(m->tensile_strength) / (m->young * m->energy_release_rate));
+    printf("; this strength needs less than %.4g m, and cracks run free of the lattice below %.4g m",
+           horizon_of_ratio(s, m, 1), horizon_of_ratio(s, m, FREE_OF_TRAPPING));
+    if (s->dim > 1) printf("; below %.4g m they spend about 5 %% more than G_c", horizon_of_ratio(s, m, more));
+    printf("\n");
+}
+
+void print_softening(const struct scene *s, const struct material *m)
+{
+    static const char *const law[] = {[SOFTENING_LINEAR] = "linearly",
+                                      [SOFTENING_BILINEAR] = "bilinearly",
+                                      [SOFTENING_EXPONENTIAL] = "exponentially"};
+    if (!material_softens(m)) return;
+    const struct softening_curve curve = softening_curve_of(m->softening);
+    const real kappa = square(m->critical_stretch / m->onset_stretch);
+    const real unit = material_tension_modulus(m, s->space) * m->onset_stretch;
+    const struct softening_strength strength = softening_strength_of(&curve, s->space, kappa);
+    printf("strength       %s: %.4g Pa in tension", m->name, unit * strength.tension);
+    if (s->dim > 1) printf(", %.4g Pa in equal biaxial tension", unit * strength.biaxial);
+    if (s->dim == 2) printf(", %.4g Pa in shear", unit * strength.shear);
+    printf("; bonds soften %s from a stretch of %.4g to %.4g (kappa %.3g, phi %.3g)\n", law[m->softening],
+           m->onset_stretch, softening_end(&curve, m->onset_stretch, m->critical_stretch), kappa, strength.tension);
+    say_horizons(s, m);
+}
+
+void print_brittle_strength(const struct scene *s, const struct material *m)
+{
+    const real nu = s->dim == 2 ? 1.0 / 3 : 0.25; /* of bonds; in plane strain nu/(1 - nu) */
+    if (s->model != MODEL_BOND || s->method == METHOD_MPM || material_yields(m)) return;
+    printf(", about %.4g Pa in tension at this horizon", material_tension_modulus(m, s->space) * m->critical_stretch);
+    if (s->dim > 1) printf(" (%.3g times that in equal biaxial tension, %.3g in shear)", 1 / (1 - nu), 1 / (1 + nu));
+}

@@ -1,0 +1,133 @@
+/* Storage of bonds that soften (struct softened of bond_storage.h): made with the rows, inherited by rebuilt ones,
+ * saved and restored, and what it says about energy and damage. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "bonds_parts.h"
+
+void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_source *s, const struct particles *p)
+{
+    if (!s->limit.softening) return;
+    b->soft.curve = s->limit.curve, b->soft.image = s->image;
+    b->soft.begun = NEW("bonds.begun", b->row_blocks, uint8_t);
+    b->soft.due = NEW("bonds.due", b->row_blocks, uint8_t);
+    b->soft.needed = NEW("bonds.needed", b->row_blocks * LANES, uint8_t);
+    b->soft.dilatation = NEW("bonds.dilatation", b->row_blocks * LANES, real);
+    b->soft.any_due = old && old->soft.any_due;
+    b->soft.least_ratio = INFINITY;
+    for (int k = 0; k < square(s->limit.materials); k++) {
+        const struct softening_range range = softening_range_of(s->limit.curve, &s->limit.softening[k], 1);
+        b->soft.least_ratio = p->strength ? 1 : real_min(b->soft.least_ratio, range.end / range.onset);
+    }
+}
+
+void row_block_open_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
+{
+    const int64_t first = bond_index_for_writing(b, g, 0, 0);
+    for (int64_t q = first; q < first + b->column_count[g] * LANES; q++) {
+        const int32_t i = b->particle[g * LANES + (q - first) % LANES];
+        bond_softness_put(&b->soft, q,
+                          b->inverse_length[q] == 0 ? bond_softness_none
+                                                    : bond_softness_closed(bond_range_of(p, limit, i, b->nbr[q])));
+    }
+    b->soft.begun[g] = b->changed[g] = 1;
+    b->stencil[g] = NULL;
+    __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);
+}
+
+void row_soften(struct row *row, const struct row_maker *m, int32_t i)
+{
+    const struct bonds *old = m->old;
+    const int64_t before = old ? old->row_of[i] : -1;
+    for (int k = 0; k < row->n; k++)
+        row->soft[k] = bond_softness_closed(bond_range_of(m->p, &m->source->limit, i, row->nbr[k]));
+    if (before < 0 || !row_block_softens(old, before / LANES)) return;
+    int n = 0; /* neighbours ascend in both rows */
+    for (struct bond_iterator it = bond_iterator_of_row(old, before); bond_next(&it);) {
+        const int64_t q = it.bond.entry;
+        while (n < row->n && row->nbr[n] < it.bond.nbr) n++;
+        if (n == row->n || row->nbr[n] != it.bond.nbr) continue;
+        row->soft[n] = (struct bond_softness){old->soft.most[q], old->soft.onset[q], old->soft.end[q]};
+    }
+}
+
+/* Copies the softening of the bond with index q of the rows `old` to the bond of row `row` that leads to nbr. */
+static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struct bonds *old, int64_t q)
+{
+    for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
+        bond_softness_put(&b->soft, bond.entry,
+                          (struct bond_softness){old->soft.most[q], old->soft.onset[q], old->soft.end[q]});
+    }
+}
+
+void bonds_take_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
+                         const struct bonds *old, int64_t from, const int32_t *new_index)
+{
+    if (!row_block_softens(old, from / LANES)) return;
+    if (!b->soft.begun[row / LANES]) row_block_open_softness(b, p, limit, row / LANES);
+    for (struct bond_iterator it = bond_iterator_of_row(old, from); bond_next(&it);)
+        if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], old, it.bond.entry);
+}
+
+/* Copies the softening of row blocks that have begun to `packed` (saving), or from it. */
+static void pack_softness(struct bonds *b, struct bond_softness *packed, bool saving)
+{
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        for (int64_t k = 0; b->soft.begun[g] && k < b->column_count[g] * LANES; k++, packed++) {
+            const int64_t q = b->column[g] * LANES + k;
+            if (saving)
+                *packed = (struct bond_softness){b->soft.most[q], b->soft.onset[q], b->soft.end[q]};
+            else
+                bond_softness_put(&b->soft, q, *packed);
+        }
+}
+
+status softness_archive(struct bonds *b, struct archive *a)
+{
+    int64_t columns = 0;
+    if (!b->soft.curve) return OK;
+    TRY(a->exchange(a, "bonds/softening_begun", b->soft.begun, (size_t)b->row_blocks * sizeof *b->soft.begun));
+    TRY(a->exchange(a, "bonds/softening_due", b->soft.due, (size_t)b->row_blocks * sizeof *b->soft.due));
+    TRY(a->exchange(a, "bonds/softening_any_due", &b->soft.any_due, sizeof b->soft.any_due));
+    for (int64_t g = 0; g < b->row_blocks; g++) columns += b->soft.begun[g] ? b->column_count[g] : 0;
+    if (columns == 0) return OK;
+    struct bond_softness *packed = NEW("bonds.softness", columns * LANES, struct bond_softness);
+    if (a->saving) pack_softness(b, packed, true);
+    const status s = a->exchange(a, "bonds/softening", packed, (size_t)(columns * LANES) * sizeof *packed);
+    if (s == OK && !a->saving) pack_softness(b, packed, false);
+    memory_free(packed);
+    return s;
+}
+
+/* Returns half the energy that the bonds of row block g have dissipated by softening [J], for reproducible_sum.
+ * context: the bonds. */
+static real row_block_spent(const void *context, int64_t g)
+{
+    const struct bonds *b = context;
+    real sum = 0;
+    for (int64_t q = b->column[g] * LANES; b->soft.begun[g] && q < (b->column[g] + b->column_count[g]) * LANES; q++)
+        sum += bond_half_spent(b, g, q);
+    return sum;
+}
+
+real bonds_softening_energy(const struct bonds *b)
+{
+    return b->soft.curve ? reproducible_sum(b->row_blocks, row_block_spent, b) : 0;
+}
+
+real bonds_row_softening(const struct bonds *b, const struct particles *p, int64_t row)
+{
+    const int64_t g = row / LANES;
+    real sum = 0;
+    if (row < 0 || !row_block_softens(b, g) || !(b->family_volume[row] > 0)) return 0;
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        if (it.bond.w == 0 || !bond_softens(b, g, it.bond.entry)) continue;
+        const int64_t q = it.bond.entry;
+        sum += (1 - softening_kept(b->soft.curve, b->soft.onset[q], b->soft.end[q], b->soft.most[q])) *
+               p->volume0[it.bond.nbr];
+    }
+    return sum / b->family_volume[row];
+}

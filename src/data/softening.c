@@ -1,0 +1,196 @@
+/* Curves by which bonds soften, their energy, and the strength that uniformly strained bonds have with them. */
+#include "data/softening.h"
+
+#define DECAY 5.0 /* exponent of exponential softening at its end */
+
+/* ---- curves ------------------------------------------------------------------------------------------------------ */
+
+/* Stores the straight lines through the points (x[k], y[k]), k = 0 .. pieces, of a convex curve. */
+static void curve_through(struct softening_curve *c, int pieces, const real *x, const real *y)
+{
+    *c = (struct softening_curve){.pieces = pieces};
+    for (int k = 0; k < pieces; k++) {
+        c->slope[k] = (y[k] - y[k + 1]) / (x[k + 1] - x[k]);
+        c->level[k] = y[k] + c->slope[k] * x[k];
+        c->from[k] = x[k];
+        c->area += 0.5 * (y[k] + y[k + 1]) * (x[k + 1] - x[k]);
+    }
+    c->from[pieces] = 1;
+}
+
+/* Computes points of the exponential curve whose chords all deviate alike: the density of points follows the root of
+ * its curvature. */
+static void exponential_points(real *x, real *y)
+{
+    const real last = exp(-DECAY), whole = 1 - exp(-0.5 * DECAY);
+    for (int k = 0; k <= SOFTENING_PIECES; k++) {
+        x[k] = -2 / DECAY * log1p(-whole * k / SOFTENING_PIECES);
+        y[k] = (exp(-DECAY * x[k]) - last) / (1 - last);
+    }
+    x[SOFTENING_PIECES] = 1, y[SOFTENING_PIECES] = 0;
+}
+
+/* Bilinear softening of concrete: its kink is at a third of the strength, and at 2/9 of the way (Petersson 1981). */
+struct softening_curve softening_curve_of(enum softening law)
+{
+    struct softening_curve c;
+    real x[SOFTENING_PIECES + 1], y[SOFTENING_PIECES + 1];
+    if (law == SOFTENING_LINEAR)
+        curve_through(&c, 1, (const real[]){0, 1}, (const real[]){1, 0});
+    else if (law == SOFTENING_BILINEAR)
+        curve_through(&c, 2, (const real[]){0, 2.0 / 9, 1}, (const real[]){1, 1.0 / 3, 0});
+    else
+        exponential_points(x, y), curve_through(&c, SOFTENING_PIECES, x, y);
+    return c;
+}
+
+/* Returns the integral of G from 0 to x, 0 <= x <= 1 [1]. */
+static real area_to(const struct softening_curve *c, real x)
+{
+    real area = 0;
+    for (int k = 0; k < c->pieces && c->from[k] < x; k++) {
+        const real from = c->from[k], to = real_min(x, c->from[k + 1]);
+        area += (to - from) * (c->level[k] - 0.5 * c->slope[k] * (from + to));
+    }
+    return area;
+}
+
+real softening_spent(const struct softening_curve *c, real onset, real end, real most)
+{
+    const real x = real_min(1, (most - onset) / (end - onset));
+    if (!(x > 0)) return 0;
+    const real force = onset * softening_level(c, x);
+    return 0.5 * square(onset) + onset * (end - onset) * area_to(c, x) - 0.5 * force * real_min(most, end);
+}
+
+/* ---- uniform strain ---------------------------------------------------------------------------------------------- */
+
+enum { DIRECTIONS = 128, BISECTIONS = 40 };
+#define GROWTH 1.01 /* factor between two strains of the search for a peak */
+
+/* Axial and lateral stress over E' s_0 [1]. */
+struct stress_pair {
+    real axial, lateral;
+};
+
+/* A family of bonds of all directions. reach: (s_f - s_0)/s_0 [1]. */
+struct directions {
+    const struct softening_curve *curve;
+    enum space space;
+    real reach;
+};
+
+/* Returns the force of a bond over stiffness, weight and s_0 [1]. s: its stretch over s_0 [1]. */
+static real bond_tension(const struct directions *a, real s)
+{
+    if (s <= 1) return s;
+    return a->reach > 0 ? softening_level(a->curve, (s - 1) / a->reach) : 0;
+}
+
+/* Returns the stresses of a family with the strains `axial` and, in all directions normal to it, `lateral`, both over
+ * s_0 [1]. Bonds have nu = 1/3 in the plane (plane strain: with E' and nu/(1 - nu)) and 1/4 in a solid. */
+static struct stress_pair family_stress(const struct directions *a, real axial, real lateral)
+{
+    struct stress_pair sum = {0, 0};
+    if (a->space == SPACE_LINE) return (struct stress_pair){bond_tension(a, axial), 0};
+    for (int k = 0; k < DIRECTIONS; k++) {
+        const real at = (k + 0.5) / DIRECTIONS;
+        const real along = a->space == SPACE_SOLID ? square(at) : square(cos(0.5 * M_PI * at)), across = 1 - along;
+        const real force = bond_tension(a, axial * along + lateral * across);
+        sum.axial += force * along, sum.lateral += force * across;
+    }
+    const real axial_factor = a->space == SPACE_SOLID ? 6 : 3, lateral_factor = 3;
+    return (struct stress_pair){sum.axial * axial_factor / DIRECTIONS, sum.lateral * lateral_factor / DIRECTIONS};
+}
+
+/* Returns the lateral strain at which the lateral stress is 0 for the given axial strain, both over s_0 [1]. */
+static real free_lateral_strain(const struct directions *a, real axial)
+{
+    real low = -axial, high = 0;
+    for (int k = 0; k < BISECTIONS && a->space != SPACE_LINE; k++) {
+        const real middle = 0.5 * (low + high);
+        if (family_stress(a, axial, middle).lateral > 0)
+            high = middle;
+        else
+            low = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* Returns the axial strain at which the axial stress is 0 for the given lateral strain, both over s_0 [1]. */
+static real free_axial_strain(const struct directions *a, real lateral)
+{
+    real low = -2 * lateral, high = 0;
+    for (int k = 0; k < BISECTIONS; k++) {
+        const real middle = 0.5 * (low + high);
+        if (family_stress(a, middle, lateral).axial > 0)
+            high = middle;
+        else
+            low = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+static real tension_at(const struct directions *a, real strain)
+{
+    return family_stress(a, strain, free_lateral_strain(a, strain)).axial;
+}
+
+static real biaxial_at(const struct directions *a, real strain)
+{
+    if (a->space == SPACE_LINE) return NAN;
+    if (a->space != SPACE_SOLID) return family_stress(a, strain, strain).axial;
+    return family_stress(a, free_axial_strain(a, strain), strain).lateral;
+}
+
+/* Shear stress, equal tension and pressure in two directions; in the plane only. */
+static real shear_at(const struct directions *a, real strain)
+{
+    real low = -10 * strain, high = 0;
+    if (space_dim(a->space) != 2) return NAN;
+    for (int k = 0; k < BISECTIONS; k++) {
+        const real middle = 0.5 * (low + high);
+        const struct stress_pair stress = family_stress(a, strain, middle);
+        if (stress.axial + stress.lateral > 0)
+            high = middle;
+        else
+            low = middle;
+    }
+    return family_stress(a, strain, 0.5 * (low + high)).axial;
+}
+
+/* Returns the largest stress over growing strain, from the onset until the stress has fallen by a fifth or all bonds
+ * have ended; NAN if the stress is not defined in this space. */
+static real peak(const struct directions *a, real (*stress)(const struct directions *, real))
+{
+    real most = 0;
+    for (real strain = 1; strain < 2 * (1 + a->reach); strain *= GROWTH) {
+        const real now = stress(a, strain);
+        if (isnan(now)) return NAN;
+        if (now < 0.8 * most) break;
+        most = real_max(most, now);
+    }
+    return most;
+}
+
+struct softening_strength softening_strength_of(const struct softening_curve *c, enum space space, real kappa)
+{
+    const struct directions a = {c, space, (kappa - 1) / (2 * c->area)};
+    return (struct softening_strength){peak(&a, tension_at), peak(&a, biaxial_at), peak(&a, shear_at)};
+}
+
+real softening_onset_of(const struct material *m, enum space space)
+{
+    const struct softening_curve c = softening_curve_of(m->softening);
+    const real strain = m->tensile_strength / material_tension_modulus(m, space);
+    real onset = strain;
+    for (int k = 0; k < 20; k++) {
+        const real kappa = square(m->critical_stretch / onset);
+        if (!(kappa > 1)) break;
+        const struct directions a = {&c, space, (kappa - 1) / (2 * c.area)};
+        const real next = strain / peak(&a, tension_at);
+        if (fabs(next - onset) < 1e-9 * onset) break;
+        onset = next;
+    }
+    return onset;
+}

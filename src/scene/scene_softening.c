@@ -1,0 +1,63 @@
+/* Reads the tensile strength of a material: its bonds soften. */
+#include <math.h>
+
+#include "data/softening.h"
+#include "scene_internal.h"
+
+/* Returns REFUSED for a tensile strength that bonds cannot have at this horizon: they would break at less. */
+static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
+{
+    const struct scene *s = r->scene;
+    const real strain = m->tensile_strength / material_tension_modulus(m, s->space);
+    const real most = s->horizon * s->spacing * square(m->critical_stretch / strain);
+    if (m->tensile_strength > 0.1 * m->young)
+        return fault(r, n, "%s is above a tenth of Young's modulus, %.4g Pa; a smaller strength is expected",
+                     node_text(r, n), 0.1 * m->young);
+    if (m->onset_stretch < m->critical_stretch) return OK;
+    if (isnan(m->energy_release_rate))
+        return fault(r, n,
+                     "bonds break at a stretch of %.4g, which is a stress of %.4g Pa; less, or a larger "
+                     "critical_stretch, is expected",
+                     m->critical_stretch, m->critical_stretch * material_tension_modulus(m, s->space));
+    return fault(r, n,
+                 "bonds of this horizon, %.4g m, break at %.4g Pa by the energy release rate, before this strength is "
+                 "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
+                 s->horizon * s->spacing, m->critical_stretch * material_tension_modulus(m, s->space), most,
+                 most / s->horizon);
+}
+
+status read_softening(struct reader *r, const struct yaml_node *n, struct material *m)
+{
+    const struct scene *s = r->scene;
+    const struct yaml_node *strength = yaml_node_find(n, "tensile_strength"), *law = yaml_node_find(n, "softening"),
+                           *scatter = yaml_node_find(n, "scatter");
+    m->onset_stretch = m->critical_stretch;
+    if (law && !strength) return fault(r, law, "says how bonds lose their tensile_strength, which is expected with it");
+    if (!strength) return OK;
+    const char *why = s->method == METHOD_MPM  ? "is of bonds; method: pd or adaptive is expected"
+                      : s->model != MODEL_BOND ? "is of model bond so far, whose bonds soften; without this key, bonds "
+                                                 "of any model are brittle"
+                      : !scene_is_dynamic(s)   ? "is of explicit steps so far; solver: explicit is expected, or no "
+                                                 "tensile_strength, so that bonds are brittle"
+                      : material_yields(m)     ? "is of bonds that do not yield; one of yield_stress and "
+                                                 "tensile_strength is expected"
+                      : !isfinite(m->critical_stretch)
+                          ? "tells the stress but not the energy at which bonds end; "
+                            "energy_release_rate, toughness or critical_stretch is expected, too"
+                          : NULL;
+    if (why) return fault(r, strength, "%s", why);
+    if (scatter && m->scatter.of != SCATTER_STRENGTH && m->scatter.of != SCATTER_STRETCH)
+        return fault(r, yaml_node_find(scatter, "of"),
+                     "with tensile_strength, `of: strength` (at one energy) or critical_stretch (with it) is expected");
+    m->onset_stretch = softening_onset_of(m, s->space);
+    return check_reachable(r, strength, m);
+}
+
+status check_one_softening(struct reader *r, const struct yaml_node *n, int k)
+{
+    const struct material *m = r->scene->material;
+    for (int j = 0; j < k; j++)
+        if (material_softens(&m[j]) && material_softens(&m[k]) && m[j].softening != m[k].softening)
+            return fault(r, n, "softens by another law than material %s; one law for all is expected", m[j].name);
+    return OK;
+}

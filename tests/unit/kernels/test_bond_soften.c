@@ -1,0 +1,383 @@
+/* Bonds that soften: cycles of one bond compared with closed forms, all lanes compared with a plain implementation,
+ * energy, both ends of a bond, a uniformly strained family, a line torn apart, and compression. */
+#include "kernels/kernels.h"
+
+#include "tests/support/cloud.h"
+#include "tests/support/near.h"
+#include "tests/support/sets.h"
+#include "tests/support/soften_reference.h"
+
+#define ONSET 1e-3
+#define CRITICAL 2e-3 /* kappa = 4 */
+
+/* A body whose bonds soften. */
+struct soft_body {
+    struct plotted_particles c;
+    struct softening_curve curve;
+    struct softening_pair pair[CLOUD_MATERIALS * CLOUD_MATERIALS];
+};
+
+/* Creates the bonds of a body, with `onset` and `critical` for all pairs of materials, after plotted_particles_make. */
+static void soft_bonds(struct soft_body *s, enum softening law, real onset, real critical)
+{
+    s->curve = softening_curve_of(law);
+    cloud_source(&s->c);
+    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++)
+        s->pair[k] = (struct softening_pair){onset, critical, false}, s->c.limit[k] = critical;
+    s->c.source.yield.stretch = NULL;
+    s->c.source.limit.softening = s->pair, s->c.source.limit.curve = &s->curve;
+    s->c.source.limit.last_force = LAST_FORCE_NONE;
+    s->c.source.limit.retries = true;
+    bonds_make(&s->c.bonds, NULL, &s->c.p, &s->c.source);
+}
+
+/* One step: bonds begin to soften, forces. Returns the number of bonds broken. */
+static int64_t soft_forces(struct soft_body *s)
+{
+    struct plotted_particles *c = &s->c;
+    return bond_forces(bond_force_table[c->p.dim][PD_BOND_SOFT], &c->bonds, &c->p, &c->source.limit, NULL);
+}
+
+/* ---- one bond ---------------------------------------------------------------------------------------------------- */
+
+static void pair_make(struct soft_body *s, enum softening law)
+{
+    memset(s, 0, sizeof *s);
+    plotted_particles_make(&s->c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
+    soft_bonds(s, law, ONSET, CRITICAL);
+}
+
+/* Returns the force of a single bond of two particles at stretch s, over stiffness and weight, after two steps there:
+ * a bond begins one step after it has passed its onset. */
+static real pulled(struct soft_body *s, real stretch)
+{
+    struct particles *p = &s->c.p;
+    p->x[0][1] = p->x[0][0] + (p->X[0][1] - p->X[0][0]) * (1 + stretch);
+    soft_forces(s), soft_forces(s);
+    assert_exact(p->f[0][0], -p->f[0][1]);
+    return p->f[0][0] / s->c.bonds.stiffness;
+}
+
+/* Returns the force at the largest stretch k by the formulas of the sheet: s_f = s_c^2/s_0; concrete with its kink at
+ * (s_0 + 2X/9, s_0/3), X = 9/5 (s_c^2 - s_0^2)/s_0; exponential with 0.8 % for the chords. */
+static real envelope(enum softening law, real k)
+{
+    const real decay = 5, reach = (square(CRITICAL) - square(ONSET)) / (2 * ONSET);
+    if (law != SOFTENING_EXPONENTIAL) return soften_reference_peak(law, ONSET, CRITICAL, k);
+    const real area = 1 / decay - exp(-decay) / (1 - exp(-decay)); /* of (exp(-5 x) - exp(-5))/(1 - exp(-5)) */
+    const real x = (k - ONSET) * area / reach;
+    return x < 1 ? ONSET * (exp(-decay * x) - exp(-decay)) / (1 - exp(-decay)) : 0;
+}
+
+/* Loading in cycles: elastic up to s_0; then along the envelope, and between along the secant to the origin, slope
+ * (1 - d) c; whole stiffness in compression. Tolerance: largest stretches are stored as floats (6e-8); chords deviate
+ * from the exponential curve by 0.7 % of its height, and their area by less. */
+static void test_cycles(void **state)
+{
+    (void)state;
+    for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
+        const real peaks[] = {1.2e-3, 1.5e-3, 2e-3, 3e-3, 3.5e-3};
+        const real within = law == SOFTENING_EXPONENTIAL ? 0.015 * ONSET : 1e-6 * ONSET;
+        struct soft_body s;
+        pair_make(&s, law);
+        assert_near(pulled(&s, 0.9 * ONSET), 0.9 * ONSET, 1e-12);
+        assert_near(pulled(&s, -5 * ONSET), -5 * ONSET, 1e-12);
+        for (size_t k = 0; k < COUNT_OF(peaks); k++) {
+            const real top = pulled(&s, peaks[k]);
+            assert_near(top, envelope(law, peaks[k]), within);
+            assert_close(pulled(&s, 0.5 * peaks[k]), 0.5 * top, 1e-6);
+            assert_close(pulled(&s, 0.1 * peaks[k]), 0.1 * top, 1e-6);
+            assert_near(pulled(&s, -0.7 * ONSET), -0.7 * ONSET, 1e-12);
+            assert_close(pulled(&s, peaks[k]), top, 1e-6);
+        }
+        plotted_particles_free(&s.c);
+    }
+}
+
+/* The work done along a path with two unloadings equals elastic energy plus what has been dissipated, which only grows;
+ * over the whole path up to the end it is s_c^2/2 over stiffness and length, as of a brittle bond. Trapezoids of 2e-4
+ * of a path, whose corners and curvature leave 1e-6. */
+static void test_work(void **state)
+{
+    (void)state;
+    for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
+        struct soft_body s;
+        pair_make(&s, law);
+        const real end = softening_end(&s.curve, ONSET, CRITICAL),
+                   corner[] = {0, 1.4 * ONSET, -ONSET, 0.6 * end, 0, end};
+        const real scale = s.c.bonds.stiffness * CLOUD_SPACING;
+        real work = 0, before = 0, dissipated = 0;
+        enum { STEPS = 5000 };
+        for (size_t k = 1; k < COUNT_OF(corner); k++) {
+            for (int step = 1; step <= STEPS; step++) {
+                const real from = corner[k - 1], to = corner[k];
+                const real force = pulled(&s, from + (to - from) * step / STEPS);
+                work += 0.5 * (force + before) * (to - from) / STEPS * scale;
+                before = force;
+                const real now = bonds_fracture_energy(&s.c.bonds);
+                assert_true(now >= dissipated * (1 - 1e-6)); /* floats */
+                dissipated = now;
+            }
+            const real held = bond_energy_table[1][PD_BOND_SOFT](&s.c.bonds, &s.c.p);
+            assert_near(held + dissipated, work, 2e-6 * 0.5 * square(CRITICAL) * scale);
+        }
+        assert_close(dissipated, 0.5 * square(CRITICAL) * scale, 2e-6);
+        pulled(&s, 1.01 * end);
+        assert_int_equal(s.c.bonds.broken[0] + s.c.bonds.broken[1], 2);
+        assert_close(bonds_fracture_energy(&s.c.bonds), 0.5 * square(CRITICAL) * scale, 2e-6);
+        assert_exact(pulled(&s, 1.02 * end), 0);
+        plotted_particles_free(&s.c);
+    }
+}
+
+/* A bond that goes from below its onset beyond its end in one step is brittle: it breaks at s_c, the moment at which it
+ * passed s_c, with its energy there. */
+static void test_at_once(void **state)
+{
+    (void)state;
+    struct soft_body s;
+    pair_make(&s, SOFTENING_LINEAR);
+    struct particles *p = &s.c.p;
+    s.c.source.limit.last_force = LAST_FORCE_MOMENT, s.c.source.limit.dt = 1e-9;
+    p->x[0][1] = p->x[0][0] + CLOUD_SPACING * (1 + 6 * ONSET);
+    p->v[0][1] = CLOUD_SPACING * 5.5 * ONSET / 1e-9;
+    assert_int_equal(soft_forces(&s), 2);
+    assert_close(bonds_fracture_energy(&s.c.bonds), 0.5 * square(CRITICAL) * s.c.bonds.stiffness * CLOUD_SPACING, 1e-9);
+    plotted_particles_free(&s.c);
+}
+
+/* ---- many bonds -------------------------------------------------------------------------------------------------- */
+
+static void body_make(struct soft_body *s, enum space space, enum softening law, uint64_t seed)
+{
+    memset(s, 0, sizeof *s);
+    plotted_particles_make(
+        &s->c, &(struct cloud_plan){.space = space, .count = {9, 7, 5}, .horizon = 2.015, .shake = 0.2, .seed = seed});
+    for (int64_t i = 0; i < s->c.p.n; i++) s->c.p.material[i] = (uint8_t)(i % 2);
+    soft_bonds(s, law, ONSET, CRITICAL);
+    bonds_free(&s->c.bonds);
+    s->pair[3] = (struct softening_pair){ONSET, 1.2 * CRITICAL, false}, s->c.limit[3] = 1.2 * CRITICAL;
+    bonds_make(&s->c.bonds, NULL, &s->c.p, &s->c.source);
+}
+
+/* Moves particles at random, with stretches up to 3 s_0 and, in the end, beyond s_f. */
+static void shake(struct plotted_particles *c, uint64_t *seed, real size)
+{
+    for (int64_t i = 0; i < c->p.n; i++)
+        for (int d = 0; d < c->p.dim; d++)
+            c->p.x[d][i] = c->p.X[d][i] + cloud_between(seed, -size, size) * CLOUD_SPACING;
+}
+
+/* Forces, energy and dissipation of irregular bodies of two materials under random motion equal those of the plain
+ * implementation. Tolerance of forces 1e-6 of the onset: states are floats. */
+static void test_lanes(void **state)
+{
+    (void)state;
+    const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct soft_body s;
+        uint64_t seed = 5;
+        body_make(&s, spaces[dim - 1], dim == 2 ? SOFTENING_BILINEAR : SOFTENING_LINEAR, 3);
+        const struct bonds *b = &s.c.bonds;
+        const struct particles *p = &s.c.p;
+        const int64_t n = p->n;
+        struct soften_reference r = soften_reference_make(dim == 2 ? SOFTENING_BILINEAR : SOFTENING_LINEAR, n);
+        real *w = reference_table(b, p);
+        int64_t *block = NEW("test.block", n, int64_t), ended = 0, softened = 0;
+        struct reference_row *row = NEW("test.rows", n, struct reference_row);
+        for (int64_t i = 0; i < n; i++) block[i] = b->row_of[i] / LANES;
+        for (int64_t q = 0; q < n * n; q++) {
+            const struct softening_pair *pair = &s.pair[p->material[q / n] * CLOUD_MATERIALS + p->material[q % n]];
+            r.onset[q] = pair->onset, r.critical[q] = pair->critical;
+        }
+        for (int step = 0; step < 16; step++) {
+            real energy = 0;
+            shake(&s.c, &seed, 2e-4 * (step + 1));
+            soften_reference_begin(&r, p, w, b->stiffness, block);
+            soften_reference_step(&r, p, w, b->stiffness, block, row);
+            soft_forces(&s);
+            for (int64_t i = 0; i < n; i++) {
+                energy += row[i].energy;
+                for (int d = 0; d < dim; d++)
+                    assert_near(p->f[d][i], row[i].force[d], 1e-6 * b->stiffness * ONSET * 10);
+            }
+            assert_close(bond_energy_table[dim][PD_BOND_SOFT](b, p), energy, 1e-6);
+            assert_near(bonds_fracture_energy(b), soften_reference_fracture(&r, p, w, b->stiffness), 1e-6 * energy);
+        }
+        for (int64_t q = 0; q < n * n; q++) ended += r.ended[q], softened += r.most[q] > r.onset[q];
+
+        assert_true(ended >= 2 && softened >= 20);
+        soften_reference_free(&r);
+        memory_free(w), memory_free(block), memory_free(row);
+        plotted_particles_free(&s.c);
+    }
+}
+
+/* Both entries of a bond have bitwise equal states, which momentum conservation requires; rows that are made again keep
+ * them. */
+static void test_ends(void **state)
+{
+    (void)state;
+    struct soft_body s;
+    uint64_t seed = 9;
+    int64_t checked = 0;
+    body_make(&s, SPACE_PLANE_STRESS, SOFTENING_LINEAR, 4);
+    struct bonds *b = &s.c.bonds;
+    for (int step = 0; step < 9; step++) {
+        shake(&s.c, &seed, 3e-4 * (step + 1));
+        soft_forces(&s);
+        if (step != 4) continue;
+        const real before = bonds_fracture_energy(b);
+        struct bonds old = *b;
+        bonds_make(b, &old, &s.c.p, &s.c.source);
+        bonds_free(&old);
+        assert_exact(bonds_fracture_energy(b), before);
+    }
+    for (int64_t r = 0; r < b->rows; r++)
+        for (int64_t k = 0; k < b->column_count[r / LANES]; k++) {
+            const struct bond bond = bond_read(b, r / LANES, k, (int)(r % LANES));
+            if (bond.w == 0 || !bond_softens(b, r / LANES, bond.entry)) continue;
+            const int64_t other = b->row_of[bond.nbr];
+            for (struct bond_iterator it = bond_iterator_of_row(b, other); bond_next(&it);) {
+                if (it.bond.nbr != b->particle[r]) continue;
+                assert_true(bond_softens(b, other / LANES, it.bond.entry));
+                assert_exact(b->soft.most[it.bond.entry], b->soft.most[bond.entry]);
+                checked += b->soft.most[bond.entry] > b->soft.onset[bond.entry];
+            }
+        }
+    assert_true(checked > 100);
+    plotted_particles_free(&s.c);
+}
+
+/* ---- a uniformly strained family --------------------------------------------------------------------------------- */
+
+#define SMALL 1e-5 /* onset, so that the sum is linear in it */
+
+/* Returns the stress of a full family on a lattice under the strains `axial` (along x) and `lateral`, and in *across
+ * the lateral stress, from a sum over its vectors: sigma = 1/2 c sum V f(s) r n n, f by linear softening. */
+static real lattice_stress(const struct family *f, real c, real axial, real lateral, real *across)
+{
+    const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);
+    real sum = 0;
+    *across = 0;
+    for (int z = dim > 2 ? -reach : 0; z <= (dim > 2 ? reach : 0); z++)
+        for (int y = -reach; y <= reach; y++)
+            for (int x = -reach; x <= reach; x++) {
+                const real xi[DIM_MAX] = {x * f->spacing, y * f->spacing, z * f->spacing}, r = sqrt(dot(xi, xi, 3));
+                if (r == 0 || r > f->cutoff) continue;
+                const real w = family_bond_weight(f, xi, r), along = square(xi[0] / r),
+                           s = axial * along + lateral * (1 - along);
+                const real t = s <= SMALL ? s : soften_reference_peak(SOFTENING_LINEAR, SMALL, 2 * SMALL, s);
+                sum += 0.5 * c * f->cell_volume * w * t * r * along;
+                *across += 0.5 * c * f->cell_volume * w * t * r * (1 - along) / (dim - 1);
+            }
+    return sum;
+}
+
+/* Uniaxial tension of a block in small steps, with the lateral strain at which the lattice sum has no lateral stress:
+ * the stress of its middle particle equals the sum within 1e-3, and so does its peak, which is E s_0 phi within the
+ * anisotropy of a lattice, 5 %: phi(4) = 1.096 in the plane, 1.281 in space (quadrature over directions, the sheet's
+ * table). */
+static void test_family(void **state)
+{
+    (void)state;
+    const enum space spaces[] = {SPACE_PLANE_STRESS, SPACE_SOLID};
+    for (int k = 0; k < 2; k++) {
+        struct soft_body s = {0};
+        const real phi = k == 0 ? 1.096 : 1.281;
+        real peak = 0, expected_peak = 0;
+        plotted_particles_make(
+            &s.c, &(struct cloud_plan){
+                      .space = spaces[k], .count = {11, 11, 11}, .horizon = 3.015, .shells = SHELLS_ISOTROPIC});
+        cloud_exact(&s.c);
+        soft_bonds(&s, SOFTENING_LINEAR, SMALL, 2 * SMALL);
+        const int dim = s.c.p.dim;
+        const int64_t middle = s.c.p.n / 2;
+        const real c = family_micro_modulus(&s.c.source.family, &s.c.material[0]);
+        for (real strain = 0.9 * SMALL; strain < 2 * SMALL; strain += 0.01 * SMALL) {
+            real low = -strain, high = 0, across;
+            for (int n = 0; n < 50; n++) {
+                const real half = 0.5 * (low + high);
+                lattice_stress(&s.c.source.family, c, strain, half, &across);
+                *(across > 0 ? &high : &low) = half;
+            }
+            const real expected = lattice_stress(&s.c.source.family, c, strain, low, &across);
+            cloud_strain(&s.c, (const real[DIM_MAX][DIM_MAX]){{strain}, {0, low}, {0, 0, low}});
+            soft_forces(&s);
+            soft_forces(&s);
+            bond_stress_table[dim][PD_BOND_SOFT](&s.c.bonds, &s.c.p);
+            assert_close(s.c.p.stress[0][middle], expected, 1e-3);
+            peak = real_max(peak, s.c.p.stress[0][middle]), expected_peak = real_max(expected_peak, expected);
+        }
+        assert_close(peak, expected_peak, 1e-3);
+        assert_close(peak, s.c.material[0].young * SMALL * phi, 0.05);
+        plotted_particles_free(&s.c);
+    }
+}
+
+/* ---- a line torn apart ------------------------------------------------------------------------------------------- */
+
+/* Two halves of a line move apart by w: the bonds across bear E s_0 (1 - w/w_c)^2, w_c = s_f delta, where kappa is
+ * large (sheet, section 2). With n bonds of length n spacings the sum differs from the integral by 1/m for a horizon of
+ * m spacings: m = 60. */
+static void test_line(void **state)
+{
+    (void)state;
+    enum { HORIZON = 60 };
+    const real onset = 1e-6, critical = 1e-4, end = square(critical) / onset; /* kappa = 1e4 */
+    struct soft_body s = {0};
+    plotted_particles_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {128}, .horizon = HORIZON});
+    soft_bonds(&s, SOFTENING_LINEAR, onset, critical);
+    struct particles *p = &s.c.p;
+    const real strength = s.c.material[0].young * s.c.source.family.section * onset;
+    for (int k = 1; k <= 10; k++) {
+        const real w = 0.1 * k * end * HORIZON * CLOUD_SPACING;
+        real force = 0;
+        for (int64_t i = 0; i < p->n; i++) p->x[0][i] = p->X[0][i] + (i < p->n / 2 ? 0 : w);
+        s.c.source.limit.last_force = LAST_FORCE_NONE;
+        soft_forces(&s), soft_forces(&s);
+        for (int64_t i = 0; i < p->n / 2; i++) force += p->f[0][i];
+        assert_near(force / strength, square(1 - 0.1 * k), 1.0 / HORIZON);
+    }
+    plotted_particles_free(&s.c);
+}
+
+/* ---- compression ------------------------------------------------------------------------------------------------- */
+
+/* Uniaxial compression to five times the strength stretches lateral bonds beyond their onset, but nothing pulls at
+ * them: no bond softens. Equal stretches without the pressure do soften them. */
+static void test_compression(void **state)
+{
+    (void)state;
+    const enum space spaces[] = {SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
+    for (int k = 0; k < 3; k++)
+        for (int pressed = 1; pressed >= 0; pressed--) {
+            struct soft_body s = {0};
+            plotted_particles_make(&s.c,
+                                   &(struct cloud_plan){.space = spaces[k], .count = {9, 9, 9}, .horizon = 3.015});
+            cloud_exact(&s.c);
+            soft_bonds(&s, SOFTENING_LINEAR, ONSET, CRITICAL);
+            const real nu = k == 1 ? 1.0 / 3 : s.c.material[0].poisson, axial = -5 * ONSET;
+            for (int step = 1; step <= 10; step++) {
+                const real part = 0.1 * step, lateral = -nu * axial * part;
+                cloud_strain(
+                    &s.c, (const real[DIM_MAX][DIM_MAX]){{pressed ? axial * part : 0}, {0, lateral}, {0, 0, lateral}});
+                soft_forces(&s);
+            }
+            soft_forces(&s);
+            assert_true(-nu * axial > 1.2 * ONSET);
+            assert_true((bonds_fracture_energy(&s.c.bonds) > 0) == !pressed);
+            plotted_particles_free(&s.c);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cycles),  cmocka_unit_test(test_work),
+                                       cmocka_unit_test(test_at_once), cmocka_unit_test(test_lanes),
+                                       cmocka_unit_test(test_ends),    cmocka_unit_test(test_family),
+                                       cmocka_unit_test(test_line),    cmocka_unit_test(test_compression)};
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
+}
