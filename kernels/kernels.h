@@ -125,6 +125,10 @@ KERNEL(int64_t, bond_forces,
  * energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
+/* Updates the largest stretches of all bonds that soften to the present positions, as a force computation does. Call it
+ * before energies are read without a force computation. */
+KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p));
+
 /* Computes pressure (from the dilatation), spring stiffness and rotation of all families (all neighbours of a particle)
  * from the present positions into b->state: the first of the two loops of a state-based force. Call it before these
  * quantities are read without a force computation. Stores the reactions on the cells of material points with bonds in

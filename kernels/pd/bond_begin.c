@@ -1,7 +1,8 @@
 /* Bonds that begin to soften. A sweep marks row blocks (the bonds of eight particles) with a bond beyond its onset as
  * due; before the next sweep the bonds between due row blocks are examined, while all positions are of one time. Both
- * rows of a bond then decide alike. A bond begins one step late; the energy that its force loses at once counts as
- * fracture energy, and the balance stays of second order.
+ * rows of a bond then decide alike. A bond begins one step late. The velocity update by the forces of a step extends
+ * over half a step before and after: the force falls on the curve half a step before the present positions, and the
+ * energy that the bond loses there at once counts as fracture energy. The balance stays of second order.
  *
  * Lateral bonds of a compressed body are stretched, though no stress pulls at them. A bond from i to j of direction n
  * may therefore begin only where n . sigma . n > 0.2 E s (solids and plane strain; 0.19 E s in plane stress). With the
@@ -31,8 +32,8 @@ struct candidate {
 /* Returns the state of row block g while row blocks are examined; other threads may set DUE_DENIED in it. */
 static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
 
-/* Returns true if the bond `bond` of row block g, from particle i, is beyond its onset, has not begun to soften, and
- * leads to a row block that is due, too; stores it in *c. */
+/* Returns true if the bond `bond` of row block g, from particle i, is between its onset and its end, beyond which the
+ * sweep breaks it, has not begun to soften, and leads to a row block that is due, too; stores it in *c. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -42,7 +43,7 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
     c->i = i, c->j = bond->nbr;
     c->stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
     c->range = bond_range_of(p, limit, i, bond->nbr);
-    return c->stretch > c->range.onset && c->range.onset < c->range.end;
+    return c->stretch > c->range.onset && c->stretch <= c->range.end && c->range.onset < c->range.end;
 }
 
 /* Returns the row whose dilatation stands for that of particle or image j: its own, or that of its source; -1 if the
@@ -135,14 +136,17 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
 }
 
 /* Lets the bond with index q of a row begin to soften. Adds half of the energy that it loses at once and that the
- * closed form of its dissipation does not count to the fracture energy of the row. */
-static void bond_begin(struct bonds *b, int64_t row, int64_t q, const struct candidate *c)
+ * closed form of its dissipation does not count to the fracture energy of the row. dt: time step [s]. */
+static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
+                       real dt)
 {
-    struct softened *s = &b->soft;
-    bond_softness_put(s, q, (struct bond_softness){(float)c->range.onset, (float)c->range.onset, (float)c->range.end});
-    const real reached = real_min(c->stretch, s->end[q]);
-    const real lost = 0.5 * square(c->stretch) * (1 - bond_kept_share(b, row / LANES, q, c->stretch)) -
-                      softening_spent(s->curve, s->onset[q], s->end[q], reached);
+    const struct softening_range range = {(float)c->range.onset, (float)c->range.end};
+    const real stretch = bond_stretch_earlier(p, b->inverse_length[q], c->i, c->j, 0.5 * dt);
+    bond_softness_put(&b->soft, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end});
+    if (!(stretch > range.onset)) return;
+    const real kept = bond_kept_share(b, row / LANES, q, stretch);
+    const real lost = 0.5 * square(stretch) * (1 - kept) -
+                      softening_spent(b->soft.curve, range.onset, range.end, real_min(stretch, range.end));
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
@@ -170,7 +174,7 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
                 continue;
             }
             if (!b->soft.begun[g]) row_block_open_softness(b, p, limit, g);
-            bond_begin(b, row, bond.entry, &c);
+            bond_begin(b, p, row, bond.entry, &c, limit->dt);
             mark_point(b, p, c.i);
         }
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);

@@ -60,13 +60,11 @@ static void row_changed(struct bonds *b, int64_t row)
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
 /* Replaces the force of a breaking bond on particle i, which the force kernel has added to p->f, by `share` [1] times
- * its force with the states before bonds broke. A bond that softens becomes brittle. */
+ * its force with the states before bonds broke. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
     bond_force_of_any_model(b, p, bond, i, true, given);
-    if (bond_softens(b, b->row_of[i] / LANES, bond->entry)) /* it has gone from the onset past its end in one step */
-        b->soft.onset[bond->entry] = b->soft.most[bond->entry] = SOFTENING_NEVER;
     bond_force_of_any_model(b, p, bond, i, false, f);
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
@@ -78,12 +76,6 @@ static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64
     b->soft.most[q] = b->soft.end[q];
     b->fracture_energy[row] += bond_half_spent(b, row / LANES, q);
     bond_end(b, p, row, q, b->particle[row], b->nbr[q]);
-}
-
-/* Returns true if bond q of a row has softened. */
-static bool has_softened(const struct bonds *b, int64_t row, int64_t q)
-{
-    return bond_softens(b, row / LANES, q) && b->soft.most[q] > b->soft.onset[q];
 }
 
 /* Breaks bond q of a row: replaces its force on the particle by that of the step in which it breaks (bond_last.h), adds
@@ -177,7 +169,7 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
         if (!is_past(b, p, limit, row, q, i, j)) continue;
-        if (has_softened(b, row, q))
+        if (bond_softens(b, row / LANES, q))
             bond_finish(b, p, row, q);
         else
             bond_break(b, p, limit, row, q);

@@ -45,13 +45,11 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
 }
 
 /* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices q to q + 7
- * as their largest ones where they exceed these. A bond beyond its end keeps its largest stretch, which tells whether
- * it has softened before. */
+ * as their largest ones where they exceed these. */
 static ALWAYS_INLINE lanes bonds_soften(const struct bonds *b, int64_t q, lanes stretch)
 {
     const lanes before = lanes_load_floats(b->soft.most + q), most = lanes_max(before, stretch);
-    const lanes_mask grows = (stretch > before) & (stretch <= lanes_load_floats(b->soft.end + q));
-    if (lanes_any(grows)) lanes_store_floats(b->soft.most + q, lanes_choose(grows, stretch, before));
+    if (lanes_any(stretch > before)) lanes_store_floats(b->soft.most + q, most);
     return bonds_softened_stretch(b, q, stretch, most);
 }
 

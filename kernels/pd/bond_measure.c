@@ -90,6 +90,38 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
+/* Updates the largest stretches of the eight bonds of column s. x: positions of the particles of the row block. */
+static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
+                                             const int dim)
+{
+    lanes y[DIM_MAX], stretch;
+    bond_measure_store(s, p, x, y, &stretch, dim);
+    bonds_soften(s.b, s.number * LANES, stretch);
+}
+
+/* Updates the largest stretches of the bonds of row block g, which has begun to soften. */
+static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const struct particles *p, int64_t g,
+                                                const int dim)
+{
+    const int32_t *row = b->particle + g * LANES;
+    lanes x[DIM_MAX];
+    for (int d = 0; d < dim; d++) x[d] = lanes_load_or_gather(p->x[d], b->aligned[g] ? row[0] : -1, row);
+#define VISIT(COLUMN) bond_soften_column(COLUMN, p, x, dim)
+    FOR_COLUMNS(b, g, VISIT);
+#undef VISIT
+}
+
+void bonds_update_softening(struct bonds *b, const struct particles *p)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t g = 0; g < b->row_blocks; g++) {
+        if (!row_block_softens(b, g)) continue;
+        if (p->dim == 1) bond_soften_row_block(b, p, g, 1);
+        if (p->dim == 2) bond_soften_row_block(b, p, g, 2);
+        if (p->dim == 3) bond_soften_row_block(b, p, g, 3);
+    }
+}
+
 real bond_row_plastic_work(const struct bonds *b, int64_t row)
 {
     real sum = b->plastic_work[row];

@@ -15,10 +15,10 @@ void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_sou
     b->soft.needed = NEW("bonds.needed", b->row_blocks * LANES, uint8_t);
     b->soft.dilatation = NEW("bonds.dilatation", b->row_blocks * LANES, real);
     b->soft.any_due = old && old->soft.any_due;
-    b->soft.least_ratio = INFINITY;
+    b->soft.least_ratio = p->strength ? 1 : INFINITY;
     for (int k = 0; k < square(s->limit.materials); k++) {
         const struct softening_range range = softening_range_of(s->limit.curve, &s->limit.softening[k], 1);
-        b->soft.least_ratio = p->strength ? 1 : real_min(b->soft.least_ratio, range.end / range.onset);
+        if (isfinite(range.onset)) b->soft.least_ratio = real_min(b->soft.least_ratio, range.end / range.onset);
     }
 }
 

@@ -134,16 +134,16 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
             const int64_t q = i * p->n + j;
             if (!(w[q] > 0) || r->ended[q] || r->most[q] > 0 || !r->due[block[i]] || !r->due[block[j]]) continue;
             const struct reference_bond bond = reference_bond(p, i, j);
-            if (!(bond.stretch > r->onset[q])) continue;
+            const real end = soften_reference_end(r->law, r->onset[q], r->critical[q]);
+            if (!(bond.stretch > r->onset[q] && bond.stretch <= end)) continue;
             if (p->dim > 1 && !(0.5 * (dilatation[i] + dilatation[j]) + 1.5 * bond.stretch > 0)) {
                 denied[block[i]] = true;
                 continue;
             }
-            const real end = soften_reference_end(r->law, r->onset[q], r->critical[q]), k = fmin(bond.stretch, end);
             r->most[q] = r->onset[q];
             r->jumped += 0.5 * stiffness * w[q] * bond.length *
                          (0.5 * bond.stretch * bond.stretch * (1 - soften_reference_kept(r, q, bond.stretch)) -
-                          soften_reference_spent(r->law, r->onset[q], r->critical[q], k));
+                          soften_reference_spent(r->law, r->onset[q], r->critical[q], bond.stretch));
         }
     memory_free(dilatation);
     memory_free(r->due);
