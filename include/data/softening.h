@@ -1,5 +1,5 @@
-/* Softening of bonds: how the force of a bond falls from its peak to 0 (Zaccariotto et al. 2015 for bilinear curves;
- * Bromley & Lipton 2023 for bonds whose damage depends on their largest stretch).
+/* Softening of bonds: how the force of a bond falls from its peak to 0, by damage that depends on its largest stretch
+ * (Coskun, Damircheli & Lipton 2025); a bilinear curve as of concrete (Petersson 1981).
  *
  * With the largest stretch k so far, the onset s_0 and the end s_f, the force over stiffness and weight is
  *

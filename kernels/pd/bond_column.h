@@ -77,7 +77,7 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
  * PD_BOND_SOFT and no bond of the row block has begun to soften. */
 #define FOR_COLUMNS_BY_LAW(B, ROW_BLOCK, MODEL, VISIT, VISIT_BRITTLE)                                                  \
     do {                                                                                                               \
-        if ((MODEL) != PD_BOND_SOFT || (B)->soft.begun[ROW_BLOCK])                                                     \
+        if ((MODEL) != PD_BOND_SOFT || row_block_softens(B, ROW_BLOCK))                                                \
             FOR_COLUMNS(B, ROW_BLOCK, VISIT);                                                                          \
         else                                                                                                           \
             FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
