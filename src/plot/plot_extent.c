@@ -11,15 +11,19 @@
 /* Neighbours: the nearest ones of a lattice, diagonal ones included [spacings]. Deformations below STRAIN_SEEN are not
  * visible, as particles are drawn a tenth wider than the spacing. A pair of particles that have both lost bonds is
  * connected up to a drawn elongation of PARTED, or of PARTED_MORE times that of 99 % of the pairs that are surely
- * connected, if this is more. A pair is not drawn longer than LONGEST spacings. A particle that has lost more than the
+ * connected, if this is more. A pair is not drawn longer than LONGEST spacings, nor where
+ * its elongation exceeds JUMP and JUMP_TIMES the median of the pairs of its particle: material points may part without
+ * damage. A particle that has lost more than the
  * share LOOSE of its bonds is rubble, which has its own size. */
 #define NEAR_REACH 1.5
 #define STRAIN_SEEN 0.02
 #define PARTED 0.1
 #define PARTED_MORE 1.5
 #define LONGEST 4
+#define JUMP 0.75
+#define JUMP_TIMES 4
 #define LOOSE 0.6
-enum { SURE_MOST = 100000 };
+enum { SURE_MOST = 100000, NEAR_MOST = 64 };
 
 /* Pairs of neighbours of a frame. limit: elongation above which two particles without all their bonds are apart;
  * magnify: factor on displacements in the picture. */
@@ -55,11 +59,23 @@ static bool surely_connected(const struct pairs *p, int64_t i, int64_t j)
     return same_side(p, i, j) && (p->f->damage[i] <= 0 || p->f->damage[j] <= 0);
 }
 
-static bool connected(const struct pairs *p, int64_t i, int64_t j)
+/* Returns the largest elongation without a jump of the pairs of particle i with the particles near it [1]. */
+static double jump_of(const struct pairs *p, const struct neighbour_list *near, int64_t i)
 {
-    const double longer = elongation(p->f, i, j), most = fmin(p->limit, LONGEST - 1);
+    double all[NEAR_MOST];
+    int n = 0;
+    for (int k = 0; k < near->n && n < NEAR_MOST; k++)
+        if (same_side(p, i, near->at[k])) all[n++] = elongation(p->f, i, near->at[k]);
+    return n > 0 ? JUMP + JUMP_TIMES * fmax(median_of(all, n), 0) : JUMP;
+}
+
+/* jump: largest elongation without a jump of the pairs of particle i. */
+static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
+{
+    const double longer = elongation(p->f, i, j);
     const bool whole = p->f->damage[i] <= 0 || p->f->damage[j] <= 0;
-    return longer <= (whole ? LONGEST - 1 : most) && same_side(p, i, j);
+    const double most = fmin(whole ? INFINITY : p->limit, fmin(jump, LONGEST - 1));
+    return longer <= most && same_side(p, i, j);
 }
 
 static int by_value(const void *a, const void *b)
@@ -97,10 +113,11 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
     const double own = f->spacing ? f->spacing[i] : p->spacing, open = 0.02 * square(own);
     double K[3][3] = {{open, 0, 0}, {0, open, 0}, {0, 0, open}}, M[3][3] = {{0}}, inverted[3][3];
     particles_find_near(near, &p->cells, &p->part, i, fmin(NEAR_REACH * own, p->cells.edge), false);
+    const double jump = jump_of(p, near, i);
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         double xi[3] = {0}, u[3] = {0};
-        if (!connected(p, i, j)) continue;
+        if (!connected(p, i, j, jump)) continue;
         for (int d = 0; d < f->dim; d++)
             xi[d] = (double)f->X[d][j] - f->X[d][i], u[d] = (double)f->u[d][j] - f->u[d][i];
         for (int a = 0; a < 3; a++)
