@@ -146,7 +146,7 @@ holds "pairs of a file and a part that it sees: $seen, $most_seen at the most" t
 
 width=$(sed -n 's/^ColumnLimit: *//p' .clang-format)
 holds "a width in .clang-format" test "${width:-0}" -ge 80
-awk -v width="$width" 'length($0) > width { print FILENAME ":" FNR ": " length($0) " characters" }' $sources >"$found"
+awk -v width="$width" 'length($0) > width { print FILENAME ":" FNR ": " length($0) " characters" }' $sources $(find src tests -name '*.js') >"$found"
 nothing "lines over $width characters"
 wc -l $sources | awk '$2 != "total" && $1 > 525 { print $2 ": " $1 " lines" }' >"$found"
 nothing "files over 525 lines"

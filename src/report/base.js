@@ -9,7 +9,7 @@ function arrayOf(reference) {
         const text = atob(document.getElementById("array" + reference.array).textContent);
         const bytes = new Uint8Array(text.length);
         for (let k = 0; k < text.length; k++) bytes[k] = text.charCodeAt(k);
-        const types = { u8: Uint8Array, u16: Uint16Array, i16: Int16Array, f32: Float32Array, png: Uint8Array };
+        const types = {u8: Uint8Array, u16: Uint16Array, i16: Int16Array, f32: Float32Array, png: Uint8Array};
         decoded.set(reference.array, new types[reference.type](bytes.buffer));
     }
     return decoded.get(reference.array);
@@ -17,7 +17,7 @@ function arrayOf(reference) {
 
 function pictureOf(reference, name) {
     const source = "data:image/png;base64," + document.getElementById("array" + reference.array).textContent;
-    return element("img", { src: source, alt: name });
+    return element("img", {src: source, alt: name});
 }
 
 const byId = (id) => document.getElementById(id);
@@ -42,11 +42,12 @@ const prefixes = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-
 // Returns {factor, name}: the unit in which values up to `largest` have few digits before the point.
 function unitFor(largest, unit) {
     const size = Math.abs(largest);
-    if (unit === "degree") return { factor: 1, name: "°" };
-    if (unit === "m" && size > 5e-4 && size < 10) return { factor: 1e-3, name: "mm" };
-    if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit) || !(size > 1e-15)) return { factor: 1, name: unit || "" };
+    if (unit === "degree") return {factor: 1, name: "°"};
+    if (unit === "m" && size > 5e-4 && size < 10) return {factor: 1e-3, name: "mm"};
+    if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit) || !(size > 1e-15))
+        return {factor: 1, name: unit || ""};
     const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) || prefixes[prefixes.length - 1];
-    return { factor, name: prefix + unit };
+    return {factor, name: prefix + unit};
 }
 
 // Writes a number with `digits` significant digits, without zeros at the end.
@@ -54,7 +55,10 @@ function number(value, digits = 4) {
     if (value === null || value === undefined || Number.isNaN(value)) return "–";
     if (Number.isInteger(value) && Math.abs(value) < 1e15) return value.toLocaleString("en").replace(/,/g, "\u202f");
     const size = Math.abs(value);
-    if (size >= 1e6 || size < 1e-3) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace(/e\+?(.*)/, (all, power) => "·10" + [...power].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join(""));
+    if (size >= 1e6 || size < 1e-3)
+        return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace(/e\+?(.*)/, (all, power) => "·10" + [
+            ...power
+        ].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join(""));
     const text = value.toPrecision(digits);
     return text.includes(".") && !text.includes("e") ? text.replace(/\.?0+$/, "") : String(Number(text));
 }
@@ -70,7 +74,8 @@ function ticks(low, high, most) {
     const raw = (high - low) / Math.max(most, 1), power = 10 ** Math.floor(Math.log10(raw));
     const step = [1, 2, 2.5, 5, 10].map((f) => f * power).find((s) => s >= raw * 0.999) || raw;
     const list = [];
-    for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step && list.length < 50; k++) list.push(k * step);
+    for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step && list.length < 50; k++)
+        list.push(k * step);
     return list;
 }
 
@@ -85,17 +90,30 @@ const tickText = (value, list) => {
 
 // Colours of the pictures of cleave plot: viridis; RdBu with a grey middle; damage.
 const scales = {
-    zero: [[0, 68, 1, 84], [0.125, 71, 45, 123], [0.25, 59, 82, 139], [0.375, 44, 114, 142], [0.5, 33, 145, 140],
-        [0.625, 40, 174, 128], [0.75, 94, 201, 98], [0.875, 173, 220, 48], [1, 253, 231, 37]],
-    signs: [[0, 5, 48, 97], [0.1, 33, 102, 172], [0.2, 67, 147, 195], [0.3, 146, 197, 222], [0.4, 200, 217, 228],
-        [0.5, 226, 226, 226], [0.6, 240, 209, 192], [0.7, 244, 165, 130], [0.8, 214, 96, 77], [0.9, 178, 24, 43], [1, 103, 0, 31]],
-    damage: [[0, 226, 228, 231], [0.12, 246, 220, 190], [0.35, 240, 160, 110], [0.6, 214, 80, 62], [0.8, 158, 24, 42], [1, 84, 2, 24]],
+    zero: [
+        [0, 68, 1, 84], [0.125, 71, 45, 123], [0.25, 59, 82, 139], [0.375, 44, 114, 142], [0.5, 33, 145, 140],
+        [0.625, 40, 174, 128], [0.75, 94, 201, 98], [0.875, 173, 220, 48], [1, 253, 231, 37]
+    ],
+    signs: [
+        [0, 5, 48, 97], [0.1, 33, 102, 172], [0.2, 67, 147, 195], [0.3, 146, 197, 222], [0.4, 200, 217, 228],
+        [0.5, 226, 226, 226], [0.6, 240, 209, 192], [0.7, 244, 165, 130], [0.8, 214, 96, 77], [0.9, 178, 24, 43],
+        [1, 103, 0, 31]
+    ],
+    damage: [
+        [0, 226, 228, 231], [0.12, 246, 220, 190], [0.35, 240, 160, 110], [0.6, 214, 80, 62], [0.8, 158, 24, 42],
+        [1, 84, 2, 24]
+    ],
 };
-const fragmentColours = [[212, 214, 217], [68, 119, 170], [238, 153, 51], [34, 136, 51], [170, 51, 119], [102, 204, 238],
-    [204, 68, 51], [187, 187, 68], [119, 85, 170], [17, 119, 119]];
-const partColours = [[150, 176, 204], [232, 205, 92], [164, 184, 40], [238, 136, 102], [120, 200, 240], [240, 140, 160],
-    [68, 187, 153], [170, 170, 0], [170, 170, 170]];
-const curveColours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#7a5195", "#8c8c8c"];
+const fragmentColours = [
+    [212, 214, 217], [68, 119, 170], [238, 153, 51], [34, 136, 51], [170, 51, 119], [102, 204, 238], [204, 68, 51],
+    [187, 187, 68], [119, 85, 170], [17, 119, 119]
+];
+const partColours = [
+    [150, 176, 204], [232, 205, 92], [164, 184, 40], [238, 136, 102], [120, 200, 240], [240, 140, 160], [68, 187, 153],
+    [170, 170, 0], [170, 170, 170]
+];
+const curveColours =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000", "#7a5195", "#8c8c8c"];
 
 // Returns [red, green, blue] at a position 0 .. 1 of a scale.
 function scaleColour(stops, position) {
@@ -115,10 +133,8 @@ function canvasOf(canvas, height) {
     const context = canvas.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.font = "13px system-ui, 'Liberation Sans', sans-serif";
-    return { context, width, height, ratio };
+    return {context, width, height, ratio};
 }
 
 // Offers a text or picture as a file.
-function download(name, href) {
-    element("a", { href, download: name }).click();
-}
+function download(name, href) { element("a", {href, download: name}).click(); }

@@ -4,7 +4,7 @@
 function axesOf(area, [x0, x1], [y0, y1]) {
     const x = (v) => area.left + (v - x0) / (x1 - x0) * (area.right - area.left);
     const y = (v) => area.bottom - (v - y0) / (y1 - y0) * (area.bottom - area.top);
-    return { ...area, x, y, x0, x1, y0, y1, back: (px) => x0 + (px - area.left) / (area.right - area.left) * (x1 - x0) };
+    return {...area, x, y, x0, x1, y0, y1, back: (px) => x0 + (px - area.left) / (area.right - area.left) * (x1 - x0)};
 }
 
 function padded(low, high) {
@@ -13,7 +13,8 @@ function padded(low, high) {
 }
 
 function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
-    const xs = ticks(a.x0 / xUnit.factor, a.x1 / xUnit.factor, (a.right - a.left) / 90), ys = ticks(a.y0 / yUnit.factor, a.y1 / yUnit.factor, (a.bottom - a.top) / 42);
+    const xs = ticks(a.x0 / xUnit.factor, a.x1 / xUnit.factor, (a.right - a.left) / 90),
+          ys = ticks(a.y0 / yUnit.factor, a.y1 / yUnit.factor, (a.bottom - a.top) / 42);
     context.lineWidth = 1;
     context.strokeStyle = "#e8eaee";
     context.fillStyle = "#5d6675";
@@ -30,7 +31,8 @@ function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
         if (xLabel) context.fillText(tickText(v, xs), x, a.bottom + 16);
     }
     context.strokeStyle = "#8a93a2";
-    context.beginPath(), context.moveTo(a.left, a.top), context.lineTo(a.left, a.bottom), context.lineTo(a.right, a.bottom), context.stroke();
+    context.beginPath(), context.moveTo(a.left, a.top), context.lineTo(a.left, a.bottom),
+        context.lineTo(a.right, a.bottom), context.stroke();
     context.fillStyle = "#1d2330";
     if (xLabel) context.fillText(xLabel, (a.left + a.right) / 2, a.bottom + 35);
     context.textAlign = "left";
@@ -40,14 +42,22 @@ function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
 // ---- history --------------------------------------------------------------------------------------------------------
 
 const hasCurves = page.history !== undefined && page.history.rows > 1;
-const history_ = { columns: [], shown: [], over: 0, zoom: null, panels: [], at: null };
+const history_ = {
+    columns: [],
+    shown: [],
+    over: 0,
+    zoom: null,
+    panels: [],
+    at: null
+};
 
 function readColumns() {
     history_.columns = page.history.header.split(",").map((cell, k) => {
         const [, name, unit] = cell.match(/^(.*?)(?: \[(.*)\])?$/), values = arrayOf(page.history.columns[k]);
         let [low, high] = [Infinity, -Infinity];
-        for (const v of values) if (Number.isFinite(v)) low = Math.min(low, v), high = Math.max(high, v);
-        return { name, unit: unit && unit !== "1" ? unit : "", values, low, high };
+        for (const v of values)
+            if (Number.isFinite(v)) low = Math.min(low, v), high = Math.max(high, v);
+        return {name, unit: unit && unit !== "1" ? unit : "", values, low, high};
     });
 }
 
@@ -67,33 +77,47 @@ function showColumns() {
         groups.get(c.unit).push(c);
     });
     for (const [unit, list] of groups)
-        byId("columns").append(element("div", { className: "chips" }, element("span", { className: "unit" }, unit ? "[" + unit + "]" : "[1]"), ...list.map((c) => {
-            const box = element("input", { type: "checkbox", checked: history_.shown.includes(c), onchange: () => {
-                history_.shown = history_.columns.filter((o) => (o === c ? box.checked : history_.shown.includes(o)));
-                drawCurves();
-            } });
-            c.mark = element("i");
-            return element("label", {}, box, c.mark, c.name);
-        })));
-    const said = [page.history.rows < page.history.listed ? number(page.history.rows) + " of " + number(page.history.listed) + " lines of history.csv." : "",
-        constant.length ? "Constant: " + constant.join(", ") + "." : ""];
+        byId("columns").append(element("div", {className: "chips"},
+            element("span", {className: "unit"}, unit ? "[" + unit + "]" : "[1]"), ...list.map((c) => {
+                const box = element("input", {
+                    type: "checkbox",
+                    checked: history_.shown.includes(c),
+                    onchange: () => {
+                        history_.shown =
+                            history_.columns.filter((o) => (o === c ? box.checked : history_.shown.includes(o)));
+                        drawCurves();
+                    }
+                });
+                c.mark = element("i");
+                return element("label", {}, box, c.mark, c.name);
+            })));
+    const said = [
+        page.history.rows < page.history.listed ?
+            number(page.history.rows) + " of " + number(page.history.listed) + " lines of history.csv." :
+            "",
+        constant.length ? "Constant: " + constant.join(", ") + "." : ""
+    ];
     byId("rows").textContent = said.join(" ");
 }
 
 // The shown columns by their units, one panel each.
 function panelsOf() {
     const units = [...new Set(history_.shown.map((c) => c.unit))];
-    return units.map((unit) => ({ unit, columns: history_.shown.filter((c) => c.unit === unit) }));
+    return units.map((unit) => ({unit, columns: history_.shown.filter((c) => c.unit === unit)}));
 }
 
 function drawCurves() {
     const panels = panelsOf(), each = panels.length > 2 ? 170 : 220, over = history_.columns[history_.over];
-    const { context, width, height } = canvasOf(byId("plot"), Math.max(panels.length, 1) * (each + 34) + 44);
-    const zoom = history_.zoom || [over.low, over.high > over.low ? over.high : over.low + 1], xUnit = unitFor(Math.max(Math.abs(over.low), Math.abs(over.high)), over.unit);
+    const {context, width, height} = canvasOf(byId("plot"), Math.max(panels.length, 1) * (each + 34) + 44);
+    const zoom = history_.zoom || [over.low, over.high > over.low ? over.high : over.low + 1],
+          xUnit = unitFor(Math.max(Math.abs(over.low), Math.abs(over.high)), over.unit);
     context.fillStyle = "#fff";
     context.fillRect(0, 0, width, height);
-    for (const c of history_.columns) if (c.mark) c.mark.style.background = "";
-    panels.forEach((panel, k) => drawPanel(context, panel, over, zoom, xUnit, { left: 76, right: width - 18, top: 28 + k * (each + 34), bottom: k * (each + 34) + each + 16 }, k === panels.length - 1));
+    for (const c of history_.columns)
+        if (c.mark) c.mark.style.background = "";
+    panels.forEach((panel, k) => drawPanel(context, panel, over, zoom, xUnit,
+                       {left: 76, right: width - 18, top: 28 + k * (each + 34), bottom: k * (each + 34) + each + 16},
+                       k === panels.length - 1));
     history_.panels = panels;
     drawMarks(context, over);
 }
@@ -101,12 +125,17 @@ function drawCurves() {
 function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
     let [low, high] = [Infinity, -Infinity];
     const inside = (k) => over.values[k] >= zoom[0] && over.values[k] <= zoom[1];
-    for (const c of panel.columns) for (let k = 0; k < c.values.length; k++)
-        if (inside(k) && Number.isFinite(c.values[k])) low = Math.min(low, c.values[k]), high = Math.max(high, c.values[k]);
+    for (const c of panel.columns)
+        for (let k = 0; k < c.values.length; k++)
+            if (inside(k) && Number.isFinite(c.values[k]))
+                low = Math.min(low, c.values[k]), high = Math.max(high, c.values[k]);
     if (!(high >= low)) low = 0, high = 1;
-    const unit = unitFor(Math.max(Math.abs(low), Math.abs(high)), panel.unit), a = axesOf(area, zoom, padded(low, high));
+    const unit = unitFor(Math.max(Math.abs(low), Math.abs(high)), panel.unit),
+          a = axesOf(area, zoom, padded(low, high));
     const names = panel.columns.length === 1 ? panel.columns[0].name.replace(/_/g, " ") : "";
-    drawAxes(context, a, xUnit, unit, lowest ? over.name.replace(/_/g, " ") + (xUnit.name ? " [" + xUnit.name + "]" : "") : "", (names + (unit.name ? " [" + unit.name + "]" : "")).trim());
+    drawAxes(context, a, xUnit, unit,
+        lowest ? over.name.replace(/_/g, " ") + (xUnit.name ? " [" + xUnit.name + "]" : "") : "",
+        (names + (unit.name ? " [" + unit.name + "]" : "")).trim());
     context.save();
     context.beginPath(), context.rect(a.left, a.top - 2, a.right - a.left, a.bottom - a.top + 4), context.clip();
     panel.columns.forEach((c, k) => {
@@ -116,8 +145,10 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
         context.beginPath();
         let pen = false;
         for (let i = 0; i < c.values.length; i++) {
-            if (!Number.isFinite(c.values[i])) pen = false;
-            else context[pen ? "lineTo" : "moveTo"](a.x(over.values[i]), a.y(c.values[i])), pen = true;
+            if (!Number.isFinite(c.values[i]))
+                pen = false;
+            else
+                context[pen ? "lineTo" : "moveTo"](a.x(over.values[i]), a.y(c.values[i])), pen = true;
         }
         context.stroke();
     });
@@ -142,34 +173,42 @@ function drawKey(context, panel, a) {
 // Vertical lines: the time of the frame above, the sample under the pointer, the range that is dragged.
 function drawMarks(context, over) {
     const line = (value, colour) => {
-        for (const { axes: a } of history_.panels) {
+        for (const {axes: a} of history_.panels) {
             if (!(value >= a.x0 && value <= a.x1)) continue;
             context.strokeStyle = colour;
-            context.beginPath(), context.moveTo(a.x(value), a.top), context.lineTo(a.x(value), a.bottom), context.stroke();
+            context.beginPath(), context.moveTo(a.x(value), a.top), context.lineTo(a.x(value), a.bottom),
+                context.stroke();
         }
     };
     context.lineWidth = 1;
     if (film && history_.over === 0) line(film.frames[view.frame].t, "#d55e00");
     if (history_.at !== null) line(over.values[history_.at], "#5d6675");
-    for (const { axes: a } of history_.panels)
-        if (history_.drag) context.fillStyle = "#0a5fa522", context.fillRect(Math.min(...history_.drag), a.top, Math.abs(history_.drag[1] - history_.drag[0]), a.bottom - a.top);
+    for (const {axes: a} of history_.panels)
+        if (history_.drag)
+            context.fillStyle = "#0a5fa522",
+            context.fillRect(
+                Math.min(...history_.drag), a.top, Math.abs(history_.drag[1] - history_.drag[0]), a.bottom - a.top);
 }
 
 function sampleAt(px) {
     const over = history_.columns[history_.over], wanted = history_.panels[0].axes.back(px);
     let best = 0;
-    for (let k = 1; k < over.values.length; k++) if (Math.abs(over.values[k] - wanted) < Math.abs(over.values[best] - wanted)) best = k;
+    for (let k = 1; k < over.values.length; k++)
+        if (Math.abs(over.values[k] - wanted) < Math.abs(over.values[best] - wanted)) best = k;
     return best;
 }
 
 function readValues() {
     const k = history_.at, over = history_.columns[history_.over];
-    byId("values").textContent = k === null ? "" : [over].concat(history_.shown).map((c) => c.name + " " + quantity(c.values[k], c.unit, 5)).join(" · ");
+    byId("values").textContent = k === null ?
+        "" :
+        [over].concat(history_.shown).map((c) => c.name + " " + quantity(c.values[k], c.unit, 5)).join(" · ");
 }
 
 function listenToCurves() {
     const canvas = byId("plot"), at = (e) => e.clientX - canvas.getBoundingClientRect().left;
-    canvas.addEventListener("pointerdown", (e) => (history_.drag = [at(e), at(e)], canvas.setPointerCapture(e.pointerId)));
+    canvas.addEventListener(
+        "pointerdown", (e) => (history_.drag = [at(e), at(e)], canvas.setPointerCapture(e.pointerId)));
     canvas.addEventListener("pointermove", (e) => {
         if (history_.panels.length === 0) return;
         if (history_.drag) history_.drag[1] = at(e);
@@ -182,14 +221,17 @@ function listenToCurves() {
         history_.drag = null;
         if (history_.panels.length === 0) return;
         const a = history_.panels[0].axes;
-        if (Math.abs(to - from) > 6) history_.zoom = [a.back(Math.min(from, to)), a.back(Math.max(from, to))];
-        else if (film && history_.over === 0) showFrameOf(a.back(at(e)));
+        if (Math.abs(to - from) > 6)
+            history_.zoom = [a.back(Math.min(from, to)), a.back(Math.max(from, to))];
+        else if (film && history_.over === 0)
+            showFrameOf(a.back(at(e)));
         drawCurves();
     });
     canvas.addEventListener("pointerleave", () => (history_.at = null, readValues(), drawCurves()));
     canvas.addEventListener("dblclick", () => (history_.zoom = null, drawCurves()));
     byId("unzoom").addEventListener("click", () => (history_.zoom = null, drawCurves()));
-    byId("over").addEventListener("change", () => (history_.over = Number(byId("over").value), history_.zoom = null, drawCurves()));
+    byId("over").addEventListener(
+        "change", () => (history_.over = Number(byId("over").value), history_.zoom = null, drawCurves()));
 }
 
 // Shows the frame nearest to a time.
@@ -203,7 +245,8 @@ function showCurves() {
     section("curves");
     readColumns();
     history_.shown = columnsToBegin();
-    byId("over").append(...history_.columns.map((c, k) => element("option", { value: k }, c.name)).filter((o, k) => history_.columns[k].high > history_.columns[k].low));
+    byId("over").append(...history_.columns.map((c, k) => element("option", {value: k}, c.name))
+                            .filter((o, k) => history_.columns[k].high > history_.columns[k].low));
     showColumns();
     listenToCurves();
     drawCurves();

@@ -1,7 +1,20 @@
 // The frames: slider, field, colours, view, cut, readout.
 
 const film = page.film;
-const view = { frame: 0, field: null, low: 0, high: 1, lut: null, codes: null, scale: 1, x: 0, y: 0, centre: null, turn: null, x_of: null };
+const view = {
+    frame: 0,
+    field: null,
+    low: 0,
+    high: 1,
+    lut: null,
+    codes: null,
+    scale: 1,
+    x: 0,
+    y: 0,
+    centre: null,
+    turn: null,
+    x_of: null
+};
 const BAR = 104;  // room for the colour bar [CSS pixel]
 const kindNames = ["material points", "peridynamic"];
 
@@ -13,9 +26,10 @@ const rgba = ([red, green, blue]) => (0xff000000 | blue << 16 | green << 8 | red
 function displacementFields() {
     const most = Math.hypot(...film.reach), axes = ["x", "y", "z"].slice(0, film.dim);
     if (!(most > 0)) return [];
-    const of = (name, scale, low, high, axis) => ({ name, unit: "m", scale, low, high, least: low, most: high, axis });
-    return [of("displacement", "zero", 0, most, -1)].concat(axes.map((a, d) =>
-        of("displacement_" + a, "signs", -film.reach[d], film.reach[d], d)).filter((f) => f.high > 0));
+    const of = (name, scale, low, high, axis) => ({name, unit: "m", scale, low, high, least: low, most: high, axis});
+    return [of("displacement", "zero", 0, most, -1)].concat(
+        axes.map((a, d) => of("displacement_" + a, "signs", -film.reach[d], film.reach[d], d))
+            .filter((f) => f.high > 0));
 }
 
 // Returns the codes 0 .. 254 of a field at the particles of a frame; 255: none.
@@ -28,8 +42,10 @@ function codesOf(field, frame) {
     const u = frame.u.map(arrayOf), factor = film.reach.map((r) => r / 32767);
     for (let i = 0; i < set.n; i++) {
         let value = 0;
-        if (field.axis >= 0) value = u[field.axis][i] * factor[field.axis];
-        else for (let d = 0; d < film.dim; d++) value += (u[d][i] * factor[d]) ** 2;
+        if (field.axis >= 0)
+            value = u[field.axis][i] * factor[field.axis];
+        else
+            for (let d = 0; d < film.dim; d++) value += (u[d][i] * factor[d]) ** 2;
         if (field.axis < 0) value = Math.sqrt(value);
         codes[i] = Math.round(254 * (value - field.low) / (field.high - field.low));
     }
@@ -57,19 +73,33 @@ function makeLut() {
     const field = view.field, n = field.name === "fragment" ? 65536 : 256, lut = new Uint32Array(n);
     const stops = field.name === "damage" ? scales.damage : scales[field.scale === "signs" ? "signs" : "zero"];
     for (let code = 0; code < n; code++)
-        lut[code] = rgba(field.scale === "category" ? categoryColour(field, code)
-            : scaleColour(stops, (valueOf(field, code) - view.low) / (view.high - view.low)));
+        lut[code] = rgba(field.scale === "category" ?
+                categoryColour(field, code) :
+                scaleColour(stops, (valueOf(field, code) - view.low) / (view.high - view.low)));
     if (field.scale !== "category") lut[255] = rgba([150, 150, 150]);
     view.lut = lut;
 }
 
 // ---- drawing --------------------------------------------------------------------------------------------------------
 
-const buffer = { image: null, owner: null, depth: null, pixel: null, width: 0, height: 0 };
+const buffer = {
+    image: null,
+    owner: null,
+    depth: null,
+    pixel: null,
+    width: 0,
+    height: 0
+};
 
 function bufferOf(context, width, height) {
     if (buffer.width !== width || buffer.height !== height) {
-        Object.assign(buffer, { width, height, image: context.createImageData(width, height), owner: new Int32Array(width * height), depth: new Float32Array(width * height) });
+        Object.assign(buffer, {
+            width,
+            height,
+            image: context.createImageData(width, height),
+            owner: new Int32Array(width * height),
+            depth: new Float32Array(width * height)
+        });
         buffer.pixel = new Uint32Array(buffer.image.data.buffer);
     }
     buffer.pixel.fill(0xffffffff);
@@ -78,18 +108,21 @@ function bufferOf(context, width, height) {
 }
 
 function drawFilm() {
-    const frame = film.frames[view.frame], { context, width, height, ratio } = canvasOf(byId("view"), view.height);
+    const frame = film.frames[view.frame], {context, width, height, ratio} = canvasOf(byId("view"), view.height);
     context.fillStyle = "#fff";
     context.fillRect(0, 0, width, height);
     view.codes = codesOf(view.field, frame);
     view.x_of = positionsOf(film, frame, view.magnify);
-    if (film.dim === 1) drawProfile(context, width, height, frame);
+    if (film.dim === 1)
+        drawProfile(context, width, height, frame);
     else {
         const to = bufferOf(context, Math.round((width - BAR) * ratio), Math.round(height * ratio));
         paintFrame(to, frame, ratio);
         context.putImageData(to.image, 0, 0);
-        if (film.dim === 2) drawPreCracks(context, to, ratio);
-        else drawTriad(context, height);
+        if (film.dim === 2)
+            drawPreCracks(context, to, ratio);
+        else
+            drawTriad(context, height);
         drawScaleBar(context, width - BAR, height);
         drawColourBar(context, width, height);
     }
@@ -98,19 +131,20 @@ function drawFilm() {
 }
 
 function paintFrame(to, frame, ratio) {
-    const set = particlesOf(film, film.sets[frame.set]), { lut, codes } = view, damage = damageOf(frame);
+    const set = particlesOf(film, film.sets[frame.set]), {lut, codes} = view, damage = damageOf(frame);
     const dark = byId("cracks").checked && view.field.name !== "damage" && damage;
     const colour = (i) => (dark && damage[i] > CRACK_CODE ? INK : lut[codes[i]]);
     if (film.dim === 2) {
-        paintPlane(to, { x: view.x, y: view.y, scale: view.scale * ratio }, set, view.x_of, colour, damage);
+        paintPlane(to, {x: view.x, y: view.y, scale: view.scale * ratio}, set, view.x_of, colour, damage);
         return;
     }
     const axis = Number(byId("cut").value), ghost = byId("ghost").checked && damage;
     const place = axis < 0 ? 0 : film.box.low[axis] + byId("cut_at").value * (film.box.high[axis] - film.box.low[axis]);
     const shown = (i) => axis < 0 || set.X[axis][i] <= place;
-    const see = { centre: view.centre, scale: view.scale * ratio, turn: view.turn };
+    const see = {centre: view.centre, scale: view.scale * ratio, turn: view.turn};
     paintSpace(to, see, set, view.x_of, ghost ? () => GHOST : colour, shown, damage);
-    if (ghost) paintSpace(to, see, set, view.x_of, (i) => lut[codes[i]], (i) => damage[i] > CRACK_CODE && shown(i), damage);
+    if (ghost)
+        paintSpace(to, see, set, view.x_of, (i) => lut[codes[i]], (i) => damage[i] > CRACK_CODE && shown(i), damage);
 }
 
 const timeText = (frame) => {
@@ -123,11 +157,14 @@ const timeText = (frame) => {
 // Pre-cracks where they were before the run, as dots on the body.
 function drawPreCracks(context, to, ratio) {
     context.fillStyle = "#18202a";
-    const pixel = ([x, y]) => [to.width / 2 + (x - view.x) * view.scale * ratio, to.height / 2 - (y - view.y) * view.scale * ratio];
-    const onBody = (px, py) => [-3, 0, 3].some((off) => to.owner[(Math.round(py) + off) * to.width + Math.round(px)] >= 0);
+    const pixel = ([x,
+        y]) => [to.width / 2 + (x - view.x) * view.scale * ratio, to.height / 2 - (y - view.y) * view.scale * ratio];
+    const onBody =
+        (px, py) => [-3, 0, 3].some((off) => to.owner[(Math.round(py) + off) * to.width + Math.round(px)] >= 0);
     for (const line of page.cracks || [])
         for (let k = 1; k < line.length; k++) {
-            const [a, b] = [pixel(line[k - 1]), pixel(line[k])], steps = Math.min(Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / (6 * ratio)), 2000);
+            const [a, b] = [pixel(line[k - 1]), pixel(line[k])],
+                      steps = Math.min(Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / (6 * ratio)), 2000);
             for (let s = 0; s <= steps; s++) {
                 const [px, py] = [0, 1].map((d) => a[d] + (b[d] - a[d]) * s / Math.max(steps, 1));
                 if (px >= 0 && px < to.width && onBody(px, py)) context.fillRect(px / ratio - 1, py / ratio - 1, 2, 2);
@@ -152,8 +189,10 @@ function drawTriad(context, height) {
 
 // A bar of a round length at the lower left.
 function drawScaleBar(context, width, height) {
-    const metre = unitFor(width / view.scale / 2, "m"), raw = width / view.scale / 5 / metre.factor, power = 10 ** Math.floor(Math.log10(raw));
-    const length = [5, 2, 1].map((f) => f * power).find((l) => l <= raw) || power, pixels = length * metre.factor * view.scale;
+    const metre = unitFor(width / view.scale / 2, "m"), raw = width / view.scale / 5 / metre.factor,
+          power = 10 ** Math.floor(Math.log10(raw));
+    const length = [5, 2, 1].map((f) => f * power).find((l) => l <= raw) || power,
+          pixels = length * metre.factor * view.scale;
     context.fillStyle = "#ffffffcc";
     context.fillRect(6, height - 38, Math.max(pixels, 60) + 14, 34);
     context.fillStyle = "#1d2330";
@@ -199,16 +238,22 @@ function drawCategories(context, left, top, height) {
 // A bar in one dimension: the field over the position.
 function drawProfile(context, width, height, frame) {
     const x = view.x_of[0], order = Array.from(x.keys()).sort((a, b) => x[a] - x[b]), field = view.field;
-    const metre = unitFor(film.box.high[0] - film.box.low[0], "m"), unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit);
-    const axes = axesOf({ left: 76, right: width - 20, top: 34, bottom: height - 44 }, [film.box.low[0], film.box.high[0]], padded(view.low, view.high));
-    drawAxes(context, axes, metre, unit, "x [" + metre.name + "]", field.name.replace(/_/g, " ") + (unit.name ? " [" + unit.name + "]" : ""));
+    const metre = unitFor(film.box.high[0] - film.box.low[0], "m"),
+          unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit);
+    const axes = axesOf({left: 76, right: width - 20, top: 34, bottom: height - 44},
+        [film.box.low[0], film.box.high[0]], padded(view.low, view.high));
+    drawAxes(context, axes, metre, unit, "x [" + metre.name + "]",
+        field.name.replace(/_/g, " ") + (unit.name ? " [" + unit.name + "]" : ""));
     context.fillStyle = curveColours[0];
     context.strokeStyle = curveColours[0];
     context.beginPath();
     order.forEach((i, k) => context[k ? "lineTo" : "moveTo"](axes.x(x[i]), axes.y(valueOf(field, view.codes[i]))));
     context.stroke();
     const damage = damageOf(frame);
-    for (const i of order) if (damage && damage[i] > CRACK_CODE) context.fillStyle = "#b2182b", context.fillRect(axes.x(x[i]) - 2, axes.y(valueOf(field, view.codes[i])) - 2, 4, 4);
+    for (const i of order)
+        if (damage && damage[i] > CRACK_CODE)
+            context.fillStyle = "#b2182b",
+            context.fillRect(axes.x(x[i]) - 2, axes.y(valueOf(field, view.codes[i])) - 2, 4, 4);
     view.axes = axes;
 }
 
@@ -218,7 +263,8 @@ function setFrame(k) {
     view.frame = Math.min(Math.max(k, 0), film.frames.length - 1);
     const frame = film.frames[view.frame];
     byId("frame").value = view.frame;
-    byId("when").textContent = "frame " + frame.number + ", " + timeText(frame) + (summary && summary.load_steps ? "" : ", step " + number(frame.step));
+    byId("when").textContent = "frame " + frame.number + ", " + timeText(frame) +
+        (summary && summary.load_steps ? "" : ", step " + number(frame.step));
     drawFilm();
     if (hasCurves) drawCurves();
 }
@@ -271,17 +317,19 @@ function boxOf(frame, magnify) {
             return [sorted[beyond], sorted[sorted.length - 1 - beyond]];
         };
         let [a, b] = [Infinity, -Infinity];
-        for (let i = 0; i < set.n; i++) a = Math.min(a, set.X[d][i] - set.size[i] / 2), b = Math.max(b, set.X[d][i] + set.size[i] / 2);
+        for (let i = 0; i < set.n; i++)
+            a = Math.min(a, set.X[d][i] - set.size[i] / 2), b = Math.max(b, set.X[d][i] + set.size[i] / 2);
         const [from, to] = range(last[d]), room = (magnify > 1 ? 2 : 0.5) * (b - a);
         low.push(Math.max(Math.min(a, from), a - room));
         high.push(Math.min(Math.max(b, to), b + room));
     }
-    return { low, high };
+    return {low, high};
 }
 
 // Shows the whole body: from the front in the plane, obliquely in space.
 function resetView() {
-    const { low, high } = view.magnify === 1 ? film.box : boxOf(film.frames[view.frame], view.magnify), size = high.map((h, d) => h - low[d]), width = byId("view").clientWidth - BAR;
+    const {low, high} = view.magnify === 1 ? film.box : boxOf(film.frames[view.frame], view.magnify),
+                size = high.map((h, d) => h - low[d]), width = byId("view").clientWidth - BAR;
     if (film.dim === 2) {
         view.height = Math.round(Math.min(Math.max(width * size[1] / size[0] * 1.04, 180), 620));
         view.scale = Math.min(width / size[0], view.height / size[1]) / 1.06;
@@ -292,7 +340,8 @@ function resetView() {
         view.turn = [[0.8, 0.6, 0], [-0.3, 0.4, 0.866], [0.52, -0.693, 0.5]].map(unitVector);
         const extent = (row) => size.reduce((sum, s, d) => sum + Math.abs(row[d]) * s, 0);
         view.scale = Math.min(width / extent(view.turn[0]), view.height / extent(view.turn[1])) / 1.12;
-    } else view.height = 380;
+    } else
+        view.height = 380;
     drawFilm();
 }
 
@@ -313,15 +362,19 @@ function turnBy(across, down) {
 function listenToPointer() {
     const canvas = byId("view");
     let from = null;
-    canvas.addEventListener("pointerdown", (e) => (from = [e.clientX, e.clientY], canvas.setPointerCapture(e.pointerId)));
+    canvas.addEventListener(
+        "pointerdown", (e) => (from = [e.clientX, e.clientY], canvas.setPointerCapture(e.pointerId)));
     canvas.addEventListener("pointerup", () => (from = null));
     canvas.addEventListener("pointermove", (e) => {
         if (!from) return readParticle(e);
         const [dx, dy] = [e.clientX - from[0], e.clientY - from[1]];
         from = [e.clientX, e.clientY];
-        if (film.dim === 3 && !e.shiftKey) turnBy(dx / 150, dy / 150);
-        else if (film.dim === 3) view.centre = view.centre.map((c, k) => c - (dx * view.turn[0][k] - dy * view.turn[1][k]) / view.scale);
-        else view.x -= dx / view.scale, view.y += dy / view.scale;
+        if (film.dim === 3 && !e.shiftKey)
+            turnBy(dx / 150, dy / 150);
+        else if (film.dim === 3)
+            view.centre = view.centre.map((c, k) => c - (dx * view.turn[0][k] - dy * view.turn[1][k]) / view.scale);
+        else
+            view.x -= dx / view.scale, view.y += dy / view.scale;
         drawFilm();
     });
     canvas.addEventListener("wheel", (e) => {
@@ -329,10 +382,11 @@ function listenToPointer() {
         e.preventDefault();
         const box = canvas.getBoundingClientRect(), factor = Math.exp(-e.deltaY / 500);
         const off = [e.clientX - box.left - (box.width - BAR) / 2, box.top + box.height / 2 - e.clientY];
-        if (film.dim === 2) view.x += off[0] / view.scale * (1 - 1 / factor), view.y += off[1] / view.scale * (1 - 1 / factor);
+        if (film.dim === 2)
+            view.x += off[0] / view.scale * (1 - 1 / factor), view.y += off[1] / view.scale * (1 - 1 / factor);
         view.scale *= factor;
         drawFilm();
-    }, { passive: false });
+    }, {passive: false});
 }
 
 // Says what lies under the pointer.
@@ -348,9 +402,14 @@ function particleText(i) {
     const frame = film.frames[view.frame], x = positionsOf(film, frame, 1), damage = damageOf(frame);
     const metre = unitFor(Math.max(...film.box.high.map((h, d) => h - film.box.low[d])), "m");
     const code = view.codes[i], field = view.field, value = valueOf(field, code);
-    const clipped = field.scale !== "category" && field.axis === undefined && (code === 254 && field.most > field.high * (1 + 1e-6) ? "≥ " : code === 0 && field.least < field.low - 1e-6 * Math.abs(field.low) ? "≤ " : "");
+    const clipped = field.scale !== "category" && field.axis === undefined &&
+        (code === 254 && field.most > field.high * (1 + 1e-6)                      ? "≥ " :
+                code === 0 && field.least < field.low - 1e-6 * Math.abs(field.low) ? "≤ " :
+                                                                                     "");
     const parts = ["at (" + x.map((axis) => number(axis[i] / metre.factor)).join(", ") + ") " + metre.name];
-    parts.push(field.scale === "category" ? field.name + ": " + nameOf(field, code) : field.name.replace(/_/g, " ") + " " + (clipped || "") + quantity(value, field.unit, 3));
+    parts.push(field.scale === "category" ?
+            field.name + ": " + nameOf(field, code) :
+            field.name.replace(/_/g, " ") + " " + (clipped || "") + quantity(value, field.unit, 3));
     if (damage && field.name !== "damage") parts.push("damage " + number(damage[i] / 254, 2));
     return parts.join(" · ");
 }
@@ -359,11 +418,21 @@ function particleText(i) {
 function thinnedText() {
     const parts = [], set = film.sets[film.frames[film.frames.length - 1].set];
     if (film.frames.length < film.listed) parts.push(film.frames.length + " of " + film.listed + " frames.");
-    if (film.levels > 0) parts.push("Where nothing breaks or yields, cells of up to " + Array(film.dim).fill(2 ** film.levels).join(" × ") + " particles are drawn as one, with their mean values.");
+    if (film.levels > 0)
+        parts.push("Where nothing breaks or yields, cells of up to " +
+            Array(film.dim).fill(2 ** film.levels).join(" × ") +
+            " particles are drawn as one, with their mean values.");
     if (film.every > 1) parts.push("Of the others one in " + film.every + " is drawn.");
-    if (set.n < set.particles) parts.push(number(set.n) + " of " + number(set.particles) + " particles are drawn in the last frame.");
-    const cut = film.fields.filter((f) => f.scale !== "category" && f.axis === undefined && (f.most > f.high * 1.001 + 1e-12 || f.least < f.low - Math.abs(f.low) * 1e-3));
-    if (cut.length) parts.push("Colours leave out the most extreme particles (0.05 % at either end): " + cut.map((f) => f.name.replace(/_/g, " ") + " reaches " + quantity(Math.abs(f.most) > Math.abs(f.least) ? f.most : f.least, f.unit, 3)).join(", ") + ".");
+    if (set.n < set.particles)
+        parts.push(number(set.n) + " of " + number(set.particles) + " particles are drawn in the last frame.");
+    const cut = film.fields.filter((f) => f.scale !== "category" && f.axis === undefined &&
+            (f.most > f.high * 1.001 + 1e-12 || f.least < f.low - Math.abs(f.low) * 1e-3));
+    if (cut.length)
+        parts.push("Colours leave out the most extreme particles (0.05 % at either end): " +
+            cut.map((f) => f.name.replace(/_/g, " ") + " reaches " +
+                       quantity(Math.abs(f.most) > Math.abs(f.least) ? f.most : f.least, f.unit, 3))
+                .join(", ") +
+            ".");
     parts.push("Values have 8 bits, positions 16.");
     return parts.join(" ");
 }
@@ -377,7 +446,9 @@ function crackedShare() {
 // The field to begin with: damage where bonds break, else plastic strain, else von Mises.
 function firstField() {
     const asked = new URLSearchParams(location.hash.slice(1)).get("field");
-    return [asked, "damage", "plastic_strain", "von_mises", "stress_xx", "displacement"].find((name) => film.fields.some((f) => f.name === name)) || film.fields[0].name;
+    return [asked, "damage", "plastic_strain", "von_mises", "stress_xx", "displacement"].find(
+               (name) => film.fields.some((f) => f.name === name)) ||
+        film.fields[0].name;
 }
 
 function listenToControls() {
@@ -391,9 +462,10 @@ function listenToControls() {
     on("magnify", "input", () => (view.magnify = Math.max(Number(byId("magnify").value), 0), drawFilm()));
     for (const id of ["cracks", "ghost", "cut", "cut_at"]) on(id, "input", drawFilm);
     on("reset", "click", resetView);
-    on("save", "click", () => download(page.title + "_" + view.field.name + ".png", byId("view").toDataURL("image/png")));
+    on("save", "click",
+        () => download(page.title + "_" + view.field.name + ".png", byId("view").toDataURL("image/png")));
     on("view", "keydown", (e) => {
-        const step = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
+        const step = {ArrowRight: 1, ArrowLeft: -1}[e.key];
         if (step) stop(), setFrame(view.frame + step);
         if (e.key === " ") e.preventDefault(), play();
     });
@@ -402,15 +474,23 @@ function listenToControls() {
 function showFilm() {
     section("film");
     film.fields.push(...displacementFields());
-    if (film.fields.length === 0) film.fields.push({ name: "displacement", unit: "m", scale: "zero", low: 0, high: 1, least: 0, most: 0, axis: -1 });
-    byId("field").append(...film.fields.map((f) => element("option", { value: f.name }, f.name.replace(/_/g, " "))));
-    const damaged = film.fields.some((f) => f.name === "damage"), hide = (id, gone) => (byId(id).style.display = gone ? "none" : "");
-    hide("ghost_label", film.dim < 3 || !damaged), hide("cut_label", film.dim < 3), hide("cracks_label", film.dim === 1 || !damaged);
+    if (film.fields.length === 0)
+        film.fields.push(
+            {name: "displacement", unit: "m", scale: "zero", low: 0, high: 1, least: 0, most: 0, axis: -1});
+    byId("field").append(...film.fields.map((f) => element("option", {value: f.name}, f.name.replace(/_/g, " "))));
+    const damaged = film.fields.some((f) => f.name === "damage"),
+          hide = (id, gone) => (byId(id).style.display = gone ? "none" : "");
+    hide("ghost_label", film.dim < 3 || !damaged), hide("cut_label", film.dim < 3),
+        hide("cracks_label", film.dim === 1 || !damaged);
     hide("reset", film.dim === 1);
     byId("cracks").checked = crackedShare() < 0.2;
-    byId("cut").append(...["x", "y", "z"].slice(0, film.dim).map((a, d) => element("option", { value: d }, "above " + a)));
+    byId("cut").append(
+        ...["x", "y", "z"].slice(0, film.dim).map((a, d) => element("option", {value: d}, "above " + a)));
     byId("frame").max = film.frames.length - 1;
-    byId("hint").textContent = film.dim === 3 ? "Drag turns, with Shift it moves; the wheel zooms; the pointer reads values." : film.dim === 2 ? "Drag moves; the wheel zooms; the pointer reads values." : "Red: particles with broken bonds.";
+    byId("hint").textContent = film.dim === 3 ?
+        "Drag turns, with Shift it moves; the wheel zooms; the pointer reads values." :
+        film.dim === 2 ? "Drag moves; the wheel zooms; the pointer reads values." :
+                         "Red: particles with broken bonds.";
     byId("thinned").textContent = thinnedText();
     view.magnify = 1;
     film.box = boxOf(film.frames[film.frames.length - 1], 1);

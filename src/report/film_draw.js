@@ -1,7 +1,7 @@
 // Draws the particles of one frame into an array of pixels: squares that deform with the body, or cubes in space. Each
 // pixel also keeps the number of its particle, for the readout.
 
-const CRACK = 0.35;            // damage from which a particle is drawn as part of a crack, as in cleave plot
+const CRACK = 0.35;  // damage from which a particle is drawn as part of a crack, as in cleave plot
 const CRACK_CODE = CRACK * 254;
 const INK = 0xff201a18, GHOST = 0xffe9e6e4;  // alpha, blue, green, red
 
@@ -13,7 +13,8 @@ function particlesOf(film, set) {
         return Float32Array.from(of, (v) => axis.low + (axis.high - axis.low) * v / 65535);
     });
     const size = set.size ? arrayOf(set.size) : new Float32Array(set.n).fill(film.spacing);
-    set.ready = { n: set.n, X, size, beside: film.dim > 1 ? neighbours(X, size, film.dim === 2 && page.cracks || []) : null };
+    set.ready =
+        {n: set.n, X, size, beside: film.dim > 1 ? neighbours(X, size, film.dim === 2 && page.cracks || []) : null};
     return set.ready;
 }
 
@@ -24,7 +25,8 @@ function neighbours(X, size, cracks) {
     const low = X.map((axis) => axis.reduce((a, b) => Math.min(a, b), Infinity));
     const key = (i, axis, step) => {
         let cell = Math.round(Math.log2(size[i] / size[0]) + 4);
-        for (let d = 0; d < dim; d++) cell = cell * 65536 + Math.floor((X[d][i] - low[d]) / size[i] + 0.25) + (d === axis ? step : 0) + 1;
+        for (let d = 0; d < dim; d++)
+            cell = cell * 65536 + Math.floor((X[d][i] - low[d]) / size[i] + 0.25) + (d === axis ? step : 0) + 1;
         return cell;
     };
     for (let i = 0; i < n; i++) at.set(key(i, 0, 0), i);
@@ -34,7 +36,8 @@ function neighbours(X, size, cracks) {
             const j = at.get(key(i, axis, step));
             if (j === undefined) continue;
             let near = true;
-            for (let d = 0; d < dim; d++) near = near && Math.abs(X[d][j] - X[d][i] - (d === axis ? step * size[i] : 0)) < 0.3 * size[i];
+            for (let d = 0; d < dim; d++)
+                near = near && Math.abs(X[d][j] - X[d][i] - (d === axis ? step * size[i] : 0)) < 0.3 * size[i];
             if (near && !parted(X, i, j, cracks)) next[i] = j;
         }
         beside.push(next);
@@ -46,8 +49,9 @@ function neighbours(X, size, cracks) {
 function parted(X, i, j, cracks) {
     const side = (p, q, x, y) => (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
     const a = [X[0][i], X[1][i]], b = [X[0][j], X[1][j]];
-    return cracks.some((line) => line.some((q, k) => k > 0 && side(line[k - 1], q, ...a) * side(line[k - 1], q, ...b) < 0 &&
-        side(a, b, ...line[k - 1]) * side(a, b, ...q) <= 0));
+    return cracks.some(
+        (line) => line.some((q, k) => k > 0 && side(line[k - 1], q, ...a) * side(line[k - 1], q, ...b) < 0 &&
+                side(a, b, ...line[k - 1]) * side(a, b, ...q) <= 0));
 }
 
 // Positions of the particles of a frame: x = X + magnify u.
@@ -67,7 +71,8 @@ function paintPlane(to, see, set, x, colour, damage) {
     const edge = [0, 0], beside = set.beside;
     // The vector from the middle of one side of a particle to that of the other: half the way between its neighbours.
     const edgeOf = (i, plus, minus, axis) => {
-        const p = plus[i] >= 0 && !broken(i, plus[i]) ? plus[i] : i, m = minus[i] >= 0 && !broken(i, minus[i]) ? minus[i] : i;
+        const p = plus[i] >= 0 && !broken(i, plus[i]) ? plus[i] : i,
+              m = minus[i] >= 0 && !broken(i, minus[i]) ? minus[i] : i;
         const share = p !== i && m !== i ? 0.5 : 1;
         edge[0] = (x[0][p] - x[0][m]) * share;
         edge[1] = (x[1][p] - x[1][m]) * share;
@@ -85,7 +90,8 @@ function paintPlane(to, see, set, x, colour, damage) {
 
 // Paints a parallelogram with the centre (cx, cy) and the edges a and b, all in pixels.
 function paintQuad(to, i, cx, cy, ax, ay, bx, by, colour) {
-    const det = ax * by - ay * bx, wide = (Math.abs(ax) + Math.abs(bx)) / 2 + 0.5, high = (Math.abs(ay) + Math.abs(by)) / 2 + 0.5;
+    const det = ax * by - ay * bx, wide = (Math.abs(ax) + Math.abs(bx)) / 2 + 0.5,
+          high = (Math.abs(ay) + Math.abs(by)) / 2 + 0.5;
     const left = Math.max(0, Math.round(cx - wide)), right = Math.min(to.width, Math.round(cx + wide));
     const top = Math.max(0, Math.round(cy - high)), bottom = Math.min(to.height, Math.round(cy + high));
     if (!(Math.abs(det) > 1e-9) || right <= left || bottom <= top) return;
@@ -102,7 +108,7 @@ function paintQuad(to, i, cx, cy, ax, ay, bx, by, colour) {
 // The pixels that a cube of `edge` pixels covers, seen along the third row of `turn`: offsets, depths, and the axis of
 // the face that is seen there.
 function cubeStamp(turn, edge) {
-    const half = edge / 2 + 0.5, reach = Math.ceil(half * 1.75), stamp = { x: [], y: [], depth: [], face: [] };
+    const half = edge / 2 + 0.5, reach = Math.ceil(half * 1.75), stamp = {x: [], y: [], depth: [], face: []};
     for (let y = -reach; y <= reach; y++)
         for (let x = -reach; x <= reach; x++) {
             let near = Infinity, far = -Infinity, face = 0;
@@ -132,14 +138,15 @@ function exposure(set, x, damage, shown, turn, open) {
         for (let k = 0; k < 3; k++) open[k] = !joined(i, seen[k][i]);
         for (const next of set.beside) {
             const j = next[i];
-            if (joined(i, j)) widest = Math.max(widest, Math.hypot(x[0][j] - x[0][i], x[1][j] - x[1][i], x[2][j] - x[2][i]));
+            if (joined(i, j))
+                widest = Math.max(widest, Math.hypot(x[0][j] - x[0][i], x[1][j] - x[1][i], x[2][j] - x[2][i]));
         }
         return Math.min(widest, 2 * set.size[i]);
     };
 }
 
-// Paints cubes in space. see: {centre, scale, turn}; shown(i): is particle i drawn? colour(i): its colour; damage: codes,
-// or null.
+// Paints cubes in space. see: {centre, scale, turn}; shown(i): is particle i drawn? colour(i): its colour; damage:
+// codes, or null.
 function paintSpace(to, see, set, x, colour, shown, damage) {
     const stamps = new Map(), [r, u, t] = see.turn, depth = to.depth.fill(-Infinity), open = [true, true, true];
     const edgeOf = exposure(set, x, damage, shown, see.turn, open);
@@ -172,7 +179,10 @@ function paintStamp(to, stamp, i, px, py, pz, shades, open) {
 const shadeCache = new Map();
 function shadesOf(colour) {
     if (!shadeCache.has(colour))
-        shadeCache.set(colour, [0.86, 0.74, 1].map((s) =>
-            (0xff000000 | Math.round((colour >> 16 & 255) * s) << 16 | Math.round((colour >> 8 & 255) * s) << 8 | Math.round((colour & 255) * s)) >>> 0));
+        shadeCache.set(colour,
+            [0.86, 0.74, 1].map(
+                (s) => (0xff000000 | Math.round((colour >> 16 & 255) * s) << 16 |
+                           Math.round((colour >> 8 & 255) * s) << 8 | Math.round((colour & 255) * s)) >>>
+                    0));
     return shadeCache.get(colour);
 }

@@ -1,7 +1,17 @@
 // Table and curves of a sweep or a convergence study.
 
-const study = { columns: [], rows: [], keys: [], figures: [], units: {}, x: 0, y: 0, points: [] };
-const ofComputation = /^(laps\.|threads|wall_|setup_|loop_|output_|memory_|ns_per_|inactive_share|steps|time_|particles_|particles$|bonds_|contact\.pairs|momentum_error|levels\.|solver\.|crack\.tips\.)/;
+const study = {
+    columns: [],
+    rows: [],
+    keys: [],
+    figures: [],
+    units: {},
+    x: 0,
+    y: 0,
+    points: []
+};
+const ofComputation = new RegExp("^(laps\\.|threads|wall_|setup_|loop_|output_|memory_|ns_per_|inactive_share|steps|" +
+    "time_|particles_|particles$|bonds_|contact\\.pairs|momentum_error|levels\\.|solver\\.|crack\\.tips\\.)");
 
 // Splits CSV with quoted cells into rows.
 function csv(text) {
@@ -23,7 +33,8 @@ function readStudy() {
     if (page.kind === "sweep") {
         const end = study.columns.indexOf("steps"), first = end < 0 ? study.columns.length : end;
         study.keys = study.columns.slice(2, first);
-        study.figures = study.columns.slice(first).filter((name, k) => new Set(rows.map((row) => row[first + k])).size > 1 || !ofComputation.test(name));
+        study.figures = study.columns.slice(first).filter(
+            (name, k) => new Set(rows.map((row) => row[first + k])).size > 1 || !ofComputation.test(name));
         study.units = page.units || {};
     }
 }
@@ -34,19 +45,26 @@ const at = (row, name) => row[study.columns.indexOf(name)];
 
 function shownFigures() {
     const wanted = byId("wanted").value.toLowerCase().split(/[ ,]+/).filter(Boolean), all = byId("technical").checked;
-    return study.figures.filter((name) => (all || !ofComputation.test(name)) && (wanted.length === 0 || wanted.some((word) => name.toLowerCase().includes(word))));
+    return study.figures.filter((name) => (all || !ofComputation.test(name)) &&
+            (wanted.length === 0 || wanted.some((word) => name.toLowerCase().includes(word))));
 }
 
 function tableOf(header, rows) {
     let order = rows, by = -1, down = 1;
     const table = byId("table"), fill = () => {
-        const heads = header.map((name, k) => element("th", { onclick: () => {
-            down = by === k ? -down : 1, by = k;
-            const value = (row) => (Number.isNaN(row[k].value) ? row[k].text : row[k].value);
-            order = [...rows].sort((a, b) => (value(a) > value(b) ? down : value(a) < value(b) ? -down : 0));
-            fill();
-        } }, name));
-        table.replaceChildren(element("thead", {}, element("tr", {}, ...heads)), element("tbody", {}, ...order.map((row) => element("tr", {}, ...row.map((cell) => element("td", { title: cell.title || "" }, cell.text))))));
+        const heads = header.map((name, k) => element("th", {
+            onclick: () => {
+                down = by === k ? -down : 1, by = k;
+                const value = (row) => (Number.isNaN(row[k].value) ? row[k].text : row[k].value);
+                order = [...rows].sort((a, b) => (value(a) > value(b) ? down : value(a) < value(b) ? -down : 0));
+                fill();
+            }
+        },
+                                     name));
+        table.replaceChildren(element("thead", {}, element("tr", {}, ...heads)),
+            element("tbody", {},
+                ...order.map((row) => element("tr", {},
+                                 ...row.map((cell) => element("td", {title: cell.title || ""}, cell.text))))));
     };
     fill();
 }
@@ -54,22 +72,39 @@ function tableOf(header, rows) {
 function showSweepTable() {
     const figures = shownFigures().map((name) => {
         const values = study.rows.map((row) => cellValue(at(row, name))).filter(Number.isFinite);
-        return { name, unit: unitFor(Math.max(0, ...values.map(Math.abs)), study.units[name] || "") };
+        return {name, unit: unitFor(Math.max(0, ...values.map(Math.abs)), study.units[name] || "")};
     });
-    const heads = figures.map(({ name, unit }) => name + (unit.name ? " [" + unit.name + "]" : ""));
-    tableOf(["run", "state", ...study.keys, ...heads], study.rows.map((row) =>
-        [...["run", "state", ...study.keys].map((name) => ({ text: at(row, name) || "", value: cellValue(at(row, name)) })),
-            ...figures.map(({ name, unit }) => ({ text: number(cellValue(at(row, name)) / unit.factor), value: cellValue(at(row, name)), title: at(row, name) }))]));
+    const heads = figures.map(({name, unit}) => name + (unit.name ? " [" + unit.name + "]" : ""));
+    tableOf(["run", "state", ...study.keys, ...heads],
+        study.rows.map((row) => [...["run", "state", ...study.keys].map(
+                                     (name) => ({text: at(row, name) || "", value: cellValue(at(row, name))})),
+                           ...figures.map(({name, unit}) => ({
+                               text: number(cellValue(at(row, name)) / unit.factor),
+                               value: cellValue(at(row, name)),
+                               title: at(row, name)
+                           }))]));
 }
 
 function showConvergenceTable() {
     const wanted = byId("wanted").value.toLowerCase().split(/[ ,]+/).filter(Boolean), all = byId("technical").checked;
-    const rows = study.rows.filter((row) => (all || !ofComputation.test(row[0])) && (wanted.length === 0 || wanted.some((word) => row[0].toLowerCase().includes(word))));
-    tableOf(["figure", "value", "± (95 %)", "of it scatter", "of it spacing", "behaviour", "order", "limit"], rows.map((row) => {
-        const unit = at(row, "unit"), cell = (name) => ({ text: at(row, name) === "" ? "" : quantity(cellValue(at(row, name)), unit), value: cellValue(at(row, name)), title: at(row, name) + " " + unit });
-        const plain = (name) => ({ text: Number.isNaN(cellValue(at(row, name))) ? at(row, name) : number(cellValue(at(row, name)), 3), value: cellValue(at(row, name)) });
-        return [{ text: row[0], value: NaN }, cell("value"), cell("uncertainty"), cell("scatter"), cell("discretisation"), { text: at(row, "verdict"), value: NaN }, plain("order"), cell("extrapolated")];
-    }));
+    const rows = study.rows.filter((row) => (all || !ofComputation.test(row[0])) &&
+            (wanted.length === 0 || wanted.some((word) => row[0].toLowerCase().includes(word))));
+    tableOf(["figure", "value", "± (95 %)", "of it scatter", "of it spacing", "behaviour", "order", "limit"],
+        rows.map((row) => {
+            const unit = at(row, "unit"), cell = (name) => ({
+                text: at(row, name) === "" ? "" : quantity(cellValue(at(row, name)), unit),
+                value: cellValue(at(row, name)),
+                title: at(row, name) + " " + unit
+            });
+            const plain = (name) => ({
+                text: Number.isNaN(cellValue(at(row, name))) ? at(row, name) : number(cellValue(at(row, name)), 3),
+                value: cellValue(at(row, name))
+            });
+            return [
+                {text: row[0], value: NaN}, cell("value"), cell("uncertainty"), cell("scatter"), cell("discretisation"),
+                {text: at(row, "verdict"), value: NaN}, plain("order"), cell("extrapolated")
+            ];
+        }));
 }
 
 const showTable = () => (page.kind === "sweep" ? showSweepTable() : showConvergenceTable());
@@ -79,10 +114,18 @@ const showTable = () => (page.kind === "sweep" ? showSweepTable() : showConverge
 // Points of the sweep: {x, y, series, row}; values that are no numbers are numbered in their order.
 function sweepPoints() {
     const key = study.keys[study.x], figure = study.figures[study.y], others = study.keys.filter((k) => k !== key);
-    const words = [...new Set(study.rows.map((row) => at(row, key)))], plain = words.every((w) => Number.isFinite(cellValue(w)));
+    const words = [...new Set(study.rows.map((row) => at(row, key)))],
+          plain = words.every((w) => Number.isFinite(cellValue(w)));
     study.words = plain ? null : words;
-    return study.rows.map((row) => ({ x: plain ? cellValue(at(row, key)) : words.indexOf(at(row, key)), y: cellValue(at(row, figure)), series: others.map((o) => o + " " + at(row, o)).join(", "), name: at(row, "run") }))
-        .filter((p) => Number.isFinite(p.y)).sort((a, b) => a.x - b.x);
+    return study.rows
+        .map((row) => ({
+            x: plain ? cellValue(at(row, key)) : words.indexOf(at(row, key)),
+            y: cellValue(at(row, figure)),
+            series: others.map((o) => o + " " + at(row, o)).join(", "),
+            name: at(row, "run")
+        }))
+        .filter((p) => Number.isFinite(p.y))
+        .sort((a, b) => a.x - b.x);
 }
 
 // Points of a convergence study: the means at each spacing with their intervals.
@@ -90,24 +133,30 @@ function convergencePoints() {
     const row = study.rows[study.y], points = [];
     for (let k = 0; study.columns.includes("mean_" + k); k++) {
         const [x, y, error] = ["spacing_", "mean_", "uncertainty_"].map((name) => cellValue(at(row, name + k)));
-        if (Number.isFinite(y)) points.push({ x, y, error, series: "", name: at(row, "runs_" + k) + " runs" });
+        if (Number.isFinite(y)) points.push({x, y, error, series: "", name: at(row, "runs_" + k) + " runs"});
     }
     return points.sort((a, b) => a.x - b.x);
 }
 
 function drawStudy() {
     const sweep = page.kind === "sweep", points = (study.points = sweep ? sweepPoints() : convergencePoints());
-    const { context, width, height } = canvasOf(byId("scatter"), 340);
+    const {context, width, height} = canvasOf(byId("scatter"), 340);
     context.fillStyle = "#fff";
     context.fillRect(0, 0, width, height);
     if (points.length === 0) return context.fillStyle = "#5d6675", context.fillText("No run has this figure.", 20, 40);
-    const unit = sweep ? study.units[study.figures[study.y]] || "" : at(study.rows[study.y], "unit"), spread = (list) => [Math.min(...list), Math.max(...list)];
-    const [low, high] = spread(points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)])), [left, right] = sweep ? padded(...spread(points.map((p) => p.x))) : [0, 1.05 * spread(points.map((p) => p.x))[1]];
+    const unit = sweep ? study.units[study.figures[study.y]] || "" : at(study.rows[study.y], "unit"),
+          spread = (list) => [Math.min(...list), Math.max(...list)];
+    const [low, high] = spread(points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)])), [left,
+        right] = sweep ? padded(...spread(points.map((p) => p.x))) : [0, 1.05 * spread(points.map((p) => p.x))[1]];
     const yUnit = unitFor(Math.max(Math.abs(low), Math.abs(high)), unit), key = sweep ? study.keys[study.x] : "spacing";
     const given = sweep && !study.words ? (at(study.rows[0], key).match(/[^0-9.eE+-]+.*$/) || [""])[0].trim() : "";
-    const xUnit = sweep ? { factor: 1, name: given } : unitFor(right, "m"), area = axesOf({ left: 84, right: width - 20, top: 40, bottom: height - 50 }, [left, right], padded(low, high));
+    const xUnit = sweep ? {factor: 1, name: given} : unitFor(right, "m"),
+          area = axesOf({left: 84, right: width - 20, top: 40, bottom: height - 50}, [left, right], padded(low, high));
     const figure = sweep ? study.figures[study.y] : study.rows[study.y][0];
-    drawAxes(context, area, xUnit, yUnit, study.words ? key + ": " + study.words.map((w, k) => k + " is " + w).join(", ") : key + (xUnit.name ? " [" + xUnit.name + "]" : ""), figure + (yUnit.name ? " [" + yUnit.name + "]" : ""));
+    drawAxes(context, area, xUnit, yUnit,
+        study.words ? key + ": " + study.words.map((w, k) => k + " is " + w).join(", ") :
+                      key + (xUnit.name ? " [" + xUnit.name + "]" : ""),
+        figure + (yUnit.name ? " [" + yUnit.name + "]" : ""));
     drawSeries(context, area, points);
     study.area = area, study.xUnit = xUnit, study.yUnit = unit;
 }
@@ -122,29 +171,37 @@ function drawSeries(context, area, points) {
         context.stroke();
         for (const p of own) {
             context.beginPath(), context.arc(area.x(p.x), area.y(p.y), 4, 0, 7), context.fill();
-            if (p.error) context.beginPath(), context.moveTo(area.x(p.x), area.y(p.y - p.error)), context.lineTo(area.x(p.x), area.y(p.y + p.error)), context.stroke();
+            if (p.error)
+                context.beginPath(), context.moveTo(area.x(p.x), area.y(p.y - p.error)),
+                    context.lineTo(area.x(p.x), area.y(p.y + p.error)), context.stroke();
         }
-        if (series && k < 12) context.fillText(series, area.right - 10 - context.measureText(series).width, area.top + 4 + 16 * k);
+        if (series && k < 12)
+            context.fillText(series, area.right - 10 - context.measureText(series).width, area.top + 4 + 16 * k);
     });
 }
 
 function readPoint(e) {
-    const box = byId("scatter").getBoundingClientRect(), off = (p) => Math.hypot(study.area.x(p.x) - e.clientX + box.left, study.area.y(p.y) - e.clientY + box.top);
+    const box = byId("scatter").getBoundingClientRect(),
+          off = (p) => Math.hypot(study.area.x(p.x) - e.clientX + box.left, study.area.y(p.y) - e.clientY + box.top);
     const near = study.points.reduce((a, b) => (a && off(a) <= off(b) ? a : b), null);
-    byId("point").textContent = near && off(near) < 20 ? near.name + ": " + quantity(near.y, study.yUnit, 5) + (near.error ? " ± " + quantity(near.error, study.yUnit, 2) : "") : "";
+    byId("point").textContent = near && off(near) < 20 ? near.name + ": " + quantity(near.y, study.yUnit, 5) +
+            (near.error ? " ± " + quantity(near.error, study.yUnit, 2) : "") :
+                                                         "";
 }
 
 function showStudy() {
     const sweep = page.kind === "sweep";
     section("study").querySelector("h2").textContent = sweep ? study.rows.length + " runs" : "Figures with error bars";
     const select = (names, chosen, call) => {
-        const made = element("select", { onchange: () => (call(Number(made.value)), drawStudy()) }, ...names.map((name, k) => element("option", { value: k, selected: k === chosen }, name)));
+        const made = element("select", {onchange: () => (call(Number(made.value)), drawStudy())},
+            ...names.map((name, k) => element("option", {value: k, selected: k === chosen}, name)));
         return made;
     };
     const figures = sweep ? study.figures : study.rows.map((row) => row[0]);
     study.y = Math.max(figures.findIndex((name) => /^probes\.|^crack\.(start_time|length_end)/.test(name)), 0);
     byId("axes").append(element("label", {}, "figure ", select(figures, study.y, (k) => (study.y = k))));
-    if (sweep && study.keys.length > 1) byId("axes").append(element("label", {}, "over ", select(study.keys, 0, (k) => (study.x = k))));
+    if (sweep && study.keys.length > 1)
+        byId("axes").append(element("label", {}, "over ", select(study.keys, 0, (k) => (study.x = k))));
     byId("wanted").addEventListener("input", showTable);
     byId("technical").addEventListener("change", showTable);
     byId("scatter").addEventListener("pointermove", readPoint);

@@ -1,12 +1,17 @@
-// Appended to a copy of a page by long_report.sh: works its controls as a reader would, and replaces the page by what it saw.
+// Appended to a copy of a page by long_report.sh: works its controls as a reader would, and replaces the page by what
+// it saw.
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 const send = (id, event, value) => (byId(id).value = value, byId(id).dispatchEvent(new Event(event)));
-const screen = () => { const c = byId("view"); return c.getContext("2d").getImageData(0, 0, c.width, c.height); };
+const screen = () => {
+    const c = byId("view");
+    return c.getContext("2d").getImageData(0, 0, c.width, c.height);
+};
 
 // The colour on the canvas at a position of the body [m], in the plane.
 function colourAt(x, y) {
     const c = byId("view"), ratio = c.width / c.clientWidth, image = screen();
-    const px = Math.round(((c.clientWidth - BAR) / 2 + (x - view.x) * view.scale) * ratio), py = Math.round((c.clientHeight / 2 - (y - view.y) * view.scale) * ratio);
+    const px = Math.round(((c.clientWidth - BAR) / 2 + (x - view.x) * view.scale) * ratio),
+          py = Math.round((c.clientHeight / 2 - (y - view.y) * view.scale) * ratio);
     return Array.from(image.data.slice(4 * (py * c.width + px), 4 * (py * c.width + px) + 3));
 }
 
@@ -14,14 +19,17 @@ function colourAt(x, y) {
 function painted() {
     const image = screen(), edge = image.width * (1 - BAR / byId("view").clientWidth) - 1;
     let n = 0;
-    for (let k = 0; k < image.data.length; k += 4) if ((k / 4) % image.width < edge && image.data[k] + image.data[k + 1] + image.data[k + 2] < 740) n++;
+    for (let k = 0; k < image.data.length; k += 4)
+        if ((k / 4) % image.width < edge && image.data[k] + image.data[k + 1] + image.data[k + 2] < 740) n++;
     return n;
 }
 
 async function probeFilm(seen) {
     seen.frames = film.frames.length;
     seen.shown_at_first = view.frame;
-    if (film.dim === 2) seen.crack_last = colourAt(0.01, 0.0102), seen.ahead_last = colourAt(0.025, 0.0102), seen.whole_last = colourAt(0.035, 0.004);
+    if (film.dim === 2)
+        seen.crack_last = colourAt(0.01, 0.0102), seen.ahead_last = colourAt(0.025, 0.0102),
+        seen.whole_last = colourAt(0.035, 0.004);
     send("frame", "input", 0);
     seen.when_first = byId("when").textContent;
     if (film.dim === 2) seen.ahead_first = colourAt(0.025, 0.0102);
@@ -36,7 +44,7 @@ async function probeFilm(seen) {
     if (film.dim === 3) {
         const rows = JSON.stringify(view.turn), canvas = byId("view");
         for (const [type, x] of [["pointerdown", 300], ["pointermove", 380], ["pointerup", 380]])
-            canvas.dispatchEvent(new PointerEvent(type, { clientX: x, clientY: 300, pointerId: 1 }));
+            canvas.dispatchEvent(new PointerEvent(type, {clientX: x, clientY: 300, pointerId: 1}));
         seen.turned = JSON.stringify(view.turn) !== rows;
         seen.painted_turned = painted();
         send("cut", "input", "1");
@@ -46,7 +54,11 @@ async function probeFilm(seen) {
 }
 
 async function probe() {
-    const seen = { title: document.title, heading: byId("title").textContent, tags: document.querySelectorAll("main b").length };
+    const seen = {
+        title: document.title,
+        heading: byId("title").textContent,
+        tags: document.querySelectorAll("main b").length
+    };
     // Pointer capture needs a pointer that the browser knows.
     HTMLCanvasElement.prototype.setPointerCapture = () => {};
     if (film) await probeFilm(seen);
@@ -63,4 +75,5 @@ async function probe() {
     seen.problems = problems;
     document.body.textContent = "SEEN " + JSON.stringify(seen) + " END";
 }
-probe().catch((fault) => (document.body.textContent = "SEEN " + JSON.stringify({ problems: [String(fault), fault.stack] }) + " END"));
+probe().catch((fault) => (document.body.textContent =
+                              "SEEN " + JSON.stringify({problems: [String(fault), fault.stack]}) + " END"));
