@@ -50,7 +50,7 @@ struct bond_limit {
     real dt;                                /* time between the positions of two steps [s] */
     const struct softening_pair *softening; /* [materials^2] softening by pair of materials; NULL: bonds are brittle */
     const struct softening_curve *curve;    /* of all bonds that soften */
-    bool retries; /* bonds that were not allowed to soften are examined again in this step (kernels/pd/soften.c) */
+    bool retries; /* bonds that were not allowed to soften are examined again in this step (kernels/pd/bond_begin.c) */
 };
 
 /* Limit of bonds that never break, for all pairs of materials. */

@@ -76,7 +76,7 @@ struct strain_fit {
 };
 
 /* Adds a bond of reference direction e, with the stretch `stretch` and the weight w, to the equations. */
-static void fit_add(struct strain_fit *fit, const real *e, int dim, real stretch, real w)
+static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real stretch, real w)
 {
     real product[SYM_MAX];
     for (int s = 0; s < fit->n; s++) {
@@ -119,7 +119,7 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
         if (bond->w == 0) continue;
         const real stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
         for (int d = 0; d < p->dim; d++) e[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
-        fit_add(&fit, e, p->dim, stretch, bond->w * bond_kept_share(b, row / LANES, bond->entry, stretch));
+        strain_fit_add(&fit, e, p->dim, stretch, bond->w * bond_kept_share(b, row / LANES, bond->entry, stretch));
     }
     return fit_trace(&fit, p->dim);
 }

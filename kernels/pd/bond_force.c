@@ -86,8 +86,9 @@ static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct partic
                                                   int64_t g, const int dim, const enum pd_model model)
 {
     bool pressed;
-    const bool past = model == PD_BOND_SOFT && !row_block_softens(b, g) ? bond_force_row_block(b, p, g, dim, PD_BOND, &pressed)
-                                                                 : bond_force_row_block(b, p, g, dim, model, &pressed);
+    const bool past = model == PD_BOND_SOFT && !row_block_softens(b, g)
+                          ? bond_force_row_block(b, p, g, dim, PD_BOND, &pressed)
+                          : bond_force_row_block(b, p, g, dim, model, &pressed);
     if (__builtin_expect(pressed, 0)) row_block_add_core_forces(b, p, g);
     return past ? bond_break_row_block(b, p, limit, g) : 0;
 }

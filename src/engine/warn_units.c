@@ -172,7 +172,8 @@ static real units_stress_at_start(const struct particles *p)
     return most;
 }
 
-/* Returns the smallest strength E s_c (of bonds that soften, E s_0) of the materials and interfaces that can break [Pa]; INFINITY if none can. */
+/* Returns the smallest strength E s_c (of bonds that soften, E s_0) of the materials and interfaces that can break
+ * [Pa]; INFINITY if none can. */
 static real least_strength(const struct scene *s)
 {
     real least = INFINITY, young = INFINITY;

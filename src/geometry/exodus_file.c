@@ -150,8 +150,8 @@ static status array_check(const struct exodus_file *f, const char *name, int64_t
 }
 
 /* Reads the numbers of an array into one of the two. REFUSED if the file is damaged. */
-static status numbers_read(const struct exodus_file *f, const struct exodus_array *a, int64_t n, real *reals,
-                           int64_t *integers)
+static status array_numbers_read(const struct exodus_file *f, const struct exodus_array *a, int64_t n, real *reals,
+                                 int64_t *integers)
 {
     if (f->hdf5 < 0)
         exodus_classic_read(f, a, n, reals, integers);
@@ -168,7 +168,7 @@ status exodus_reals(const struct exodus_file *f, const char *name, int64_t numbe
     name_numbered(called, name, number);
     TRY(array_check(f, called, n, &a));
     real *read = NEW("exodus.numbers", n, real);
-    status s = numbers_read(f, &a, n, read, NULL);
+    status s = array_numbers_read(f, &a, n, read, NULL);
     for (int64_t k = 0; k < n && s == OK; k++)
         if (!isfinite(read[k])) s = exodus_fault(f, "array %s: number %lld is not finite", called, (long long)k + 1);
     if (s == OK)
@@ -186,7 +186,7 @@ status exodus_integers(const struct exodus_file *f, const char *name, int64_t nu
     name_numbered(called, name, number);
     TRY(array_check(f, called, n, &a));
     int64_t *read = NEW("exodus.numbers", n, int64_t);
-    const status s = numbers_read(f, &a, n, NULL, read);
+    const status s = array_numbers_read(f, &a, n, NULL, read);
     if (s == OK)
         *value = read;
     else

@@ -7,7 +7,7 @@
 #include "base/arrays.h"
 #include "base/memory.h"
 
-enum { FRAMES_MOST = 61, FRAMES_FEWER = 21, FRAMES_FEWEST = 11, EVERY_MOST = 32 };
+enum { FILM_FRAMES_MOST = 61, FRAMES_FEWER = 21, FRAMES_FEWEST = 11, EVERY_MOST = 32 };
 enum { U16_MOST = 65535, I16_MOST = 32767 };
 
 /* Plastic strain above which a particle counts as busy [1]. */
@@ -94,7 +94,7 @@ status film_read(struct film *f, const char *folder)
     struct listed_frame *list = NULL;
     *f = (struct film){.folder = folder, .every = 1};
     TRY(frames_list(folder, &f->listed, &list));
-    f->frames = f->listed < FRAMES_MOST ? f->listed : FRAMES_MOST;
+    f->frames = f->listed < FILM_FRAMES_MOST ? f->listed : FILM_FRAMES_MOST;
     f->frame = NEW("report.frames", f->frames, struct film_frame);
     status s = OK;
     for (int k = 0; s == OK && k < f->frames; k++) {
@@ -158,7 +158,7 @@ static void film_fill(struct film *f, int64_t budget)
 
 void film_fit(struct film *f, int64_t budget)
 {
-    frames_use(f, FRAMES_MOST);
+    frames_use(f, FILM_FRAMES_MOST);
     film_group(f);
     f->lacks_extra = !fits(f, budget);
     if (fits(f, budget)) return;

@@ -117,8 +117,8 @@ for run in wave_stress wave_stress_apic; do
 done
 
 # A material that never yields is elastic to the last digit (above Poisson's ratio 0.4 both have one dilatation in a cell).
-awk -F, -v OFS=, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /plastic_strain/) at = k }
-    { if (at && NR > 1 && $at != 0) exit 1; for (k = at; k && k < NF; k++) $k = $(k + 1); if (at) NF--; print }' \
+awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) strain[k] = $k ~ /plastic_strain/ }
+    { line = ""; for (k = 1; k <= NF; k++) if (!strain[k]) line = line (k > 1 ? "," : "") $k; else if (NR > 1 && $k != 0) exit 1; print line }' \
     "$work/never/history.csv" >"$work/never.csv"
 holds "never: yields nowhere" cmp "$work/elastic/history.csv" "$work/never.csv"
 is "never: plastic work" "$(f never energy.plastic)" 0

@@ -103,7 +103,7 @@ done <<'END'
 6|material: {young: 190 GPa, nu: 0.3, density: 7800}|6:28|here it is `poisson`
 6|material: {young: 190 GPa, rho: 7800}|6:28|here it is `density`
 6|material: {young: 190 GPa, density: 7800, G_c: 100}|6:43|here it is `energy_release_rate`
-6|material: {young: 190 GPa, density: 7800, strength: 100 MPa}|6:43|`critical_stretch`, about strength/E
+6|material: {young: 190 GPa, density: 7800, strength: 100 MPa}|6:43|with `tensile_strength` bonds soften
 6|material: {young: 190 GPa, density: 7800, compressive_strength: 100 MPa}|6:43|does not do failure in compression
 6|material: {young: 190 GPa, density: 7800, friction_angle: 30}|6:43|does not do yielding that depends on pressure
 6|material: {young: 190 GPa, density: 7800, thermal-expansion: 1}|6:43|does not do heat
@@ -437,7 +437,7 @@ done <<'END'
 yield|material.yield_stress
 plasticity|material.yield_hardening
 G_c|material.energy_release_rate
-strength|material.critical_stretch
+strength|material.scatter.of
 E|material.young
 damage|output.fields
 toughness|material.toughness

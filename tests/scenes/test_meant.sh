@@ -136,15 +136,11 @@ silent "a strip of three rows and their images" "^warning" "$work/strip.yaml" \
 silent "a strip of four rows" "^warning" "$work/strip.yaml" -s particles.spacing=1.5mm
 silent "a strip without moments" "^warning" "$work/strip.yaml" -s pd.surface=volume
 
-# A quarter of a copper bar, four points across: 1.1 % of the energy by yield_tangent, 0.1 % by the law of equal slope, 0.4 % in half steps.
+# A quarter of a copper bar, four points across: 0.1 % of the energy, by the law and by yield_tangent of equal slope.
 copper="inputs/taylor_bar.yaml -s particles.spacing=0.8mm -s output.frames=0 -q -t 1 --overwrite"
-"$cleave" run $copper -o "$work/copper" >/dev/null 2>"$work/said"
-is "a bar that yields by a law" "$(cat "$work/said")" ""
-for safety in 0.8 0.4; do
-    "$cleave" run $copper -o "$work/copper" -s material.hardening= -s material.yield_tangent=99.9MPa -s time.safety=$safety >/dev/null 2>"$work/said"
-    [ $safety = 0.8 ] || is "in half steps" "$(cat "$work/said")" ""
-    [ $safety = 0.4 ] || holds "a bar that yields by its tangent: $(cat "$work/said")" \
-        grep -q '^warning: 1.1 % of the energy is gained without work of loads .*; time.safety: 0.4 halves the error, and material.hardening: {linear: {modulus: 9.99' "$work/said"
+for slope in "-s output.samples=100" "-s material.hardening= -s material.yield_tangent=99.9MPa"; do
+    "$cleave" run $copper -o "$work/copper" $slope >/dev/null 2>"$work/said"
+    is "a bar that yields, $slope" "$(cat "$work/said")" ""
 done
 
 # ---- the verdict -------------------------------------------------------------------------------------------------------
