@@ -1,5 +1,7 @@
 /* Bonds that soften: cycles of one bond compared with closed forms, all lanes compared with a plain implementation,
  * energy, both ends of a bond, a uniformly strained family, a line torn apart, and compression. */
+#include <omp.h>
+
 #include "kernels/kernels.h"
 
 #include "tests/support/cloud.h"
@@ -43,6 +45,7 @@ static int64_t soft_forces(struct soft_body *s)
 static void pair_make(struct soft_body *s, enum softening law)
 {
     memset(s, 0, sizeof *s);
+    omp_set_num_threads(1); /* a team for two particles would only wait */
     plotted_particles_make(&s->c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     soft_bonds(s, law, ONSET, CRITICAL);
 }
@@ -151,6 +154,7 @@ static void test_at_once(void **state)
 static void body_make(struct soft_body *s, enum space space, enum softening law, uint64_t seed)
 {
     memset(s, 0, sizeof *s);
+    omp_set_num_threads(2);
     plotted_particles_make(
         &s->c, &(struct cloud_plan){.space = space, .count = {9, 7, 5}, .horizon = 2.015, .shake = 0.2, .seed = seed});
     for (int64_t i = 0; i < s->c.p.n; i++) s->c.p.material[i] = (uint8_t)(i % 2);
