@@ -57,7 +57,7 @@ struct column reading_column(const struct particles *p, int k)
 static real plastic_strain_reading(const struct observed_run *o, int64_t i)
 {
     const struct bonds *b = o->bonds;
-    const bool by_bonds = o->part->kind[i] == KIND_PD && b->plastic_path && b->row_of[i] >= 0;
+    const bool by_bonds = b && o->part->kind[i] == KIND_PD && b->plastic_path && b->row_of[i] >= 0;
     return by_bonds ? bond_row_plastic_path(b, b->row_of[i]) : o->part->plastic_strain[i];
 }
 
@@ -68,7 +68,7 @@ void particle_readings(const struct observed_run *o, int64_t i, real *value)
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
     for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][i];
     if (p->plane_strain) *value++ = particle_plane_strain_stress(p, i);
-    *value++ = p->damage[i] + bonds_row_softening(o->bonds, p, o->bonds->row_of[i]);
+    *value++ = damage_reading(o, i);
     if (p->plastic_work) *value++ = plastic_strain_reading(o, i);
     if (p->temperature) *value++ = p->temperature[i];
 }

@@ -2,6 +2,7 @@
 #ifndef CLEAVE_PROBES_PARTS
 #define CLEAVE_PROBES_PARTS
 
+#include "bonds/bonds.h"
 #include "probes/probes.h"
 
 enum { RIGID_FIGURES = 5 };
@@ -66,6 +67,14 @@ int readings_count(const struct particles *p);
 /* Returns the name and unit of value `number` of those that a POINT or LINE probe reports of a particle, 0 <= number <
  * readings_count(p). */
 struct column reading_column(const struct particles *p, int number);
+
+/* Returns the damage of particle i of the run: the share of its bonds that are broken or have softened, by volume
+ * [1]. */
+static inline real damage_reading(const struct observed_run *o, int64_t i)
+{
+    const struct bonds *b = o->bonds;
+    return o->part->damage[i] + (b ? bonds_row_softening(b, o->part, b->row_of[i]) : 0);
+}
 
 /* Computes the readings of particle i of the run and stores them in value[readings_count(o->part)], in the order of
  * reading_column. */

@@ -49,6 +49,14 @@ grep -oh '`[a-z_]*\.[a-z_.]*[`:=]' $pages | tr -d '`:=' | sort -u | while read -
 done >"$work/unknown"
 is "keys of the manual that are none" "$(cat "$work/unknown")" ""
 
+# Every option of a command is described below its usage.
+for command in run check plot report compare sweep converge export bench help; do
+    "$cleave" help $command >"$work/page" 2>/dev/null || "$cleave" $command --help >"$work/page"
+    for option in $(head -n 1 "$work/page" | grep -o -e '--[a-z-]*' | sort -u); do
+        holds "help $command describes $option" grep -q -e "^  $option" "$work/page"
+    done
+done
+
 # ---- scenes ----------------------------------------------------------------------------------------------------------
 
 # blocks PAGE: writes each block of YAML of a page to a file of its own, and prints their names.
