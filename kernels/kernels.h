@@ -119,10 +119,10 @@ KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
 
-/* Lets bonds begin to soften that are stretched beyond their onset, in the row blocks (the bonds of eight particles)
- * that the last sweep has marked as due, unless the stress across the bond forbids it (pd/bond_begin.c). Both rows of a
- * bond decide alike. Energy that a bond loses at once, as it was beyond its onset already, is added to the fracture
- * energy. Called by bond_forces. */
+/* Starts the softening of all bonds that are stretched beyond their onset, in the row blocks (the bonds of eight
+ * particles) that the last sweep has marked as due, unless the stress across the bond forbids it (pd/bond_begin.c).
+ * Both rows of a bond decide alike. Adds the energy that such a bond loses at once, as it was beyond its onset already,
+ * to the fracture energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Updates the largest stretches of all bonds that soften to the present positions, as a force computation does. Call it

@@ -104,6 +104,9 @@ struct printable_name {
 /* Returns a copy of `name` for printing, at most 511 bytes long, with `?` in place of control characters. */
 struct printable_name printable_name(const char *name);
 
+/* Compares two numbers (double), for array_sort in ascending order. */
+int double_order(const void *a, const void *b);
+
 /* Sorts the n > 0 numbers in `value`, in place, and returns their median; for even n the upper of the two middle
  * ones. */
 double median_of(double *value, int64_t n);

@@ -21,6 +21,9 @@ int team_set_threads(int threads);
  * processor. */
 struct machine machine_properties(void);
 
+/* Returns the name of the processor; does not read the topology of the machine again after team_set_threads. */
+const char *machine_processor_name(void);
+
 /* Returns the memory that this process may use [byte]: that of the machine or, if it is less, what a limit (ulimit,
  * control group) had left when team_set_threads was called. */
 int64_t machine_memory_size(void);

@@ -238,6 +238,12 @@ static inline struct bond_softness bond_softness_closed(struct softening_range r
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST))};
 }
 
+/* Returns the state of the bond with index q. */
+static inline struct bond_softness bond_softness_get(const struct softened *s, int64_t q)
+{
+    return (struct bond_softness){s->most[q], s->onset[q], s->end[q]};
+}
+
 /* Stores the state of the bond with index q. */
 static inline void bond_softness_put(struct softened *s, int64_t q, struct bond_softness state)
 {

@@ -56,15 +56,25 @@ struct bond_limit {
 /* Limit of bonds that never break, for all pairs of materials. */
 extern const struct bond_limit bond_limit_never;
 
+/* Returns the stretch at which the bond between particles i and j breaks if it is brittle [1]: critical stretch of its
+ * materials times its strength. A bond that softens spends as much energy. */
+static inline real bond_breaking_stretch(const struct particles *p, const struct bond_limit *limit, int64_t i,
+                                         int64_t j)
+{
+    const int pair = p->material[i] * limit->materials + p->material[j];
+    const bool alone = limit->softening && limit->softening[pair].strength_scatters;
+    return limit->critical_stretch[pair] * (alone ? 1 : bond_strength_factor(p, i, j));
+}
+
 /* Returns the stretches [1] at which the bond between particles i and j begins to soften and ends; both are the
  * critical stretch where it is brittle. */
 static inline struct softening_range bond_range_of(const struct particles *p, const struct bond_limit *limit, int64_t i,
                                                    int64_t j)
 {
-    const int pair = p->material[i] * limit->materials + p->material[j];
-    const real strength = bond_strength_factor(p, i, j);
-    if (limit->softening) return softening_range_of(limit->curve, &limit->softening[pair], strength);
-    return (struct softening_range){limit->critical_stretch[pair] * strength, limit->critical_stretch[pair] * strength};
+    const real critical = bond_breaking_stretch(p, limit, i, j);
+    if (!limit->softening) return (struct softening_range){critical, critical};
+    const struct softening_pair *pair = &limit->softening[p->material[i] * limit->materials + p->material[j]];
+    return softening_range_of(limit->curve, pair->onset * bond_strength_factor(p, i, j), critical);
 }
 
 /* Yield stretch s_y and hardening modulus over the elastic one, H_b/k_e, by pair of materials [materials^2]; stretch

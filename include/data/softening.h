@@ -29,10 +29,10 @@ struct softening_curve {
     real area;                                             /* integral of G from 0 to 1 [1] */
 };
 
-/* Softening of the bonds between two materials. onset: s_0, INFINITY: they are brittle; critical: s_c [1];
- * strength_scatters: a random strength scales s_0 alone, else both. */
+/* Softening of the bonds between two materials. onset: s_0, INFINITY: they are brittle [1]; strength_scatters: a random
+ * strength scales s_0 alone, else the critical stretch, too. */
 struct softening_pair {
-    real onset, critical;
+    real onset;
     bool strength_scatters;
 };
 
@@ -58,12 +58,10 @@ static inline real softening_end(const struct softening_curve *c, real onset, re
     return onset + (square(critical) - square(onset)) / (2 * onset * c->area);
 }
 
-/* Returns onset and end of a bond. strength: its random factor of strength, 1 without scatter [1]. */
-static inline struct softening_range softening_range_of(const struct softening_curve *c,
-                                                        const struct softening_pair *pair, real strength)
+/* Returns onset and end of a bond that begins to soften at the stretch `onset`, and whose energy is that of a brittle
+ * one of critical stretch `critical` [1]. */
+static inline struct softening_range softening_range_of(const struct softening_curve *c, real onset, real critical)
 {
-    const real critical = pair->critical * (pair->strength_scatters ? 1 : strength);
-    const real onset = pair->onset * strength;
     if (!(onset < critical * (1 - SOFTENING_LEAST))) return (struct softening_range){critical, critical};
     return (struct softening_range){onset, softening_end(c, onset, critical)};
 }

@@ -16,6 +16,10 @@ struct history {
  * columns than the header. Release with history_free. */
 status history_read(struct history *h, const char *folder);
 
+/* Reads the first line of the history.csv of the folder of a run, without its end, into header[capacity]; "" if there
+ * is none. */
+void history_read_header(char *header, size_t capacity, const char *folder);
+
 /* Reads the file `path`, a table with one header line like history.csv (for example a profile of a probe), into *h. An
  * incomplete last line is skipped. Returns FAILED if there is no such file or header, or if a line has another number
  * of columns than the header. Release with history_free. */

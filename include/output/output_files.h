@@ -16,6 +16,13 @@ struct path {
  * call refuses an empty path. */
 struct path path_join(const char *folder, const char *name);
 
+/* Writes the last part of a path, without slashes behind it, to name[capacity]. Returns name. */
+char *path_last_name(char *name, size_t capacity, const char *path);
+
+/* Returns the path of frame `number` in the folder of a run, frames/NNNNNN.hdf; an empty path if it would be too long.
+ */
+struct path run_frame_path(const char *folder, int number);
+
 /* Creates the folder `path` and its parent folders unless they exist. Returns REFUSED if the path is too long or a
  * file has the name of such a folder; FAILED if a folder cannot be created. */
 status folder_make(const char *path);

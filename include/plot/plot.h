@@ -83,10 +83,6 @@ status field_draw_picture(const struct plot_request *r);
 /* Returns true if the folder of a run holds a file called `name`. */
 bool run_has_file(const char *folder, const char *name);
 
-/* Returns the path of frame `number` in the folder of a run, frames/NNNNNN.hdf; an empty path if it would be too long.
- */
-struct path run_frame_path(const char *folder, int number);
-
 /* Reads frame `number` in the folder of a run into *f. Returns FAILED, with no memory to release, if the file cannot
  * be read or is damaged. Release with frame_free. */
 status run_read_frame(struct output_frame *f, const char *folder, int number);

@@ -22,6 +22,10 @@ struct rigid_surface {
 void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int dim, const real *low,
                         const real *high);
 
+/* An unbounded rigid body is shown in the box of the particles, wider on all sides by this share of its longest edge.
+ */
+#define RIGID_BESIDE 0.08
+
 /* Releases the arrays of *s. */
 void rigid_surface_free(struct rigid_surface *s);
 

@@ -35,7 +35,7 @@ struct particle_list_head {
     char note[256];               /* columns that are not read, and defaults of missing ones; "": none */
 };
 
-/* What a scene says about a list that the file does not. */
+/* Unit and column names of a list, given by the scene where the file does not name them. */
 struct particle_list_form {
     real scale; /* length that the number 1 is in coordinates without a unit of their own [m], in volumes its cube;
                  * 0: 1 m */

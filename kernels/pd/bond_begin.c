@@ -135,8 +135,9 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
     return 0.5 * sum + PULL * c->stretch > 0;
 }
 
-/* Lets the bond with index q of a row begin to soften. Adds half of the energy that it loses at once and that the
- * closed form of its dissipation does not count to the fracture energy of the row. dt: time step [s]. */
+/* Starts the softening of the bond with index q of a row, the candidate *c. The bond loses some energy at once, which
+ * the closed form of its dissipation does not count: adds half of it to the fracture energy of the row. dt: time step
+ * [s]. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
 {

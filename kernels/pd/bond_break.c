@@ -31,8 +31,7 @@ static void set_flag(struct particles *p, int32_t i, int flag)
  * for bond-based models. */
 static real half_energy(const struct bonds *b, int64_t row, int64_t q, real stretch)
 {
-    const real elastic = bond_entry_elastic_stretch(b, row / LANES, q, stretch);
-    return 0.25 * b->stiffness * b->w[q] * (b->soft.curve ? stretch * elastic : square(elastic)) /
+    return 0.5 * b->stiffness * b->w[q] * bond_entry_normalised_energy(b, row / LANES, q, stretch) /
            fabs(b->inverse_length[q]);
 }
 

@@ -22,16 +22,6 @@ static inline real bond_stretch_earlier(const struct particles *p, real inverse_
     return sqrt(distance2) * fabs(inverse_length) - 1;
 }
 
-/* Returns the stretch at which the bond i-j breaks if it is brittle [1]: critical stretch of its materials times its
- * strength. A bond that softens spends as much energy. */
-static inline real bond_breaking_stretch(const struct particles *p, const struct bond_limit *limit, int32_t i,
-                                         int32_t j)
-{
-    const int pair = p->material[i] * limit->materials + p->material[j];
-    const bool alone = limit->softening && limit->softening[pair].strength_scatters;
-    return limit->critical_stretch[pair] * (alone ? 1 : bond_strength_factor(p, i, j));
-}
-
 /* When a bond breaks within a time step: `lag`, the time before the present positions at which its stretch exceeded the
  * limit [s], and `share`, the fraction of its force that acts in the velocity update of this step [1]. */
 struct bond_break_moment {

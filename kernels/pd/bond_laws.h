@@ -82,6 +82,14 @@ static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row
     return b->plastic_stretch ? stretch - b->plastic_stretch[q] : stretch;
 }
 
+/* Returns the elastic energy of the bond with index q in a row block, at the given stretch, divided by stiffness,
+ * weight and reference length [1]. */
+static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t row_block, int64_t q, real stretch)
+{
+    const real elastic = bond_entry_elastic_stretch(b, row_block, q, stretch);
+    return 0.5 * ((b->soft.curve ? stretch : elastic) * elastic);
+}
+
 /* Returns the elastic energy of eight bonds divided by stiffness, weight and reference length [1]. stretch: their
  * stretches; elastic: elastic part of these, which is their normalised force [1]. */
 static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, lanes stretch, lanes elastic)
@@ -127,9 +135,8 @@ static inline void bond_force_vector(const struct bonds *b, const struct particl
 static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     if (bond->w == 0) return 0;
-    const real elastic = bond_elastic_stretch_of(b, p, bond, i);
-    return 0.5 * b->stiffness * bond->w * (b->soft.curve ? bond_stretch_of(p, bond, i) : elastic) * elastic /
-           bond->inverse_length;
+    const real energy = bond_entry_normalised_energy(b, b->row_of[i] / LANES, bond->entry, bond_stretch_of(p, bond, i));
+    return b->stiffness * bond->w * energy / bond->inverse_length;
 }
 
 /* Returns the plastic work of a bond [J]: closed form, since hardening is linear and the path only grows. */

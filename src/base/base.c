@@ -64,7 +64,7 @@ struct printable_name printable_name(const char *name)
     return s;
 }
 
-static int by_size(const void *a, const void *b)
+int double_order(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -72,7 +72,7 @@ static int by_size(const void *a, const void *b)
 
 double median_of(double *value, int64_t n)
 {
-    qsort(value, (size_t)n, sizeof *value, by_size);
+    qsort(value, (size_t)n, sizeof *value, double_order);
     return value[n / 2];
 }
 

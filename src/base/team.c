@@ -29,6 +29,9 @@ struct place {
  * figure counts. */
 static struct memory_limit memory;
 
+/* The name of the processor, "" before the topology of the machine has been read. */
+static char processor[128];
+
 /* Stores the memory of the machine, or the tightest limit of it. topology: NULL, the figure of the system alone is
  * used. */
 static void note_memory(hwloc_topology_t topology)
@@ -38,6 +41,15 @@ static void note_memory(hwloc_topology_t topology)
     const int64_t all = seen > told ? seen : told;
     const struct memory_limit limit = memory_limit();
     memory = limit.bytes < all ? limit : (struct memory_limit){all, "memory of the machine"};
+}
+
+/* Stores the name of the processor. */
+static void note_processor(hwloc_topology_t topology)
+{
+    hwloc_obj_t package = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_PACKAGE, NULL);
+    const char *name = package != NULL ? hwloc_obj_get_info_by_name(package, "CPUModel") : NULL;
+    if (name == NULL) name = hwloc_obj_get_info_by_name(hwloc_get_root_obj(topology), "CPUModel");
+    snprintf(processor, sizeof processor, "%s", name != NULL ? name : "unknown processor");
 }
 
 /* Returns the k-th physical core of the mask; NULL past the last. */
@@ -77,6 +89,7 @@ static bool place_make(struct place *place)
         return false;
     }
     note_memory(place->topology);
+    note_processor(place->topology);
     hwloc_const_cpuset_t allowed = hwloc_topology_get_allowed_cpuset(place->topology);
     place->mask = hwloc_bitmap_alloc();
     if (hwloc_get_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD) != 0)
@@ -107,14 +120,6 @@ static int64_t cache_size(hwloc_topology_t topology, hwloc_obj_type_t level)
     return cache != NULL ? (int64_t)cache->attr->cache.size : 0;
 }
 
-static const char *processor_name(hwloc_topology_t topology)
-{
-    hwloc_obj_t package = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_PACKAGE, NULL);
-    const char *name = package != NULL ? hwloc_obj_get_info_by_name(package, "CPUModel") : NULL;
-    if (name == NULL) name = hwloc_obj_get_info_by_name(hwloc_get_root_obj(topology), "CPUModel");
-    return name != NULL ? name : "unknown processor";
-}
-
 struct machine machine_properties(void)
 {
     struct machine m = {.cores = omp_get_num_procs(), .threads_allowed = omp_get_num_procs()};
@@ -128,12 +133,18 @@ struct machine machine_properties(void)
     m.cache[1] = cache_size(place.topology, HWLOC_OBJ_L1CACHE);
     m.cache[2] = cache_size(place.topology, HWLOC_OBJ_L2CACHE);
     m.cache[3] = cache_size(place.topology, HWLOC_OBJ_L3CACHE);
-    snprintf(m.model, sizeof m.model, "%s", processor_name(place.topology));
+    snprintf(m.model, sizeof m.model, "%s", processor);
     place_free(&place);
     return m;
 }
 
 int64_t machine_memory_size(void) { return memory.bytes > 0 ? memory.bytes : machine_properties().memory; }
+
+const char *machine_processor_name(void)
+{
+    if (!*processor) (void)machine_properties();
+    return *processor ? processor : "unknown processor";
+}
 
 const char *machine_memory_limit_name(void)
 {

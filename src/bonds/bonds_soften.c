@@ -17,7 +17,8 @@ void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_sou
     b->soft.any_due = old && old->soft.any_due;
     b->soft.least_ratio = p->strength ? 1 : INFINITY;
     for (int k = 0; k < square(s->limit.materials); k++) {
-        const struct softening_range range = softening_range_of(s->limit.curve, &s->limit.softening[k], 1);
+        const struct softening_range range =
+            softening_range_of(s->limit.curve, s->limit.softening[k].onset, s->limit.critical_stretch[k]);
         if (isfinite(range.onset)) b->soft.least_ratio = real_min(b->soft.least_ratio, range.end / range.onset);
     }
 }
@@ -48,7 +49,7 @@ void row_soften(struct row *row, const struct row_maker *m, int32_t i)
         const int64_t q = it.bond.entry;
         while (n < row->n && row->nbr[n] < it.bond.nbr) n++;
         if (n == row->n || row->nbr[n] != it.bond.nbr) continue;
-        row->soft[n] = (struct bond_softness){old->soft.most[q], old->soft.onset[q], old->soft.end[q]};
+        row->soft[n] = bond_softness_get(&old->soft, q);
     }
 }
 
@@ -58,8 +59,7 @@ static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struc
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
-        bond_softness_put(&b->soft, bond.entry,
-                          (struct bond_softness){old->soft.most[q], old->soft.onset[q], old->soft.end[q]});
+        bond_softness_put(&b->soft, bond.entry, bond_softness_get(&old->soft, q));
     }
 }
 
@@ -79,7 +79,7 @@ static void pack_softness(struct bonds *b, struct bond_softness *packed, bool sa
         for (int64_t k = 0; b->soft.begun[g] && k < b->column_count[g] * LANES; k++, packed++) {
             const int64_t q = b->column[g] * LANES + k;
             if (saving)
-                *packed = (struct bond_softness){b->soft.most[q], b->soft.onset[q], b->soft.end[q]};
+                *packed = bond_softness_get(&b->soft, q);
             else
                 bond_softness_put(&b->soft, q, *packed);
         }

@@ -103,13 +103,15 @@ static struct stress_pair family_stress(const struct directions *a, real axial, 
     return (struct stress_pair){sum.axial * axial_factor / DIRECTIONS, sum.lateral * lateral_factor / DIRECTIONS};
 }
 
-/* Returns the lateral strain at which the lateral stress is 0 for the given axial strain, both over s_0 [1]. */
-static real free_lateral_strain(const struct directions *a, real axial)
+/* Returns the strain x between `low` and 0 at which the stress `stress`, which grows with x, is 0, by bisection. given:
+ * the other strain; both over s_0 [1]. */
+static real strain_without_stress(const struct directions *a, real low, real given,
+                                  real (*stress)(const struct directions *, real x, real given))
 {
-    real low = -axial, high = 0;
-    for (int k = 0; k < BISECTIONS && a->space != SPACE_LINE; k++) {
+    real high = 0;
+    for (int k = 0; k < BISECTIONS; k++) {
         const real middle = 0.5 * (low + high);
-        if (family_stress(a, axial, middle).lateral > 0)
+        if (stress(a, middle, given) > 0)
             high = middle;
         else
             low = middle;
@@ -117,46 +119,42 @@ static real free_lateral_strain(const struct directions *a, real axial)
     return 0.5 * (low + high);
 }
 
-/* Returns the axial strain at which the axial stress is 0 for the given lateral strain, both over s_0 [1]. */
-static real free_axial_strain(const struct directions *a, real lateral)
+/* Stresses over E' s_0 [1] for strain_without_stress: the lateral one at an axial strain, the axial one at a lateral
+ * strain, the sum of both at an axial strain. */
+static real lateral_stress(const struct directions *a, real lateral, real axial)
 {
-    real low = -2 * lateral, high = 0;
-    for (int k = 0; k < BISECTIONS; k++) {
-        const real middle = 0.5 * (low + high);
-        if (family_stress(a, middle, lateral).axial > 0)
-            high = middle;
-        else
-            low = middle;
-    }
-    return 0.5 * (low + high);
+    return family_stress(a, axial, lateral).lateral;
+}
+
+static real axial_stress(const struct directions *a, real axial, real lateral)
+{
+    return family_stress(a, axial, lateral).axial;
+}
+
+static real stress_sum(const struct directions *a, real lateral, real axial)
+{
+    const struct stress_pair stress = family_stress(a, axial, lateral);
+    return stress.axial + stress.lateral;
 }
 
 static real tension_at(const struct directions *a, real strain)
 {
-    return family_stress(a, strain, free_lateral_strain(a, strain)).axial;
+    const real lateral = a->space == SPACE_LINE ? 0 : strain_without_stress(a, -strain, strain, lateral_stress);
+    return family_stress(a, strain, lateral).axial;
 }
 
 static real biaxial_at(const struct directions *a, real strain)
 {
     if (a->space == SPACE_LINE) return NAN;
     if (a->space != SPACE_SOLID) return family_stress(a, strain, strain).axial;
-    return family_stress(a, free_axial_strain(a, strain), strain).lateral;
+    return family_stress(a, strain_without_stress(a, -2 * strain, strain, axial_stress), strain).lateral;
 }
 
 /* Shear stress, equal tension and pressure in two directions; in the plane only. */
 static real shear_at(const struct directions *a, real strain)
 {
-    real low = -10 * strain, high = 0;
     if (space_dim(a->space) != 2) return NAN;
-    for (int k = 0; k < BISECTIONS; k++) {
-        const real middle = 0.5 * (low + high);
-        const struct stress_pair stress = family_stress(a, strain, middle);
-        if (stress.axial + stress.lateral > 0)
-            high = middle;
-        else
-            low = middle;
-    }
-    return family_stress(a, strain, 0.5 * (low + high)).axial;
+    return family_stress(a, strain, strain_without_stress(a, -10 * strain, strain, stress_sum)).axial;
 }
 
 /* Returns the largest stress over growing strain, from the onset until the stress has fallen by a fifth or all bonds

@@ -58,9 +58,8 @@ static void make_softening(const struct scene *s, struct material_tables *tables
         for (int b = 0; b < s->materials; b++) {
             const struct material *m = &s->material[a], *n = &s->material[b];
             const struct material *first = m->onset_stretch <= n->onset_stretch ? m : n;
-            tables->pair_softening[a * s->materials + b] =
-                (struct softening_pair){first->onset_stretch, tables->pair_stretch[a * s->materials + b],
-                                        first->scatter.given && first->scatter.of == SCATTER_STRENGTH};
+            tables->pair_softening[a * s->materials + b] = (struct softening_pair){
+                first->onset_stretch, first->scatter.given && first->scatter.of == SCATTER_STRENGTH};
         }
     }
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;

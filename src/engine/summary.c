@@ -108,7 +108,7 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
 {
     real updates = 0, ns = 1e9 * spent->loop;
     for (int k = 0; k < KINDS; k++) updates += (real)r->particle_steps[k];
-    json_text(j, "processor", machine_properties().model);
+    json_text(j, "processor", machine_processor_name());
     if (*program_commit()) json_text(j, "commit", program_commit());
     json_count(j, "threads", threads);
     json_text(j, "kernels", simd_current_kernels()->name);

@@ -68,20 +68,6 @@ enum { SAMPLED = 128 };  /* number of particles of a list that are tested */
 #define ALIKE 0.01
 #define LATTICE_OFF 0.02 /* relative difference of the distance of a lattice from the spacing */
 
-/* Compares two numbers, for sorting in ascending order. */
-static int apart_order(const void *a, const void *b)
-{
-    const real x = *(const real *)a, y = *(const real *)b;
-    return (x > y) - (x < y);
-}
-
-/* Sorts n numbers and returns their median. */
-static real median_sorted(real *a, int n)
-{
-    array_sort(a, n, sizeof *a, apart_order);
-    return a[n / 2];
-}
-
 /* Computes the distance of the nearest neighbour of particle i [m], INFINITY if near is empty, and the number of
  * neighbours at that distance. */
 static void surroundings(const struct particles *p, const struct neighbour_list *near, int64_t i, real *apart,
@@ -117,9 +103,9 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
     }
     memory_free(near.at);
     if (own <= MASS_POINTS) return;
-    const real distance = median_sorted(apart, n), share = median_sorted(count, n) / ball[p->dim];
+    const real distance = median_of(apart, n), share = median_of(count, n) / ball[p->dim];
     /* a square or cubic lattice has equal distances, and 2 nearest neighbours an axis inside */
-    const bool lattice = apart[n - 1] < (1 + ALIKE) * apart[0] && median_sorted(beside, n) <= 2 * p->dim;
+    const bool lattice = apart[n - 1] < (1 + ALIKE) * apart[0] && median_of(beside, n) <= 2 * p->dim;
     if (share > CROWDED_MOST || (isfinite(distance) && distance > APART_MOST * spacing) ||
         (lattice && fabs(distance / spacing - 1) > LATTICE_OFF))
         warnings_add(

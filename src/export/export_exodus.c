@@ -46,13 +46,6 @@ struct exodus_export {
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-static struct path frame_path(const struct exodus_export *x, int k)
-{
-    char name[32];
-    snprintf(name, sizeof name, "frames/%06d.hdf", x->frame[k].number);
-    return path_join(x->folder, name);
-}
-
 /* Appends the components of a field as variables, in the names that readers join to vectors and tensors. */
 static void variables_add(struct exodus_export *x, int field)
 {
@@ -76,7 +69,7 @@ static status frames_open(struct exodus_export *x)
     struct output_frame f;
     TRY(frames_list(x->folder, &x->frames, &x->frame));
     if (x->frames == 0) return status_set(REFUSED, "%s: has no frames", printable_name(x->folder).text);
-    const struct path path = frame_path(x, 0);
+    const struct path path = run_frame_path(x->folder, x->frame[0].number);
     TRY(frame_read(&f, path.text));
     for (int k = 0; k < FIELDS; k++) {
         float *value = NULL;
@@ -108,7 +101,7 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
 static status exodus_frame_write(struct exodus_export *x, int k)
 {
     const struct export_mesh *m = &x->mesh;
-    const struct path path = frame_path(x, k);
+    const struct path path = run_frame_path(x->folder, x->frame[k].number);
     struct output_frame f;
     float *value[FIELDS] = {NULL};
     TRY(frame_read(&f, path.text));

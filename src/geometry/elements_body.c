@@ -212,8 +212,8 @@ static void take_sets(struct surface_builder *b, const int32_t *node_of, struct 
 
 /* ---- the body ------------------------------------------------------------------------------------------------- */
 
-/* Finds the dimension of the elements that form the body: dim, or 2 in 3D if there are surface elements only. REFUSED
- * if there are no such elements, or solid elements in 2D. */
+/* Stores in *body_dim the dimension of the elements that make up the body: dim, or 2 in 3D if the mesh has surface
+ * elements only. Returns REFUSED if the mesh has no such elements, or solid elements in 2D. */
 static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
 {
     int64_t n[1 + DIM_MAX] = {0};

@@ -58,8 +58,7 @@ static void next_text(struct header *h, int64_t length, char *text)
     const size_t kept = !h->good ? 0 : length < NAME_MAX_LENGTH ? (size_t)length : NAME_MAX_LENGTH - 1;
     memcpy(text, h->f->text + (h->good ? from : 0), kept);
     text[kept] = '\0';
-    for (size_t end = strlen(text); end > 0 && text[end - 1] == ' '; end--) text[end - 1] = '\0';
-    text_replace_controls(text);
+    exodus_text_clean(text);
 }
 
 /* Reads a name. */

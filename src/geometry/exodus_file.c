@@ -149,49 +149,44 @@ static status array_check(const struct exodus_file *f, const char *name, int64_t
                         name, (long long)n);
 }
 
-/* Reads the numbers of an array into one of the two. REFUSED if the file is damaged. */
-static status array_numbers_read(const struct exodus_file *f, const struct exodus_array *a, int64_t n, real *reals,
-                                 int64_t *integers)
+/* Reads the array that is called `name` followed by `number`, of n numbers, into one of the two, which it allocates.
+ * The other is NULL. REFUSED, with nothing allocated, if it is missing, has another size, or the file is damaged. */
+static status array_read(const struct exodus_file *f, const char *name, int64_t number, int64_t n, real **reals,
+                         int64_t **integers)
 {
+    char called[NAME_MAX_LENGTH];
+    struct exodus_array a;
+    name_numbered(called, name, number);
+    if (reals) *reals = NULL;
+    if (integers) *integers = NULL;
+    TRY(array_check(f, called, n, &a));
+    real *real_value = reals ? NEW("exodus.numbers", n, real) : NULL;
+    int64_t *whole_value = integers ? NEW("exodus.numbers", n, int64_t) : NULL;
+    status s = OK;
     if (f->hdf5 < 0)
-        exodus_classic_read(f, a, n, reals, integers);
-    else if (n > 0 && !exodus_hdf5_read(f, a, reals, integers, NULL))
-        return exodus_fault(f, "array %s cannot be read: the file is damaged", a->name);
+        exodus_classic_read(f, &a, n, real_value, whole_value);
+    else if (n > 0 && !exodus_hdf5_read(f, &a, real_value, whole_value, NULL))
+        s = exodus_fault(f, "array %s cannot be read: the file is damaged", called);
+    for (int64_t k = 0; k < n && s == OK && real_value; k++)
+        if (!isfinite(real_value[k]))
+            s = exodus_fault(f, "array %s: number %lld is not finite", called, (long long)k + 1);
+    if (s != OK) {
+        memory_free(real_value), memory_free(whole_value);
+        return s;
+    }
+    if (reals) *reals = real_value;
+    if (integers) *integers = whole_value;
     return OK;
 }
 
 status exodus_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t n, real **value)
 {
-    char called[NAME_MAX_LENGTH];
-    struct exodus_array a;
-    *value = NULL;
-    name_numbered(called, name, number);
-    TRY(array_check(f, called, n, &a));
-    real *read = NEW("exodus.numbers", n, real);
-    status s = array_numbers_read(f, &a, n, read, NULL);
-    for (int64_t k = 0; k < n && s == OK; k++)
-        if (!isfinite(read[k])) s = exodus_fault(f, "array %s: number %lld is not finite", called, (long long)k + 1);
-    if (s == OK)
-        *value = read;
-    else
-        memory_free(read);
-    return s;
+    return array_read(f, name, number, n, value, NULL);
 }
 
 status exodus_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t n, int64_t **value)
 {
-    char called[NAME_MAX_LENGTH];
-    struct exodus_array a;
-    *value = NULL;
-    name_numbered(called, name, number);
-    TRY(array_check(f, called, n, &a));
-    int64_t *read = NEW("exodus.numbers", n, int64_t);
-    const status s = array_numbers_read(f, &a, n, NULL, read);
-    if (s == OK)
-        *value = read;
-    else
-        memory_free(read);
-    return s;
+    return array_read(f, name, number, n, NULL, value);
 }
 
 status exodus_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
@@ -226,8 +221,7 @@ void exodus_name(const struct exodus_file *f, const char *name, int64_t number, 
     }
     if (from) snprintf(text, NAME_MAX_LENGTH, "%.*s", (int)length, from);
     memory_free(all);
-    for (size_t end = strlen(text); end > 0 && text[end - 1] == ' '; end--) text[end - 1] = '\0';
-    text_replace_controls(text);
+    exodus_text_clean(text);
 }
 
 status exodus_block(const struct exodus_file *f, int64_t number, char *type, int64_t *elements, int64_t *nodes)

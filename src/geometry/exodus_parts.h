@@ -1,4 +1,4 @@
-/* What the readers of both forms of netCDF files share. */
+/* Declarations for the readers of both forms of netCDF files, classic and netCDF-4. */
 #ifndef CLEAVE_EXODUS_PARTS
 #define CLEAVE_EXODUS_PARTS
 
@@ -33,6 +33,13 @@ struct exodus_array {
     int64_t extent[2];     /* [1]: 1 if there is one dimension */
     int64_t at;            /* position in a classic file [byte] */
 };
+
+/* Removes blanks at the end of a text of the file and replaces control characters. */
+static inline void exodus_text_clean(char *text)
+{
+    for (size_t end = strlen(text); end > 0 && text[end - 1] == ' '; end--) text[end - 1] = '\0';
+    text_replace_controls(text);
+}
 
 /* Reads the header of a classic file: its dimensions and arrays; arrays over time and of more than two dimensions are
  * left out. Returns REFUSED, with a message, if it is damaged or the file is shorter than its arrays. */

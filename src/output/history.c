@@ -67,6 +67,17 @@ static status read_rows(struct history *h, FILE *from, const char *path, char **
     return OK;
 }
 
+void history_read_header(char *header, size_t capacity, const char *folder)
+{
+    const struct path history = path_join(folder, "history.csv");
+    FILE *from = path_is_file(history.text) ? fopen(history.text, "r") : NULL;
+    *header = '\0';
+    if (!from) return;
+    if (!fgets(header, (int)capacity, from)) *header = '\0';
+    header[strcspn(header, "\r\n")] = '\0';
+    fclose(from);
+}
+
 status history_read(struct history *h, const char *folder)
 {
     char path[4096];

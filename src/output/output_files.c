@@ -36,6 +36,23 @@ bool path_exists(const char *path)
     return lstat(path, &s) == 0;
 }
 
+char *path_last_name(char *name, size_t capacity, const char *path)
+{
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') length--;
+    size_t from = length;
+    while (from > 0 && path[from - 1] != '/') from--;
+    snprintf(name, capacity, "%.*s", (int)(length - from), path + from);
+    return name;
+}
+
+struct path run_frame_path(const char *folder, int number)
+{
+    char name[32];
+    snprintf(name, sizeof name, "frames/%06d.hdf", number);
+    return path_join(folder, name);
+}
+
 bool path_is_link(const char *path)
 {
     struct stat s;

@@ -31,12 +31,11 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     return maps_draw((struct sheet){path, r->format}, title, map, view, cloud, clouds);
 }
 
-/* What the selected frames contain: damage, cracks, two kinds of particles; cracked is the share of particles on
- * cracks in the last frame. */
+/* Contents of the selected frames of a run. */
 struct contents {
-    bool damage, cracks, kinds;
-    double cracked;
-}; /* cracked: share of particles on cracks in the last frame */
+    bool damage, cracks, kinds; /* a particle is damaged; one is on a crack; there are two kinds of particles */
+    double cracked;             /* share of particles on cracks in the last frame [1] */
+};
 
 static struct contents contents_of(const struct plotted_particles *cloud, int clouds)
 {

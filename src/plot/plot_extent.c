@@ -78,12 +78,6 @@ static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
     return longer <= most && same_side(p, i, j);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Returns the elongation above which two particles without all their bonds are apart [1]. */
 static double parted_limit(const struct pairs *p)
 {
@@ -96,7 +90,7 @@ static double parted_limit(const struct pairs *p)
         for (int k = 0; k < near.n && n < SURE_MOST; k++)
             if (surely_connected(p, i, near.at[k])) sure[n++] = elongation(p->f, i, near.at[k]);
     }
-    array_sort(sure, n, sizeof *sure, by_value);
+    array_sort(sure, n, sizeof *sure, double_order);
     const double least = PARTED / p->magnify;
     const double limit = n > 0 ? fmax(least, PARTED_MORE * sure[(int64_t)(0.99 * (double)(n - 1))]) : least;
     memory_free(sure);

@@ -60,13 +60,6 @@ bool run_has_file(const char *folder, const char *name)
     return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path && stat(path, &found) == 0;
 }
 
-struct path run_frame_path(const char *folder, int number)
-{
-    char name[32];
-    snprintf(name, sizeof name, "frames/%06d.hdf", number);
-    return path_join(folder, name);
-}
-
 status run_read_frame(struct output_frame *f, const char *folder, int number)
 {
     const struct path path = run_frame_path(folder, number);
@@ -197,13 +190,7 @@ void picture_compose_title(char *title, const struct plot_request *r, const char
 {
     const char *folder = r->folder;
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
-    if (summary_string(folder, "name", name, sizeof name) != OK) {
-        size_t length = strlen(folder);
-        while (length > 1 && folder[length - 1] == '/') length--;
-        size_t from = length;
-        while (from > 0 && folder[from - 1] != '/') from--;
-        snprintf(name, sizeof name, "%.*s", (int)(length - from), folder + from);
-    }
+    if (summary_string(folder, "name", name, sizeof name) != OK) path_last_name(name, sizeof name, folder);
     bool known = summary_string(folder, "method", method, sizeof method) == OK;
     if (c != NULL && c->normal >= 0) {
         struct unit metre = unit_for_length(fmax(fabs(c->layer), c->spacing));

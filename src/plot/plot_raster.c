@@ -65,15 +65,6 @@ static double distance_within(const struct outline *s, const double *off, double
 static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
 static const double FACE_HALF = 0.7; /* half width of the line [pixel] */
 
-/* Returns the distance of the point X from the segment between a and b [m]. */
-static double distance_from_segment(const double *X, const real *a, const real *b)
-{
-    const double along[2] = {b[0] - a[0], b[1] - a[1]}, off[2] = {X[0] - a[0], X[1] - a[1]};
-    const double length2 = square(along[0]) + square(along[1]);
-    const double t = fmin(fmax((off[0] * along[0] + off[1] * along[1]) / length2, 0), 1);
-    return hypot(off[0] - t * along[0], off[1] - t * along[1]);
-}
-
 /* Returns the pre-crack within `reach` of the reference position of particle i [m]; NULL if there is none, or if the
  * map does not show pre-cracks. */
 static const struct crack *face_at(const struct view *view, const struct plotted_particles *c, int64_t i, double reach,
@@ -82,8 +73,7 @@ static const struct crack *face_at(const struct view *view, const struct plotted
     if ((map != MAP_DAMAGE && map != MAP_FIELD) || !c->reference[0]) return NULL;
     const double X[2] = {c->reference[0][i], c->reference[1][i]};
     for (int k = 0; k < view->notches; k++)
-        if (view->notch[k].n == 2 &&
-            distance_from_segment(X, view->notch[k].corner[0], view->notch[k].corner[1]) < reach)
+        if (view->notch[k].n == 2 && segment_distance(view->notch[k].corner[0], view->notch[k].corner[1], X, 2) < reach)
             return &view->notch[k];
     return NULL;
 }
@@ -95,7 +85,7 @@ static bool on_crack_face(const struct crack *face, const struct plotted_particl
 {
     double X[2];
     for (int k = 0; k < 2; k++) X[k] = c->reference[k][i] + s->inverse[k][0] * off[0] + s->inverse[k][1] * off[1];
-    return face && distance_from_segment(X, face->corner[0], face->corner[1]) < half;
+    return face && segment_distance(face->corner[0], face->corner[1], X, 2) < half;
 }
 
 /* Paints particle i on all pixels that it covers and that no better particle has: nearer to the centre of the pixel,

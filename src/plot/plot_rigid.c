@@ -10,9 +10,7 @@
 
 static const struct colour RIGID = {120, 120, 126, 255};
 
-/* An unbounded body is shown in a box that is wider than the particles by this share of their longest edge; the picture
- * grows towards bodies beside the particles by up to BESIDE of its longer side. */
-#define MARGIN 0.08
+/* The picture grows towards bodies beside the particles by up to this share of its longer side. */
 #define BESIDE 0.3
 enum { MARCH_MOST = 300 };
 
@@ -38,7 +36,7 @@ void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f
             for (int d = 0; d < f->dim; d++) r->at.x[d] = r->at.centre[d] + c->magnify * (r->at.x[d] - r->at.centre[d]);
             r->bounded = region_bounds(r->shape, f->dim, r->low, r->high);
             for (int d = 0; d < f->dim && !r->bounded; d++)
-                r->low[d] = low[d] - MARGIN * longest, r->high[d] = high[d] + MARGIN * longest;
+                r->low[d] = low[d] - RIGID_BESIDE * longest, r->high[d] = high[d] + RIGID_BESIDE * longest;
         }
     }
     memory_free(at);

@@ -78,6 +78,14 @@ void page_add_text_file(struct page *p, const char *key, const char *folder, con
     memory_free(text);
 }
 
+void page_add_time(struct page *p, const char *key, time_t at)
+{
+    char text[64];
+    struct tm tm;
+    if (gmtime_r(&at, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0)
+        json_text(&p->json, key, text);
+}
+
 /* Writes a text as the content of an HTML element. */
 static void write_escaped(FILE *to, const char *text)
 {

@@ -3,6 +3,7 @@
 #define CLEAVE_PAGE
 
 #include <stdio.h>
+#include <time.h>
 
 #include "output/json.h"
 
@@ -32,6 +33,10 @@ void page_add_array(struct page *p, const char *key, enum page_type type, const 
 /* Adds the picture in the PNG file `path` to the page as page_add_array does. Returns FAILED if the file cannot be
  * read. */
 status page_add_picture(struct page *p, const char *key, const char *path);
+
+/* Adds a time to the JSON as text, in UTC to the minute. key: name of the entry. Adds nothing for a time that no
+ * calendar has. */
+void page_add_time(struct page *p, const char *key, time_t at);
 
 /* Adds the text of the file `name` in `folder` to the JSON as a string. key: name of the entry. Adds nothing if there
  * is no such file. */

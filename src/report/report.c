@@ -54,26 +54,11 @@ static status page_destination(struct path *path, const struct report_request *r
 /* Writes what all pages have: the folder, and when and by what the page is made. */
 static void write_origin(struct page *p, const struct report_request *r)
 {
-    char text[64];
-    struct tm tm;
-    const time_t now = time(NULL);
     json_text(&p->json, "folder", r->folder);
     json_text(&p->json, "version", CLEAVE_VERSION);
     json_text(&p->json, "commit", program_commit());
-    json_text(&p->json, "machine", machine_properties().model);
-    if (gmtime_r(&now, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0)
-        json_text(&p->json, "made", text);
-}
-
-/* Returns the last part of the name of a folder. */
-static const char *folder_name(char *name, size_t capacity, const char *folder)
-{
-    size_t length = strlen(folder);
-    while (length > 1 && folder[length - 1] == '/') length--;
-    size_t from = length;
-    while (from > 0 && folder[from - 1] != '/') from--;
-    snprintf(name, capacity, "%.*s", (int)(length - from), folder + from);
-    return name;
+    json_text(&p->json, "machine", machine_processor_name());
+    page_add_time(p, "made", time(NULL));
 }
 
 static status report_page(const struct report_request *r, const struct path *path)
@@ -88,7 +73,7 @@ static status report_page(const struct report_request *r, const struct path *pat
         report_write_study(&p, r->folder);
     else
         s = report_write_run(&p, r, path->text);
-    if (s == OK) s = page_write(&p, path->text, folder_name(name, sizeof name, r->folder), &bytes);
+    if (s == OK) s = page_write(&p, path->text, path_last_name(name, sizeof name, r->folder), &bytes);
     page_release(&p);
     TRY(s);
     if (r->quiet) return OK;

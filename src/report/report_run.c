@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/interrupt_cleanup.h"
@@ -38,18 +37,6 @@ static void write_unit(void *context, const char *key, double value)
     if (unit[0]) json_text(&u->page->json, key, unit);
 }
 
-/* Writes the first line of history.csv to header[HEADER_ROOM]; "" if there is none. */
-static void history_header_read(char *header, const char *folder)
-{
-    const struct path history = path_join(folder, "history.csv");
-    FILE *from = path_is_file(history.text) ? fopen(history.text, "r") : NULL;
-    *header = '\0';
-    if (!from) return;
-    if (!fgets(header, HEADER_ROOM, from)) *header = '\0';
-    header[strcspn(header, "\r\n")] = '\0';
-    fclose(from);
-}
-
 static void write_figures(struct page *p, const char *folder, const char *header)
 {
     struct units u = {p, header};
@@ -59,12 +46,7 @@ static void write_figures(struct page *p, const char *folder, const char *header
     json_open(&p->json, "units", '{');
     if (path_is_file(summary.text)) (void)summary_numbers(folder, write_unit, &u);
     json_close(&p->json, '}');
-    if (stat(summary.text, &s) == 0) {
-        char text[64];
-        struct tm tm;
-        const bool known = gmtime_r(&s.st_mtime, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0;
-        if (known) json_text(&p->json, "ended", text);
-    }
+    if (stat(summary.text, &s) == 0) page_add_time(p, "ended", s.st_mtime);
 }
 
 /* ---- history ----------------------------------------------------------------------------------------------------- */
@@ -180,7 +162,7 @@ status report_write_run(struct page *p, const struct report_request *r, const ch
     char header[HEADER_ROOM];
     int64_t particles;
     json_text(&p->json, "kind", "run");
-    history_header_read(header, r->folder);
+    history_read_header(header, sizeof header, r->folder);
     write_figures(p, r->folder, header);
     TRY(write_film(p, r->folder, &particles));
     TRY(write_history(p, r->folder, header));

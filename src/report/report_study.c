@@ -6,6 +6,7 @@
 
 #include "base/arrays.h"
 #include "base/memory.h"
+#include "output/history.h"
 #include "output/output_files.h"
 #include "output/picture_file.h"
 #include "output/pictures.h"
@@ -96,12 +97,8 @@ static void write_study_units(struct page *p, const char *folder)
     char **name, header[HEADER_ROOM] = "", unit[UNIT_ROOM], *table = NULL;
     size_t length = 0;
     const int n = folder_names_read(&name, folder);
-    for (int k = 0; k < n && !header[0]; k++) {
-        FILE *from = fopen(path_join(path_join(folder, name[k]).text, "history.csv").text, "r");
-        if (!from) continue;
-        if (!fgets(header, sizeof header, from)) header[0] = '\0';
-        fclose(from);
-    }
+    for (int k = 0; k < n && !header[0]; k++)
+        history_read_header(header, sizeof header, path_join(folder, name[k]).text);
     folder_names_free(name, n);
     if (file_read_whole(path_join(folder, "sweep.csv").text, &table, &length) != OK) return;
     table[strcspn(table, "\r\n")] = '\0';

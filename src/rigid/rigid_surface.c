@@ -140,7 +140,7 @@ void rigid_surface_free(struct rigid_surface *s)
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
 /* Makes the surfaces of all bodies, once. Unbounded ones are cut to a box around the particles. */
-static void sursurface_faces_make(struct rigid_set *rigid, const struct particles *part)
+static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles *part)
 {
     if (rigid->surface) return;
     rigid->surface = NEW("rigid.surface", rigid->n, struct rigid_surface);
@@ -148,7 +148,7 @@ static void sursurface_faces_make(struct rigid_set *rigid, const struct particle
         real low[DIM_MAX], high[DIM_MAX];
         if (!region_bounds(rigid->body[b].shape, rigid->dim, low, high))
             for (int d = 0; d < rigid->dim; d++) {
-                const real beside = 0.08 * particles_longest_edge(part);
+                const real beside = RIGID_BESIDE * particles_longest_edge(part);
                 particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
                 low[d] -= beside, high[d] += beside;
             }
@@ -267,7 +267,7 @@ status rigids_write_frame(struct rigid_set *rigid, const struct output *o, const
 {
     const struct frame_series *s = &o->series[0];
     if (rigid->n == 0 || rigid->dim < 2 || s->frames == 0) return OK;
-    sursurface_faces_make(rigid, part);
+    rigid_surfaces_make(rigid, part);
     TRY(compose(rigid_path(o->folder, s->frames - 1).text, rigid, s));
     return compose(path_join(o->folder, "rigid.vtp.series").text, NULL, s);
 }

@@ -95,12 +95,6 @@ static real nearest_of(const struct crowd *c, real *const *others, int64_t n, co
     return nearest;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const real x = *(const real *)a, y = *(const real *)b;
-    return (x > y) - (x < y);
-}
-
 /* Computes the statistics of a body from a sample of its particles, spread over its list by a Weyl sequence of the
  * golden ratio, so that no pattern of the list matters. Particles of other bodies count as neighbours unless the
  * whole scene is peridynamic, as bonds do not join bodies. */
@@ -122,8 +116,8 @@ static struct verdict crowd_look(const struct crowd *c)
         if (within[k] < 2 && c->s->method != METHOD_PD) nearest_of(c, p->X, p->n, X, &within[k]);
     }
     for (int64_t k = 0; k < looked; k++) lone += within[k] < 2, family += (real)(within[k] - 1);
-    array_sort(apart, looked, sizeof *apart, ascending);
-    array_sort(filled, looked, sizeof *filled, ascending);
+    array_sort(apart, looked, sizeof *apart, double_order);
+    array_sort(filled, looked, sizeof *filled, double_order);
     return (struct verdict){(real)lone / (real)looked, apart[looked / 2], family / (real)looked, filled[looked / 2]};
 }
 

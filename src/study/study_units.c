@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "output/history.h"
 #include "output/output_files.h"
 #include "study/study.h"
 
@@ -46,13 +47,8 @@ static bool unit_in_header(char *unit, size_t capacity, const char *header, cons
 void study_read_history_header(char *header, size_t capacity, const struct study *s)
 {
     *header = '\0';
-    for (int k = 0; k < s->n && !*header; k++) {
-        const struct path history = path_join(study_case_folder(s, &s->at[k]).text, "history.csv");
-        FILE *from = path_is_file(history.text) ? fopen(history.text, "r") : NULL;
-        if (!from) continue;
-        if (!fgets(header, (int)capacity, from)) *header = '\0';
-        fclose(from);
-    }
+    for (int k = 0; k < s->n && !*header; k++)
+        history_read_header(header, capacity, study_case_folder(s, &s->at[k]).text);
 }
 
 void study_result_unit(char *unit, size_t capacity, const char *header, const char *figure)

@@ -122,7 +122,7 @@ static inline real soften_reference_dilatation(const struct soften_reference *r,
     return trace;
 }
 
-/* Lets bonds between row blocks that are due begin. block[i]: row block of particle i. */
+/* Starts the softening of bonds between row blocks that are due. block[i]: row block of particle i. */
 static inline void soften_reference_begin(struct soften_reference *r, const struct particles *p, const real *w,
                                           real stiffness, const int64_t *block)
 {

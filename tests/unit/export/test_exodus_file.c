@@ -112,7 +112,7 @@ static void scene_by_netcdf(void **state)
     unlink("a.exo");
 }
 
-/* The same file is a particle list. */
+/* The file that an export has written is read as a particle list. */
 static void scene_by_cleave(void **state)
 {
     (void)state;
