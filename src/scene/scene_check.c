@@ -228,6 +228,13 @@ static void resolve_surface(struct scene *s, const struct yaml_node *root)
         s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
 }
 
+/* Returns true if the scene says alike of two lists: their unit and their columns. */
+static bool list_forms_agree(const struct particle_list_form *a, const struct particle_list_form *b)
+{
+    if (!bits_equal(a->scale, b->scale) || !a->columns != !b->columns) return false;
+    return !a->columns || strcmp(a->columns, b->columns) == 0;
+}
+
 /* Returns true if the particles of a body's list are a lattice with the spacing of the scene. Lists that cannot be
  * read return false and are refused later. */
 static bool list_lattice(const struct scene *s, int body)
@@ -235,7 +242,7 @@ static bool list_lattice(const struct scene *s, int body)
     struct particle_list list;
     for (int b = 0; b < body; b++)
         if (s->body[b].file && strcmp(s->body[b].file, s->body[body].file) == 0 &&
-            bits_equal(s->body[b].form.scale, s->body[body].form.scale))
+            list_forms_agree(&s->body[b].form, &s->body[body].form))
             return s->body[b].list.lattice;
     if (particle_list_read(&list, s->body[body].file, &s->body[body].form, s->dim) != OK) return false;
     const bool lattice =
