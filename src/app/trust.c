@@ -39,9 +39,9 @@ static const struct promise promises[] = {
     {"One run at a time has a folder; older runs, other people's files and what links within the folder lead to "
      "stay as they are; -o itself may be a symbolic link to a folder.",
      "test_guards.sh"},
-    {"A run that turns unstable, folds its cells or gains energy stops, says where and why, and exits with 1; 5 % of "
-     "energy, or of the angular momentum of bodies that nothing holds, lost or gained is said; no frame or "
-     "history holds a number that is none and is called done.",
+    {"A run that becomes unstable, folds cells or gains energy stops, reports where and why, and exits with 1. A loss "
+     "or gain of more than 5 % of energy, or of the angular momentum of bodies without supports, is reported. No "
+     "complete frame or history contains NaN or infinity.",
      "test_stability_checks.c test_diagnostics.c test_bounds.sh test_history.sh test_numbers.c"},
     {"A scene, override or particle list that is wrong is refused in one line with its place and what would be right, "
      "status 2, and leaves "

@@ -85,7 +85,7 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                      : all ? all
                            : "there are no coarse cells");
     if (s->conversion.notch == NOTCH_SLIT && s->cracks > 0 && s->method != METHOD_ADAPTIVE)
-        warnings_add(to, "conversion.notch: slit has no effect with method %s%s; auto is expected",
+        warnings_add(to, "conversion.notch: slit has no effect with method %s%s; conversion.notch: auto is expected",
                      s->method == METHOD_PD ? "pd" : "mpm",
                      s->method == METHOD_PD ? ", whose pre-cracks are cut bonds" : "");
 }

@@ -356,8 +356,8 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
 {
     TRY(export_mesh_make(&x->mesh, scene));
     if (x->mesh.n > NETCDF_NUMBERS_MOST)
-        return status_set(REFUSED, "%s: %lld particles; %d are the most", scene->scene, (long long)x->mesh.n,
-                          NETCDF_NUMBERS_MOST);
+        return status_set(REFUSED, "%s: %lld particles; an Exodus file can have at most %d", scene->scene,
+                          (long long)x->mesh.n, NETCDF_NUMBERS_MOST);
     if (x->folder) TRY(frames_open(x));
     snprintf(x->title, sizeof x->title, "%.40s%s %s", x->mesh.scene.name, EXODUS_SIGN, CLEAVE_VERSION);
     return export_write_file(x->request->folder, exodus_put, x);

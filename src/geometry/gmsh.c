@@ -303,7 +303,8 @@ static status new_node_block(struct gmsh *g)
     TRY(source_read_int32(g->s, "parametric", &parametric));
     TRY(source_read_int64(g->s, "number of nodes", &n));
     TRY(source_check_count(g->s, "nodes", n, 8));
-    if (dim < 0 || dim > 3) return source_fault(g->s, "nodes of an entity of dimension %lld", (long long)dim);
+    if (dim < 0 || dim > 3)
+        return source_fault(g->s, "a block of $Nodes has the dimension %lld; 0 to 3 is expected", (long long)dim);
     const int64_t first = g->m->nodes;
     for (int64_t k = 0; k < n; k++) {
         TRY(source_read_int64(g->s, "number of a node", &label));

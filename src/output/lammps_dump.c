@@ -130,7 +130,9 @@ status lammps_list_steps(const char *path, int *n, int64_t **step)
     if (s == OK && *n > 0) return OK;
     memory_free(*step);
     *step = NULL, *n = 0;
-    return s != OK ? s : status_set(FAILED, "%s holds no step of LAMMPS yet", printable_name(path).text);
+    return s != OK
+               ? s
+               : status_set(FAILED, "%s holds no complete time step of a LAMMPS dump yet", printable_name(path).text);
 }
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */

@@ -132,7 +132,8 @@ static void difference_text(const char *a, const char *b, char *text, size_t cap
     size_t own;
     const int path = (int)(line_meaning(b, &own) - b);
     if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0) {
-        snprintf(text, capacity, "line %d, %.*s: this list differs from that of the earlier run", line, path, b);
+        snprintf(text, capacity, "line %d, %.*s: this list of values is not the one that the run began with", line,
+                 path, b);
         return;
     }
     snprintf(text, capacity, "line %d was `%.*s` and is now `%.*s`", line, la < SHOWN ? la : SHOWN, a,

@@ -146,7 +146,8 @@ status particles_file_check(struct hdf *h, const char *path)
     int64_t content = 0, found = 0;
     if (!hdf_read_link_file(h, "/VTKHDF/Types", name, sizeof name)) return OK;
     hdf_read_attribute(h, "/Cleave", "content", HDF_I64, &content);
-    if (h->failed || !name[0] || strchr(name, '/')) return status_set(FAILED, "cannot read %s: it is no frame", path);
+    if (h->failed || !name[0] || strchr(name, '/'))
+        return status_set(FAILED, "cannot read %s: frames/NNNNNN.h5 of a results folder is expected", path);
     const char *slash = strrchr(path, '/');
     const int folder = slash ? (int)(slash + 1 - path) : 0;
     snprintf(file.text, sizeof file.text, "%.*s%s", folder, path, name);

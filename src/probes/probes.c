@@ -127,7 +127,8 @@ static status bind_line(struct probe *q, const struct observed_run *o)
     int dim = o->part->dim, inside = 0;
     real X[DIM_MAX];
     if (q->request.points < 1)
-        return status_set(REFUSED, "probe \"%s\": a line needs at least one station", q->request.name);
+        return status_set(REFUSED, "probe \"%s\": stations: 0 places on its line are too few; 1 or more is expected",
+                          q->request.name);
     q->list = NEW("probes.list", q->request.points, int32_t);
     for (; q->n < q->request.points; q->n++) {
         station_position(q, dim, (int)q->n, X);

@@ -94,8 +94,7 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     const struct yaml_node *other = yaml_node_find(n, own[!s->form]);
     if (!yaml_node_find(n, own[s->form])) return fault_key_missing(r, n, key_find("material.scatter", own[s->form]));
     if (other)
-        return fault(r, other, "belongs to the other distribution of strength; %s is the parameter of this one",
-                     own[s->form]);
+        return fault(r, other, "is the parameter of the other distribution of strength; this one has %s", own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
         return fault(r, n, "its bonds never break; energy_release_rate, critical_stretch or toughness is expected");
     if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)

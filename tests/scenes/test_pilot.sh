@@ -46,7 +46,7 @@ holds "as chosen before: $(cat err)" grep -q "as chosen before" err
 holds "the same scene" cmp -s before.yaml collide/scene.yaml
 "$cleave" check collide.yaml >out 2>&1
 is "check" $? 0
-for words in "pilot runs estimate the error of energy.kinetic; 5 % is allowed$" "pilot runs vary the method (points, bonds), the spacing (from 0.2 mm and coarser ones down to finer ones) and the time step" \
+for words in "pilot runs estimate the error of energy.kinetic; 5 % is allowed$" "pilot runs vary the method (points, bonds), the spacing (it starts at 0.2 mm; coarser and finer ones are run as well) and the time step" \
     "pilot runs take at most 40 s (accuracy.budget), of which 24 s .*; the run that is chosen takes at most 800 s"; do
     holds "check says $words: $(cat out)" grep -q "^auto  .*$words" out
 done

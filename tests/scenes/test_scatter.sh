@@ -67,7 +67,7 @@ is "seeds: places of the first break" \
 
 bad() { refused "$1" "$work/no" "$2" "$work/ring.yaml" -s "$3"; }
 bad "a modulus" "modulus: missing" 'material.scatter={length: 1 mm}'
-bad "a variation with weibull" "belongs to the other distribution" 'material.scatter={modulus: 8, variation: 0.1}'
+bad "a variation with weibull" "is the parameter of the other distribution" 'material.scatter={modulus: 8, variation: 0.1}'
 bad "lognormal" "variation: missing" 'material.scatter={distribution: lognormal}'
 bad "below 1" "1 to 1000" material.scatter.modulus=0.5
 bad "nothing that breaks" "its bonds never break" material.critical_stretch=inf

@@ -73,8 +73,8 @@ static void frames_take_little(void **state)
         }
 }
 
-/* What has one value in thousands of rows, as in a body at rest, takes no space, and comes back bit for bit; a negative
- * zero is another value. */
+/* An array with one value in thousands of rows, as of a body at rest, takes no space in a file and is read back bit for
+ * bit. A negative zero counts as another value than zero. */
 static void tables_come_back(void **state)
 {
     (void)state;

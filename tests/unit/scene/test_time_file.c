@@ -74,7 +74,7 @@ static void bad_files_are_refused(void **state)
         const char *csv, *message;
     } c[] = {
         {"", "blast.csv: empty"},
-        {"time, value\n", "blast.csv: has no times below its header"},
+        {"time, value\n", "blast.csv: there is no line with a time and a value below the header"},
         {"0, 1\n1, 2\n", "blast.csv:1:1: no column is called time; a header such as time [us], value is expected"},
         {"value, time\n1\n", "blast.csv:2:1: this line has 1 values, but the value of column 2 is needed"},
         {"time, a, b\n1,2,3\n",
