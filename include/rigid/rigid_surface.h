@@ -22,9 +22,10 @@ struct rigid_surface {
 void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int dim, const real *low,
                         const real *high);
 
-/* An unbounded rigid body is shown in the box of the particles, wider on all sides by this share of its longest edge.
- */
-#define RIGID_BESIDE 0.08
+/* Computes the box in which a rigid body is shown between low[dim] and high[dim] [m]: its bounds, or, if it is
+ * unbounded, the box of the particles, wider on all sides by 0.08 of its longest edge. low and high hold the box of the
+ * particles at the call. Returns true if the body is bounded. */
+bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high);
 
 /* Releases the arrays of *s. */
 void rigid_surface_free(struct rigid_surface *s);

@@ -140,7 +140,7 @@ static void say_time_step(const struct run *e)
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
-        printf("; a step of the whole run takes on average %.2g times as long as the first steps, as measured with "
+        printf("; a step of the whole run takes on average %.3g times as long as the first steps, as measured with "
                "%.3g times the spacing",
                c->growth, c->coarser);
     if (c->basis == COST_FIRST)

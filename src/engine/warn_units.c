@@ -74,7 +74,7 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
         units_judge(s, ACCEPT_WAVES, subject, m->wave_speed, "", to);
     else if (!scene_accepts(s, ACCEPT_WAVES))
         warnings_add(to,
-                     "%s: its Poisson's ratio of %.6g makes its waves as fast as %.3g m/s, %.2g times as fast as at "
+                     "%s: its Poisson's ratio of %.6g makes its waves as fast as %.3g m/s, %.3g times as fast as at "
                      "0.4; if this is meant: accept: [waves]",
                      subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }

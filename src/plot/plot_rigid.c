@@ -22,11 +22,10 @@ void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f
     if (!s || s->rigids == 0 || s->dim != f->dim || f->dim < 2) return;
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
     if (rigids_read_frame(at, s->rigids, folder, number)) {
-        real low[DIM_MAX], high[DIM_MAX], longest = 0;
+        real low[DIM_MAX], high[DIM_MAX];
         for (int d = 0; d < f->dim; d++) {
             low[d] = INFINITY, high[d] = -INFINITY;
             for (int64_t i = 0; i < f->n; i++) low[d] = fmin(low[d], f->X[d][i]), high[d] = fmax(high[d], f->X[d][i]);
-            longest = fmax(longest, high[d] - low[d]);
         }
         c->rigids = s->rigids, c->dim = f->dim;
         c->rigid = NEW("plot.rigid", s->rigids, struct rigid_shown);
@@ -34,9 +33,8 @@ void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f
             struct rigid_shown *r = &c->rigid[b];
             *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = at[b]};
             for (int d = 0; d < f->dim; d++) r->at.x[d] = r->at.centre[d] + c->magnify * (r->at.x[d] - r->at.centre[d]);
-            r->bounded = region_bounds(r->shape, f->dim, r->low, r->high);
-            for (int d = 0; d < f->dim && !r->bounded; d++)
-                r->low[d] = low[d] - RIGID_BESIDE * longest, r->high[d] = high[d] + RIGID_BESIDE * longest;
+            memcpy(r->low, low, sizeof low), memcpy(r->high, high, sizeof high);
+            r->bounded = rigid_box_shown(r->shape, f->dim, r->low, r->high);
         }
     }
     memory_free(at);

@@ -82,7 +82,7 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
         for (int k = 0; k < symmetric_component_count(p->dim); k++)
             most = real_max(most, fabs(p->stress[k][i]) / material[p->material[i]].young);
     snprintf(text, sizeof text,
-             "stresses of the solution reach %.2g times Young's modulus, beyond any solid and beyond small strains: "
+             "stresses of the solution reach %.3g times Young's modulus, beyond any solid and beyond small strains: "
              "check the loads and their units",
              most);
     if (!(most <= STRAIN_LARGE)) warnings_add_and_print(to, text);

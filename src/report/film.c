@@ -89,10 +89,10 @@ static void frame_scan(struct film *f, struct film_frame *shown, const struct ou
 /* Selects at most `most` of n evenly spread numbers, the first and the last included. Returns the k-th of them. */
 static int spread(int k, int n, int most) { return n <= most ? k : (int)lround((double)k * (n - 1) / (most - 1)); }
 
-status film_read(struct film *f, const char *folder)
+status film_read(struct film *f, const char *folder, const struct scene *scene)
 {
     struct listed_frame *list = NULL;
-    *f = (struct film){.folder = folder, .every = 1};
+    *f = (struct film){.folder = folder, .scene = scene, .every = 1};
     TRY(frames_list(folder, &f->listed, &list));
     f->frames = f->listed < FILM_FRAMES_MOST ? f->listed : FILM_FRAMES_MOST;
     f->frame = NEW("report.frames", f->frames, struct film_frame);
@@ -300,6 +300,7 @@ static status write_frame(struct page *p, const struct film *f, const struct fil
         if (film_field_is_shown(f, &f->field[k]) && !f->field[k].fixed)
             film_field_write(p, &f->field[k], s, &frame, path.text);
     json_close(&p->json, '}');
+    film_rigids_write_frame(p, f, shown->listed.number);
     json_close(&p->json, '}');
     frame_free(&frame);
     return OK;
@@ -317,6 +318,7 @@ status film_write(struct page *p, const struct film *f)
     for (int d = 0; d < f->dim; d++) json_number(&p->json, NULL, f->reach[d], JSON_TIMING);
     json_close(&p->json, ']');
     write_fields(p, f);
+    film_rigids_write(p, f);
     TRY(write_sets(p, f));
     json_open(&p->json, "frames", '[');
     for (int k = 0; k < f->frames; k++)

@@ -46,6 +46,7 @@ struct film_frame {
 /* Frames, particle sets and fields of a page. */
 struct film {
     const char *folder;
+    const struct scene *scene; /* of the run, for its rigid bodies; NULL: not known */
     int dim;
     double spacing; /* smallest distance of particles [m] */
     int listed;     /* number of frames of the run */
@@ -63,8 +64,9 @@ struct film {
 };
 
 /* Reads the frames of the run in `folder`, at most about sixty of them, and determines particle sets, displacements
- * and ranges of fields. Returns FAILED if a frame cannot be read. Release with film_free. */
-status film_read(struct film *f, const char *folder);
+ * and ranges of fields. scene: of the run; NULL: not known. Returns FAILED if a frame cannot be read. Release with
+ * film_free; `scene` must exist until then. */
+status film_read(struct film *f, const char *folder, const struct scene *scene);
 
 /* Selects frames, fields and groups so that the film takes at most `budget` bytes. */
 void film_fit(struct film *f, int64_t budget);
@@ -100,5 +102,13 @@ bool film_field_is_shown(const struct film *f, const struct film_field *field);
 /* Writes the values of one field, means over the groups of s, as an array. frame: read from the file `path`. */
 void film_field_write(struct page *p, const struct film_field *field, const struct film_set *s,
                       const struct output_frame *frame, const char *path);
+
+/* Writes the surfaces of the rigid bodies of f->scene to the page as the entry `rigid`, in the plane and in space
+ * (film_rigid.c). */
+void film_rigids_write(struct page *p, const struct film *f);
+
+/* Writes where the rigid bodies are in frame `number` as the entry `rigid` of that frame: for each body its position
+ * [dim, m] and the rows of its rotation [dim][dim]. Writes nothing for a frame without a file of rigid bodies. */
+void film_rigids_write_frame(struct page *p, const struct film *f, int number);
 
 #endif

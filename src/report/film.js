@@ -119,9 +119,10 @@ function drawFilm() {
         const to = bufferOf(context, Math.round((width - BAR) * ratio), Math.round(height * ratio));
         paintFrame(to, frame, ratio);
         context.putImageData(to.image, 0, 0);
-        if (film.dim === 2)
+        if (film.dim === 2) {
+            drawRigids(context, to, frame, ratio);
             drawPreCracks(context, to, ratio);
-        else
+        } else
             drawTriad(context, height);
         drawScaleBar(context, width - BAR, height);
         drawColourBar(context, width, height);
@@ -143,6 +144,7 @@ function paintFrame(to, frame, ratio) {
     const shown = (i) => axis < 0 || set.X[axis][i] <= place;
     const see = {centre: view.centre, scale: view.scale * ratio, turn: view.turn};
     paintSpace(to, see, set, view.x_of, ghost ? () => GHOST : colour, shown, damage);
+    paintRigids(to, see, frame, (x) => axis < 0 || x[axis] <= place);
     if (ghost)
         paintSpace(to, see, set, view.x_of, (i) => lut[codes[i]], (i) => damage[i] > CRACK_CODE && shown(i), damage);
 }
@@ -328,7 +330,8 @@ function boxOf(frame, magnify) {
 
 // Shows the whole body: from the front in the plane, obliquely in space.
 function resetView() {
-    const {low, high} = view.magnify === 1 ? film.box : boxOf(film.frames[view.frame], view.magnify),
+    const box = view.magnify === 1 ? film.box : boxOf(film.frames[view.frame], view.magnify);
+    const {low, high} = boxWithRigids(box, film.frames[view.frame]),
                 size = high.map((h, d) => h - low[d]), width = byId("view").clientWidth - BAR;
     if (film.dim === 2) {
         view.height = Math.round(Math.min(Math.max(width * size[1] / size[0] * 1.04, 180), 620));

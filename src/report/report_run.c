@@ -123,33 +123,30 @@ static status write_picture(struct page *p, const char *scene, const char *path)
     return s;
 }
 
-static void write_scene(struct page *p, const char *folder, int64_t particles, const char *path)
+/* Writes the names and pre-cracks of the scene s of the run in `folder`, and its picture. particles: of the first
+ * frame; path: of the page. */
+static void write_scene(struct page *p, const char *folder, const struct scene *s, int64_t particles, const char *path)
 {
-    struct scene s;
-    const struct path scene = path_join(folder, "scene.yaml");
-    page_add_text_file(p, "scene", folder, "scene.yaml");
-    status drawn = scene_read(&s, scene.text, NULL, 0);
-    if (drawn == OK) {
-        json_text(&p->json, "name", s.name);
-        json_count(&p->json, "dim", s.dim);
-        write_pre_cracks(p, &s);
-        write_names(p, &s);
-        scene_free(&s);
-        drawn = particles > PICTURE_PARTICLES ? status_set(REFUSED, "the scene has more than two million particles")
-                                              : write_picture(p, scene.text, path);
-    }
+    json_text(&p->json, "name", s->name);
+    json_count(&p->json, "dim", s->dim);
+    write_pre_cracks(p, s);
+    write_names(p, s);
+    const status drawn = particles > PICTURE_PARTICLES
+                             ? status_set(REFUSED, "the scene has more than two million particles")
+                             : write_picture(p, path_join(folder, "scene.yaml").text, path);
     if (drawn != OK) json_text(&p->json, "picture_missing", status_message());
 }
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
 
-/* Writes frames, if there are any. Stores the number of particles of the first frame in *particles. */
-static status write_film(struct page *p, const char *folder, int64_t *particles)
+/* Writes frames, if there are any. scene: of the run; NULL: not known. Stores the number of particles of the first
+ * frame in *particles. */
+static status write_film(struct page *p, const char *folder, const struct scene *scene, int64_t *particles)
 {
     struct film f;
     *particles = 0;
     if (!run_has_file(folder, "frames.hdf.series")) return OK;
-    TRY(film_read(&f, folder));
+    TRY(film_read(&f, folder, scene));
     *particles = f.set[0].n;
     film_fit(&f, FILM_BYTES);
     const status s = film_write(p, &f);
@@ -161,11 +158,16 @@ status report_write_run(struct page *p, const struct report_request *r, const ch
 {
     char header[HEADER_ROOM];
     int64_t particles;
+    struct scene scene;
     json_text(&p->json, "kind", "run");
+    page_add_text_file(p, "scene", r->folder, "scene.yaml");
+    const bool known = scene_read(&scene, path_join(r->folder, "scene.yaml").text, NULL, 0) == OK;
+    if (!known) json_text(&p->json, "picture_missing", status_message());
     history_read_header(header, sizeof header, r->folder);
     write_figures(p, r->folder, header);
-    TRY(write_film(p, r->folder, &particles));
-    TRY(write_history(p, r->folder, header));
-    write_scene(p, r->folder, particles, path);
-    return OK;
+    status s = write_film(p, r->folder, known ? &scene : NULL, &particles);
+    if (s == OK) s = write_history(p, r->folder, header);
+    if (s == OK && known) write_scene(p, r->folder, &scene, particles, path);
+    if (known) scene_free(&scene);
+    return s;
 }

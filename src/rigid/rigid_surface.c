@@ -12,6 +12,8 @@
 #include "output/output_files.h"
 #include "rigid/rigid_part.h"
 
+/* An unbounded body is shown farther than the particles by this share of the longest edge of their box [1]. */
+#define RIGID_BESIDE 0.08
 enum { CELLS_PLANE = 200, CELLS_SPACE = 24, THICKNESS_CELLS = 6, NODES_MOST = 200000 };
 
 /* Grid over a region, one cell larger than it on all sides, and the values of its level set at the nodes. */
@@ -139,6 +141,18 @@ void rigid_surface_free(struct rigid_surface *s)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high)
+{
+    real from[DIM_MAX], to[DIM_MAX], longest = 0;
+    const bool bounded = region_bounds(shape, dim, from, to);
+    for (int d = 0; d < dim; d++) longest = real_max(longest, high[d] - low[d]);
+    for (int d = 0; d < dim; d++) {
+        low[d] = bounded ? from[d] : low[d] - RIGID_BESIDE * longest;
+        high[d] = bounded ? to[d] : high[d] + RIGID_BESIDE * longest;
+    }
+    return bounded;
+}
+
 /* Makes the surfaces of all bodies, once. Unbounded ones are cut to a box around the particles. */
 static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles *part)
 {
@@ -146,12 +160,8 @@ static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles 
     rigid->surface = NEW("rigid.surface", rigid->n, struct rigid_surface);
     for (int b = 0; b < rigid->n; b++) {
         real low[DIM_MAX], high[DIM_MAX];
-        if (!region_bounds(rigid->body[b].shape, rigid->dim, low, high))
-            for (int d = 0; d < rigid->dim; d++) {
-                const real beside = RIGID_BESIDE * particles_longest_edge(part);
-                particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
-                low[d] -= beside, high[d] += beside;
-            }
+        for (int d = 0; d < rigid->dim; d++) particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
+        (void)rigid_box_shown(rigid->body[b].shape, rigid->dim, low, high);
         rigid_surface_make(&rigid->surface[b], rigid->body[b].shape, rigid->dim, low, high);
     }
 }

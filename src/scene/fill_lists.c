@@ -185,7 +185,7 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
     if (!(v->filled < VOLUME_MOST && v->filled > 1 / VOLUME_MOST))
         return refuse_list(
             c,
-            "volumes of its particles are %.2g times the space up to their neighbours, which are %.4g m apart%s; "
+            "volumes of its particles are %.3g times the space up to their neighbours, which are %.4g m apart%s; "
             "volumes in m^3 are expected%s",
             v->filled, v->apart,
             c->s->dim == 1   ? ", times the section"

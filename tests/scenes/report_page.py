@@ -46,6 +46,30 @@ def values(reference):
     return a
 
 
+def rigid_points(frame):
+    """Points of all rigid bodies in a frame, as the browser computes them."""
+    points = []
+    for body, at in zip(film["rigid"], frame["rigid"]):
+        X, dim = values(body["X"]), film["dim"]
+        for k in range(0, len(X), dim):
+            r = [X[k + d] - body["centre"][d] for d in range(dim)]
+            points.append([at["x"][d] + sum(t * v for t, v in zip(at["turn"][d], r)) for d in range(dim)])
+    return points
+
+
+def compare_rigids(folder, frame):
+    """The surfaces of a frame are those of its .vtp file."""
+    vtp = open("%s/frames/rigid_%06d.vtp" % (folder, frame["number"])).read()
+    array = lambda name: [float(v) for v in re.search('Name="%s"[^>]*>([^<]*)<' % name, vtp).group(1).split()]
+    there, here, size = array("Points"), rigid_points(frame), 0
+    check(len(there) == 3 * len(here), "frame %d: %d points of rigid bodies, %d in its file" % (frame["number"], len(here), len(there) // 3))
+    size = max(abs(v) for v in there)
+    off = max(abs(v - there[3 * k + d]) for k, x in enumerate(here) for d, v in enumerate(x))
+    check(off <= 5e-7 * size, "frame %d: rigid bodies off by %g" % (frame["number"], off))  # single precision, seven digits in the file
+    faces = sum(b["corner"]["length"] // b["corners"] for b in film["rigid"])
+    check(faces == len(array("rigid_body")), "frame %d: %d faces of rigid bodies" % (frame["number"], faces))
+
+
 compared = []
 film = page.get("film")
 for frame in (film or {}).get("frames", []):
@@ -63,6 +87,10 @@ if len(sys.argv) > 2:
             w = float(row[k])
             check(w != w and v != v or abs(v - w) <= 1e-7 * abs(w) + 1e-37, "history, column %d: %g, not %g" % (k, v, w))  # single precision
     compared.append("%d columns" % len(rows[0]))
+    for frame in film["frames"] if film and "rigid" in film else []:
+        compare_rigids(folder, frame)
+    if film and "rigid" in film:
+        compared.append("%d rigid bodies" % len(film["rigid"]))
     try:
         import h5py
     except ImportError:

@@ -8,7 +8,7 @@ python3 -c "import h5py" 2>/dev/null || ! /usr/bin/python3 -c "import h5py" 2>/d
 cd "$work" || exit 1
 
 # whole PAGE [FOLDER]: the page is complete, and says what the files of the run say.
-whole() { said=$($python "$root/tests/scenes/report_page.py" "$@") && pass || fail "$1: $said"; }
+whole() { $python "$root/tests/scenes/report_page.py" "$@" >said && pass || fail "$1: $(cat said)"; }
 # refused WORD ARGUMENTS: exit status 2 with one line that contains WORD.
 refused()
 {
@@ -139,6 +139,17 @@ END
 "$cleave" run block.yaml -q --report >out 2>err
 is "a solid: exit status" $? 0
 whole results/block/report.html results/block
+# Rigid bodies: one that turns as it hits a corner, one without bounds.
+sed -e 's/^name: .*/name: struck/' -e '/^boundary/d' -e 's/^duration: .*/duration: 30 us/' -e 's/^body: .*/bodies:/' -e '/^bodies:/a\
+  - {name: block, shape: {box: {from: [0, 0, 0], to: [8 mm, 6 mm, 4 mm]}}}\
+  - {name: bar, rigid: true, mass: 2 g, velocity: [0, -60 m/s, 0], shape: {box: {from: [6 mm, 6.2 mm, 0], to: [18 mm, 8 mm, 4 mm]}}}\
+  - {name: floor, rigid: true, shape: {half-space: {point: [0, -0.2 mm, 0], normal: [0, 1, 0]}}}
+' block.yaml >struck.yaml
+"$cleave" run struck.yaml -q --report >out 2>err
+is "rigid bodies: exit status" $? 0
+whole results/struck/report.html results/struck
+holds "rigid bodies are compared" grep -q '2 rigid bodies' said
+holds "the bar turns" awk '/Name="motion"/ { getline; exit !($7 < 0.999) }' results/struck/frames/rigid_000003.vtp
 "$cleave" sweep plate.yaml -s particles.spacing=2mm,1mm -s thickness=1mm,2mm -o sweep -q >out 2>err
 "$cleave" report sweep -q
 is "a sweep: exit status" $? 0

@@ -1,0 +1,85 @@
+/* Rigid bodies of the frames of a page: their surfaces once, their places in each frame. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "film.h"
+#include "rigid/rigid_surface.h"
+
+/* Returns the number of rigid bodies that a page shows: none in one dimension or without the scene. */
+static int rigids_of(const struct film *f) { return f->scene && f->dim > 1 ? f->scene->rigids : 0; }
+
+/* Computes the box of the particles at the start between low[dim] and high[dim] [m]. */
+static void particles_box(const struct film *f, real *low, real *high)
+{
+    const struct film_set *s = &f->set[0];
+    for (int d = 0; d < f->dim; d++) {
+        low[d] = INFINITY, high[d] = -INFINITY;
+        for (int64_t i = 0; i < s->n; i++) low[d] = fmin(low[d], s->X[d][i]), high[d] = fmax(high[d], s->X[d][i]);
+    }
+}
+
+/* Writes n numbers as an array of the JSON. key: name of the array; NULL in a list. */
+static void write_numbers(struct page *p, const char *key, const real *value, int n)
+{
+    json_open(&p->json, key, '[');
+    for (int k = 0; k < n; k++) json_number(&p->json, NULL, value[k], JSON_TIMING);
+    json_close(&p->json, ']');
+}
+
+/* Writes the points [points][dim] and faces [faces][corners] of a surface as arrays in single precision, which is exact
+ * for numbers of points. */
+static void write_surface(struct page *p, const struct rigid_surface *s, int dim)
+{
+    const int64_t corners = s->faces * s->corners;
+    float *X = NEW("report.X", s->points * dim, float), *corner = NEW("report.corner", corners, float);
+    for (int64_t k = 0; k < s->points * dim; k++) X[k] = (float)s->X[k / dim * DIM_MAX + k % dim];
+    for (int64_t k = 0; k < corners; k++) corner[k] = (float)s->corner[k];
+    json_count(&p->json, "corners", s->corners);
+    page_add_array(p, "X", PAGE_F32, X, s->points * dim);
+    page_add_array(p, "corner", PAGE_F32, corner, corners);
+    memory_free(X), memory_free(corner);
+}
+
+void film_rigids_write(struct page *p, const struct film *f)
+{
+    const int rigids = rigids_of(f);
+    struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
+    if (rigids > 0 && rigids_read_frame(at, rigids, f->folder, f->frame[0].listed.number)) {
+        json_open(&p->json, "rigid", '[');
+        for (int b = 0; b < rigids; b++) {
+            const struct scene_body *body = &f->scene->body[f->scene->bodies + b];
+            real low[DIM_MAX], high[DIM_MAX];
+            struct rigid_surface surface;
+            particles_box(f, low, high);
+            (void)rigid_box_shown(&body->shape, f->dim, low, high);
+            rigid_surface_make(&surface, &body->shape, f->dim, low, high);
+            json_open(&p->json, NULL, '{');
+            json_text(&p->json, "name", body->name);
+            write_numbers(p, "centre", at[b].centre, f->dim);
+            write_surface(p, &surface, f->dim);
+            json_close(&p->json, '}');
+            rigid_surface_free(&surface);
+        }
+        json_close(&p->json, ']');
+    }
+    memory_free(at);
+}
+
+void film_rigids_write_frame(struct page *p, const struct film *f, int number)
+{
+    const int rigids = rigids_of(f);
+    struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
+    if (rigids > 0 && rigids_read_frame(at, rigids, f->folder, number)) {
+        json_open(&p->json, "rigid", '[');
+        for (int b = 0; b < rigids; b++) {
+            json_open(&p->json, NULL, '{');
+            write_numbers(p, "x", at[b].x, f->dim);
+            json_open(&p->json, "turn", '[');
+            for (int d = 0; d < f->dim; d++) write_numbers(p, NULL, at[b].turn[d], f->dim);
+            json_close(&p->json, ']');
+            json_close(&p->json, '}');
+        }
+        json_close(&p->json, ']');
+    }
+    memory_free(at);
+}
