@@ -18,7 +18,8 @@ status arguments_add_override(struct run_arguments *a, const char *text)
     return OK;
 }
 
-/* Reads a whole number from least to most into *count. Returns false for any other text. */
+/* Reads a whole number from `least` to `most` from a text into *count. Returns false, without a change of *count, for
+ * any other text. */
 static bool count_read(int *count, const char *text, int least, int most)
 {
     char *end;

@@ -40,7 +40,8 @@ static void say_frames(const struct run *e)
                (long long)e->frame->mesh.points);
 }
 
-/* Prints the names of the first few bodies from `from` to end, joined ones as a+b, and the number of further bodies. */
+/* Prints the names of bodies with the indices from..end-1 of a scene: the first six, and the number of further ones.
+ * Bodies that are joined are printed as one name a+b. */
 static void say_names(const struct scene *s, int from, int end)
 {
     enum { NAMED = 6 };
@@ -56,7 +57,8 @@ static void say_names(const struct scene *s, int from, int end)
     if (n > NAMED) printf(" and %d more", n - NAMED);
 }
 
-/* Prints between which peridynamic particles contact acts, and its law. */
+/* Prints between which peridynamic bodies and rigid bodies contact acts, whether with themselves, and the contact law
+ * and friction. Prints nothing for a scene without contact. */
 static void say_contact_of_bonds(const struct scene *s)
 {
     if (s->contact_between == CONTACT_NONE && s->rigids == 0) return;
@@ -77,7 +79,8 @@ static void say_contact_of_bonds(const struct scene *s)
     putchar('\n');
 }
 
-/* Prints the share of contact in a step, and by how much it shortens the time step. */
+/* Prints the share of contact in the time of the first steps, and by how much contact shortens the time step. Prints
+ * nothing for load steps, or if no particle is near a face. c: cost that cost_measure has estimated. */
 static void say_contact_cost(const struct run *e, const struct cost *c)
 {
     const struct run_clock *clock = &e->clock;
@@ -109,7 +112,8 @@ static void say_contact(const struct run *e)
     }
 }
 
-/* Prints how the first few pre-cracks are represented: slits of the mesh or cut bonds. */
+/* Prints how the first six pre-cracks are represented, as slits of the mesh or as cut bonds, and the number of further
+ * pre-cracks. */
 static void say_notches(const struct run *e)
 {
     enum { SAID = 6 };
@@ -135,8 +139,8 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Prints how the run time was extrapolated, from the first steps and from a run with larger particles, and the time
- * if all particles were peridynamic. */
+/* Continues the line of the run time: prints from which trial steps it was extrapolated (all steps with larger
+ * particles, or the first steps alone), and the run time if all particles were peridynamic. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -154,8 +158,8 @@ static void say_basis(const struct scene *scene, const struct cost *c)
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 
-/* Prints the run time of a static equilibrium: for 1000 steps, with a range, and for the largest number of steps. How
- * many steps the solver takes is not known before. */
+/* Prints the run time of a static equilibrium in two forms: for 1000 steps with its bounds, and for the largest number
+ * of steps. The number of steps that the solver will need is not known in advance. */
 static void say_cost_at_rest(const struct run *e, const struct cost *c, int threads)
 {
     const double thousand = 1e3 * c->step;
@@ -186,7 +190,8 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
-/* Prints the smallest and largest random factor on the strength of a material over its particles. */
+/* Prints the smallest and largest random factor on the strength over the particles of a material, as a clause.
+ * material: its index. */
 static void say_scatter(const struct particles *p, int material)
 {
     real least = INFINITY, most = 0;
@@ -221,7 +226,7 @@ static void say_materials(const struct run *e)
     }
 }
 
-/* Returns true if two texts are equal but for their numbers. */
+/* Returns true if two texts are equal except for the numbers in them. */
 static bool texts_alike(const char *a, const char *b)
 {
     static const char number[] = "0123456789.+-e";
@@ -232,7 +237,8 @@ static bool texts_alike(const char *a, const char *b)
     return true;
 }
 
-/* Adds the warnings of trial steps to *found, unless one that differs in numbers alone, such as the time, is there. */
+/* Appends the warnings of the trial steps to *found. Omits those that differ from a warning in *found only by numbers,
+ * such as the time. */
 static void warnings_of_trial(struct warnings *found, const struct warnings *trial)
 {
     for (int k = 0; k < trial->n; k++) {
@@ -242,8 +248,9 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
     }
 }
 
-/* Estimates run time and memory by trial steps and prints both. made: processor time of the set-up [s]; found: receives
- * the warnings of the trial steps. The engine cannot be used afterwards. FAILED if one of the first steps fails. */
+/* Estimates run time and memory by trial steps and prints both. threads: number of threads, which is printed; made:
+ * processor time of the set-up [s]. The warnings of the trial steps are appended to *found. The run e cannot be used
+ * afterwards. Returns FAILED if one of the first steps fails. */
 static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made, struct warnings *found)
 {
     struct cost cost = {.make = made};
@@ -257,13 +264,15 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     return OK;
 }
 
-/* Prints a list of lines under a heading; nothing if it is empty. */
+/* Prints a list of lines, the first one after the heading and the others indented below it. Prints nothing if the list
+ * is empty. */
 static void say_list(const struct warnings *lines, const char *heading)
 {
     for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);
 }
 
-/* Prints the remarks on accuracy of a scene, and sets their number. FAILED without memory for them. */
+/* Prints the remarks on accuracy of a scene and stores the number of remarks in *remarks. Returns FAILED if there is no
+ * memory for them. */
 static status say_accuracy(const struct run *e, int *remarks)
 {
     char *text = NULL;
@@ -279,7 +288,8 @@ static status say_accuracy(const struct run *e, int *remarks)
     return written;
 }
 
-/* Prints the verdict on a scene: it is sound, or it can be run in spite of warnings and remarks on accuracy. */
+/* Prints the verdict on a scene: sound, or fit to run after the warnings and remarks on accuracy have been read. scene:
+ * file name; warnings, remarks: numbers of those printed above. */
 static void say_verdict(const char *scene, int warnings, int remarks)
 {
     const struct printable_name shown = printable_name(scene);
@@ -294,7 +304,7 @@ static void say_verdict(const char *scene, int warnings, int remarks)
                remarks > 0 ? " and the remarks on accuracy" : "");
 }
 
-/* Prints the resolved settings of a scene: particles, materials, loads, steps, contact. */
+/* Prints the resolved settings of a scene: particles, shapes, materials, frames, pre-cracks, loads, steps, contact. */
 static void say_settings(const struct run *e)
 {
     say_particles(e);
@@ -310,9 +320,10 @@ static void say_settings(const struct run *e)
     say_contact(e);
 }
 
-/* Sets up the scene and prints its resolved settings, its cost unless `trial` is false, what limits its accuracy, hints
- * and, on standard error, warnings; the verdict follows last. start: time at which the reading of the scene began, on
- * thread_cpu_clock [s]. REFUSED or FAILED if the set-up or a trial step is. */
+/* Sets up the scene and prints its resolved settings, remarks on its accuracy, the cost (only if `trial` is true),
+ * hints, the warnings (on standard error), and the verdict. threads: number of threads; start: time on thread_cpu_clock
+ * at which the reading of the scene began [s]. Changes settings of s. Returns REFUSED or FAILED if the set-up or a
+ * trial step does. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};

@@ -31,7 +31,7 @@
 #define ALONG_AXIS 0.999 /* least component of a normal for which a face counts as aligned with the axes */
 enum { PULL_MOMENTS = 100, PULL_PLACES = 64 }; /* numbers of times, and of particles of a support, that are evaluated */
 #define ON_MIRROR 1e-6                         /* largest distance of a face on a plane of symmetry [spacings] */
-/* Time per bond and step by model, in 2D and 3D [ns]. */
+/* Processor time per bond and step by peridynamic model [ns]: in 2D, in 3D. */
 static const real bond_ns[][3] = {
     [MODEL_BOND] = {0.44, 0.55}, [MODEL_OSPD] = {0.75, 0.86}, [MODEL_MOSPD] = {1.05, 2.2}};
 
@@ -39,8 +39,8 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
-/* Returns the edge length of a box along axis d, doubled if one of its ends is at a plane of symmetry [m]; INFINITY
- * if both ends are. */
+/* Returns the edge length of the box `a` along axis d [m]. The length is doubled if one end of the box is at a plane of
+ * symmetry of `source`, and INFINITY if both ends are. */
 static real mirrored_edge(const struct scene *scene, const struct bond_source *source, const struct solid *a, int d)
 {
     const real near = ON_MIRROR * scene->spacing;
@@ -61,9 +61,10 @@ real solid_smallest_edge(const struct run *e, const struct solid *a)
     return real_min(least, solid_least_thickness(a, e->scene->dim));
 }
 
-/* Largest relative error of the stiffness in bending, twisting and stretching of a part made of bonds or families,
- * by its number of layers [%]: in 2D, in 3D, for horizons of 3.015 spacings and Poisson's ratios up to 1/3. The
- * first row applies to all thinner parts, the last to all thicker ones. */
+/* Largest relative error of the stiffness of a thin peridynamic part in bending, twisting and tension [%], by its
+ * number of particle layers: in 2D, in 3D. The columns are for bond-based and ospd models (`bonds`), for mospd
+ * (`rotating`) and for families without correction at faces. Valid for horizons of 3.015 spacings and Poisson's ratios
+ * up to 1/3. The first row applies to all thinner parts, the last row to all thicker ones. */
 static const struct {
     double layers;
     int bonds[2], rotating[2], uncorrected[2];
@@ -83,7 +84,7 @@ int layer_stiffness_error(const struct scene *s, enum surface_rule surface, doub
     return off[s->dim > 2];
 }
 
-/* Writes a line with the largest error of the stiffness of a part that is `layers` particles thick. */
+/* Appends to a remark the largest error of the stiffness of a peridynamic part that is `layers` particles thick. */
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
@@ -99,15 +100,15 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
     fprintf(out, "; method adaptive bends within 1 %% from 10 layers on");
 }
 
-/* Rounds a positive number down to two digits, with a tolerance for round-off. */
+/* Returns a positive number rounded down to two significant digits, with a tolerance for round-off. */
 static real two_digits_down(real value)
 {
     const real digit = pow(10, floor(log10(value)) - 1);
     return floor(value / digit + 1e-6) * digit;
 }
 
-/* Writes a line for each body with a part thinner than FEATURE horizons, where most particles have incomplete
- * families. Not for bodies of material points only, and not in 1D. */
+/* Writes a remark for each body with a part thinner than FEATURE horizons, where most particles have incomplete
+ * families. Skips scenes with the method mpm, and 1D. */
 static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -125,8 +126,8 @@ static void advise_features(const struct run *e, FILE *out)
     }
 }
 
-/* Returns true if an end of a pre-crack is a crack tip inside the material, not at a face of the body. end: position
- * of the end [m]. */
+/* Returns true if `end` [dim, m], an end of a pre-crack, is a crack tip inside the material and not at a face of the
+ * body. */
 static bool is_tip(const struct fracture_state *fracture, const real *end)
 {
     const struct crack_tips *t = &fracture->tips;
@@ -135,7 +136,7 @@ static bool is_tip(const struct fracture_state *fracture, const real *end)
     return false;
 }
 
-/* Returns the share of the length of a crack that is inside bodies. */
+/* Returns the share of the straight crack from..to [dim, m] that is inside bodies [1], from 1000 points on it. */
 static real share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };
@@ -150,8 +151,8 @@ static real share_within(const struct scene *s, const real *from, const real *to
     return (real)within / PLACES;
 }
 
-/* Writes a line for cracks whose tips are less than FEATURE horizons apart. A crack that begins at a face or a plane
- * of symmetry is half of a crack of twice the length. */
+/* Writes a remark for each 2D crack whose two tips are less than FEATURE horizons apart. A crack with one tip begins at
+ * a face or a plane of symmetry and counts as half of a crack of twice the length. */
 static void advise_cracks(const struct scene *s, const struct fracture_state *fracture, FILE *out)
 {
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
@@ -173,8 +174,8 @@ static void advise_cracks(const struct scene *s, const struct fracture_state *fr
     }
 }
 
-/* Returns true if X is at a curved or slanted face of a shape: the normal at X, or some spacings from X, is along no
- * axis. */
+/* Returns true if X [dim, m] is at a face of the shape that is curved or slanted to the axes: the normal of the face at
+ * the points AROUND spacings from X along an axis is parallel to no axis. */
 static bool at_stepped_face(const struct scene *s, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0};
@@ -190,8 +191,8 @@ static bool at_stepped_face(const struct scene *s, const struct region *shape, c
     return stepped;
 }
 
-/* Writes a line for point probes of stress at curved or slanted faces. The error was measured with the elliptic
- * membrane LE1 of NAFEMS, with 20 to 80 points across. */
+/* Writes a remark for each point probe of stress at a curved or slanted face. The error in the text was measured with
+ * the elliptic membrane LE1 of NAFEMS, with 20 to 80 points across. */
 static void advise_faces(const struct scene *s, FILE *out)
 {
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
@@ -207,20 +208,20 @@ static void advise_faces(const struct scene *s, FILE *out)
         }
 }
 
-/* Returns the rise time of a pulse or ramp [s]; INFINITY for other functions of time. */
+/* Returns the duration of a pulse or the rise time of a ramp [s]; INFINITY for other functions of time. */
 static real rise_time(const struct time_function *f)
 {
     return f->kind == TIME_PULSE || f->kind == TIME_RAMP ? f->until - f->from : INFINITY;
 }
 
-/* Returns true if boundary b is a load that rises in the time `rise` [s]. */
+/* Returns true if b is a load or support with the rise time `rise` [s] (see rise_time). */
 static bool rises_in(const struct boundary *b, real rise)
 {
     return b->kind != BOUNDARY_MIRROR && rise_time(&b->time) == rise;
 }
 
-/* Writes a line for all loads with the rise time of boundary b, if no earlier boundary has this rise time and waves
- * travel less than WAVE spacings in it. */
+/* Writes one remark for all loads that have the rise time of boundary b, if waves travel less than WAVE spacings in
+ * this time. Writes nothing if an earlier boundary has the same rise time. */
 static void advise_rise(const struct scene *s, const struct material_tables *tables, int b, FILE *out)
 {
     const real rise = rise_time(&s->boundary[b].time), length = tables->wave_speed * rise / s->spacing;
@@ -237,7 +238,7 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
             more ? "" : "s", length, WAVE, length_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a line for loads and pulses shorter than WAVE spacings. */
+/* Writes a remark for each load and initial pulse that is shorter than WAVE spacings. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
     for (int b = 0; b < s->boundaries && scene_is_dynamic(s); b++) advise_rise(s, tables, b, out);
@@ -251,7 +252,7 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                 length_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a line for bodies that collide so fast that oscillations behind the wave front can break or yield them. */
+/* Writes a remark if bodies collide so fast that oscillations behind the wave front can break or yield them. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = fastest_collision_expected(s);
@@ -263,8 +264,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
             shock.speed, shock.share, shock.remedy);
 }
 
-/* Writes a line if the number of levels that the scene gives makes cells too coarse for its loads or its thin
- * parts. */
+/* Writes a remark if the number of levels of coarse cells given by the scene makes cells too coarse for its loads or
+ * its thin parts. */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -272,15 +273,15 @@ static void advise_levels(const struct run *e, FILE *out)
     if (frame_levels_exceed_limit(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
 }
 
-/* Returns the index of the body of a particle; joined bodies have one index. */
+/* Returns the index of the body of particle i. Bodies that are joined have one index. */
 static int body_of(const struct scene *scene, const struct particles *part, int32_t i)
 {
     return scene->body[part->body[i]].joined;
 }
 
-/* Counts the bonds near one end (0 or 1) of a crack that the crack cuts if it is longer by 1e-7 of its length, but
- * not if it is shorter by as much. Considers pairs of particles of one body within the horizon. found[capacity]: work
- * array for the particles near the end. */
+/* Returns the number of bonds whose cut depends on the exact length of crack c at its corner `end` (0 or 1): bonds that
+ * c cuts if it is longer by 1e-7 of its length, but not if it is shorter by as much. Bonds are pairs of particles of
+ * one body within the horizon. found[capacity]: work array for the particles near the end. */
 static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int capacity)
 {
     const struct particles *p = &e->part;
@@ -305,7 +306,7 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     return tied;
 }
 
-/* Adds a hint for each pre-crack that ends exactly on bonds, so that rounding decides whether they are cut. */
+/* Adds a hint for each 2D pre-crack that ends exactly on bonds, so that rounding decides whether they are cut. */
 static void hint_ties(const struct run *e, struct warnings *to)
 {
     enum { ROOM = 1024 };
@@ -324,7 +325,7 @@ static void hint_ties(const struct run *e, struct warnings *to)
     }
 }
 
-/* Writes a line for formulas without a value at some time of the run. */
+/* Writes a remark if a formula of a load or support has no finite value at some time of the run. */
 static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
@@ -334,8 +335,9 @@ static void advise_formulas(const struct run *e, FILE *out)
     }
 }
 
-/* Extends the range *least..*most of displacements along axis d [m] by the displacements that support l prescribes at
- * time t. Does nothing for other loads, for rotating supports, and if the displacement is not known. */
+/* Extends the range *least..*most [m] so that it contains the displacements along axis d that the support l prescribes
+ * at time t [s], evaluated at up to PULL_PLACES of its particles. Does nothing for other loads, for rotating supports,
+ * and if the displacement is not known. */
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
@@ -347,8 +349,8 @@ static void pulled_span(const struct load *l, const struct particles *p, int d, 
     }
 }
 
-/* Writes a line if supports stretch the body so far that neighbouring material points no longer share grid nodes, so
- * that the body would separate without fracture. Applies to points in the current frame. */
+/* Writes a remark if supports stretch the body so far that neighbouring material points share no grid nodes, which
+ * separates the body without fracture. Applies to points in the current frame. */
 static void advise_separation(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -373,7 +375,7 @@ static void advise_separation(const struct run *e, FILE *out)
 
 /* ---- parts that are not needed ----------------------------------------------------------------------------------- */
 
-/* Adds a hint if a state-based model has the Poisson's ratio of the bond-based model. */
+/* Adds a hint if a state-based model is used with the Poisson's ratio of the cheaper bond-based model. */
 static void hint_model(const struct scene *s, struct warnings *to)
 {
     const real wanted = bond_based_poisson_ratio(s->space);
@@ -386,9 +388,10 @@ static void hint_model(const struct scene *s, struct warnings *to)
                  s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
-/* Returns an estimate of the largest stress in a run [Pa], from the range of the initial and prescribed velocities,
- * the tractions and the strains of initial states. Returns INFINITY if no estimate is possible: for body forces,
- * tables in time, formulas, rotating supports, or runs so long that reflected waves add up. */
+/* Returns an upper estimate of the stress in a run [Pa]: REACHED (rho c v + traction) plus the stress of initial
+ * strains, with v the range of initial and prescribed velocities. Returns INFINITY if no estimate is possible: for
+ * body forces, tables in time, formulas, rotating supports, and runs in which waves cross the body more than
+ * PASSAGES times. */
 static real stress_reached(const struct run *e)
 {
     const struct scene *s = e->scene;
@@ -415,7 +418,7 @@ static real stress_reached(const struct run *e)
     return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing->strain_stress;
 }
 
-/* Adds a hint for bodies in the current frame for which the reference frame is possible. */
+/* Adds a hint for each body with material points in the current frame that could use the faster reference frame. */
 static void hint_frame(const struct run *e, struct warnings *to)
 {
     const real reached = stress_reached(e);
@@ -445,8 +448,8 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Adds a hint if a peridynamic method is used although no bond can break. Contact with rigid bodies is an exception,
- * since material points do not support it. */
+/* Adds a hint that the method mpm suffices if a peridynamic method is used although no bond can break. Makes an
+ * exception for scenes with rigid bodies, whose contact material points do not support. */
 static void hint_method(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -468,7 +471,7 @@ static void hint_method(const struct run *e, struct warnings *to)
             reached, weakest, method);
 }
 
-/* Adds a hint with the planes about which the scene is symmetric. */
+/* Adds a hint with the planes about which the scene is symmetric, so that a part of the body can be run. */
 static void hint_symmetry(const struct run *e, struct warnings *to)
 {
     static const char *const share[] = {"", "half", "a quarter", "an eighth"};

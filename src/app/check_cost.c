@@ -34,15 +34,15 @@ enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define BONDS_MOST 2e8             /* of a body that is tried with all particles peridynamic */
 #define BONDS_TRIED 2e7            /* of a coarser body that is tried in its place */
 
-/* Returns the quartiles of n measured times, which are sorted in place. */
+/* Returns the quartiles of n measured times. Sorts spent[n] in place. */
 static struct quartiles quartiles_of(double *spent, int n)
 {
     const double median = median_of(spent, n);
     return (struct quartiles){spent[n / 4], median, spent[n - 1 - n / 4]};
 }
 
-/* Measures the processor time of a step [s] after the first one, which has cold caches, in windows from sample to
- * sample, so that samples are included. */
+/* Runs steps of e and measures the processor time of one step [s], as quartiles over windows from one sample of the
+ * history to the next. The first step, which has cold caches, does not count. Returns FAILED if a step fails. */
 static status time_steps(struct run *e, struct quartiles *step)
 {
     const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
@@ -68,7 +68,7 @@ static status time_steps(struct run *e, struct quartiles *step)
     return OK;
 }
 
-/* Returns the processor time of one evaluation of the bond forces [s], the median of several. */
+/* Returns the processor time of one evaluation of the forces [s], the median of several. */
 static double time_force(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -81,7 +81,8 @@ static double time_force(struct run *e)
     return median_of(spent, n);
 }
 
-/* Returns the time of contact in a step in the present state [s]. */
+/* Returns the processor time of contact in one step of the present state [s]: search and forces, the median of
+ * several. */
 static double time_contact(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -98,8 +99,9 @@ static double time_contact(struct run *e)
 
 /* ---- other scenes ------------------------------------------------------------------------------------------------ */
 
-/* Reads the scene again with one additional override (none if key is NULL) and creates its engine. rest: whether
- * inactive parts of the body may be skipped, as in the scene. The caller releases s and e, also on failure. */
+/* Reads the scene of `a` again with the additional override key=value (none if key is NULL) and creates its run e.
+ * rest: true if inactive parts of the body may be skipped, as the scene requests. The caller releases s and e, also on
+ * failure. */
 static status make_other(struct scene *s, struct run *e, const struct run_arguments *a, const char *key,
                          const char *value, bool rest)
 {
@@ -114,7 +116,8 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     return engine_make(e, s, NULL);
 }
 
-/* Runs all steps and returns their processor time [s]; NAN if a step fails or the time exceeds a limit. */
+/* Runs all steps of e and returns their processor time [s]. Returns NAN if a step fails or the time exceeds PATIENCE
+ * times SECONDS_WHOLE, or WALL_MOST. */
 static double all_steps(struct run *e)
 {
     const double start = thread_cpu_clock(), began = wall_clock();
@@ -129,9 +132,9 @@ static double all_steps(struct run *e)
     return engine_run_mpm_baseline(e) == OK ? thread_cpu_clock() - start : NAN;
 }
 
-/* Runs the scene with one additional override (none if key is NULL) and returns the processor time of all its steps
- * [s]: measured over the whole run if `whole`, else extrapolated from the first steps; NAN if a step fails. found:
- * receives the warnings of the run; may be NULL. */
+/* Runs the scene of `a` with the additional override key=value (none if key is NULL) and returns the processor time of
+ * all its steps [s], or NAN if a step fails. whole: all steps are run and measured; otherwise the time is extrapolated
+ * from the first steps. The warnings of the run are appended to *found, which may be NULL. */
 static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole,
                         struct warnings *found)
 {
@@ -151,9 +154,9 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     return seconds;
 }
 
-/* Returns the factor by which the time of a whole run differs from the time extrapolated from its first steps [1],
- * measured in the same scene with larger particles; NAN if unknown. Stores the factor on the spacing in c->coarser
- * and the result in c->growth. first: extrapolated time of this scene [s]. */
+/* Returns the processor time of all steps of a scene over the time extrapolated from its first steps [1], measured in
+ * the same scene with larger particles. Stores the factor on the spacing in c->coarser and the return value in
+ * c->growth. first: extrapolated time of the scene s itself [s]. Returns NAN if the ratio cannot be measured. */
 static double growth_of(struct cost *c, const struct scene *s, const struct run_arguments *a, double first)
 {
     char value[32];
@@ -172,7 +175,8 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
 /* Returns the number of neighbours of a particle inside the body, from the volume of a full family. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Returns the time of output [s], with the initial frame and two checkpoints. */
+/* Returns an estimate of the time for writing output [s]: frames, of which one is at the start, two checkpoints,
+ * profiles and particle series. */
 static double output_seconds(const struct run *e)
 {
     double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
@@ -182,16 +186,16 @@ static double output_seconds(const struct run *e)
                                     FILE_SECONDS * (double)probes_count_profiles(&e->probing->probes));
 }
 
-/* Factors from the estimated time of a run to its bounds, by the basis of the estimate. The values are empirical,
- * from scenes of all kinds (tests/scenes/long_forecast.sh). */
+/* Factors from the estimated run time to its lower bound (estimate / below) and upper bound (estimate * above), by the
+ * basis of the estimate. The values are empirical, from scenes of all kinds (tests/scenes/long_forecast.sh). */
 static const struct {
     double below, above;
 } range[] = {[COST_TRIED] = {1.3, 1.5}, [COST_SCALED] = {1.6, 1.6}, [COST_FIRST] = {2, 1.5}};
 #define SPREAD_MOST 1.5 /* of what is measured on a busy machine */
 
-/* Estimates the time of the whole run, with set-up and output, and its lower and upper bounds: c->run, least and most
- * [s]. Stores in c->basis whether the run was measured, scaled or extrapolated. Warnings of a measured run replace
- * those in c->found. */
+/* Estimates the time of the whole run with set-up and output, c->run, and its bounds c->least and c->most [s]. Stores
+ * in c->basis whether the time was measured, scaled or extrapolated. If the whole run was measured, its warnings
+ * replace those in c->found. c->make, step, spread and output must be set. */
 static void cost_run(struct cost *c, const struct run_clock *clock, const struct scene *scene,
                      const struct run_arguments *a)
 {
@@ -215,8 +219,8 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
-/* Returns the time of one step per particle [s] in the scene with all particles peridynamic and another spacing [m];
- * NAN if unknown. */
+/* Returns the processor time of one step per particle [s] for the scene of `a` with all particles peridynamic and the
+ * given spacing [m]; NAN if the steps fail. */
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {
     struct scene s = {0};
@@ -237,9 +241,9 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     return seconds;
 }
 
-/* Estimates the time of an adaptive run if all particles were peridynamic, c->all_peridynamic [s], from first steps
- * of such a run, or of one with larger particles if there are too many bonds. It also becomes the upper bound c->most
- * if the estimate of the run is only an extrapolation. */
+/* Estimates the time of an adaptive run if all its particles were peridynamic, c->all_peridynamic [s]. Measures first
+ * steps of such a run, or of one with larger particles if there are more than BONDS_MOST bonds. If c->run is only an
+ * extrapolation, the upper bound c->most is raised to this time, or to INFINITY if it is unknown. */
 static void cost_peridynamic(struct cost *c, const struct run *e, const struct run_arguments *a)
 {
     const struct scene *s = e->scene;
@@ -254,8 +258,8 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
     if (c->basis == COST_FIRST) c->most = c->all_peridynamic > 0 ? fmax(c->most, c->all_peridynamic) : INFINITY;
 }
 
-/* Returns an estimate of the memory that writing output needs [byte]; trial steps write nothing and do not show
- * it. */
+/* Returns an estimate of the memory for writing output [byte]. Trial steps write nothing, so that their memory does not
+ * include it. */
 static double output_bytes(const struct particles *part, const struct scene *scene)
 {
     /* per particle, by dimension: copy for the writer, the sort order, what goes to the particles file; measured */

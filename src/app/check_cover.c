@@ -18,8 +18,8 @@ bool piece_contains(const struct piece *p, const real *X, real tolerance)
            (p->material == ANY_MATERIAL || scene_material_at(p->scene, b, X, b->material) == p->material);
 }
 
-/* Returns true if X is inside the piece or within a distance of its surface. Always returns false for the piece that
- * consists of what remains of a body outside its parts of other materials. */
+/* Returns true if X [m] is inside the piece or within `distance` [m] of it. Returns false for the piece of a body's
+ * basic material, which is the remainder of the body outside its parts of other materials. */
 static bool piece_near(const struct piece *p, const real *X, real distance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
@@ -69,8 +69,8 @@ static void cell_middle(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
-/* Returns true if a face of the body seems to cross a cell: some neighbours are filled by particles and the cell is
- * not, or vice versa; or neither are filled and the shape is near. */
+/* Returns true if a face of the piece seems to cross a cell: a neighbouring cell is filled by a particle and the cell
+ * is not, or vice versa; or neither is filled and the piece is within half a cell diagonal. */
 static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cell)
 {
     int64_t at[DIM_MAX];
@@ -92,8 +92,8 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     return piece_near(p, X, 0.5 * sqrt(c->dim) * c->spacing);
 }
 
-/* Returns true if more than one face of the body can cross a cell: the cell has no filled neighbour along some axis,
- * or is between two faces. */
+/* Returns true if several faces of the body can cross a cell: a filled cell without filled neighbours along some axis,
+ * an empty cell between two filled ones, or any cell without filled neighbours. */
 static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
@@ -108,8 +108,8 @@ static bool is_thin(const struct cover *c, int64_t cell)
     return thin || !beside;
 }
 
-/* Returns true if a solid of the shape is a surface from a file, for which it is expensive to test whether a point is
- * inside. */
+/* Returns true if a solid of the shape, or of a group or extrusion in it, is a surface from a file. Testing whether a
+ * point is inside such a solid is expensive. */
 static bool is_dear(const struct region *shape)
 {
     bool dear = false;
@@ -120,8 +120,8 @@ static bool is_dear(const struct region *shape)
     return dear;
 }
 
-/* Returns the share of a cell that is inside the shape, if its surface in the cell is replaced by a plane, from the
- * distance and normal at the centre X of the cell. */
+/* Returns the share of a cell with centre X that is inside the shape [1]. Approximates the surface in the cell by a
+ * plane, from the distance and normal of the surface at X. */
 static real share_behind(const struct cover *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;
@@ -131,8 +131,9 @@ static real share_behind(const struct cover *c, const struct region *shape, cons
     return share < 0 ? 0 : share > 1 ? 1 : share;
 }
 
-/* Returns the share of a cell that is inside, from the points of a Weyl sequence (Roberts' constants) with a
- * different start in each cell. plane: one face crosses the cell. */
+/* Returns the share of a cell that is inside the piece [1], from PLACES points of a Weyl sequence (constants of
+ * Roberts) with a different start in each cell. plane: only one face crosses the cell, and share_behind is used
+ * instead. */
 static real share_within_cell(const struct cover *c, const struct piece *p, int64_t cell, bool plane)
 {
     static const real step[][DIM_MAX] = {{0.7548776662466927, 0.5698402909980532},

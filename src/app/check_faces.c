@@ -33,7 +33,8 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
     return place;
 }
 
-/* Creates the grid of column heights. Returns false if the columns are too scattered for a table. */
+/* Creates the grid of column heights from the particles of face f of boundary b. Returns false, with nothing to
+ * release, if the columns are too scattered for a table. Release c->height otherwise. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
                       const struct exposed_face *f)
 {
@@ -63,8 +64,8 @@ static bool ends_make(struct ends *c, const struct particles *p, const struct sc
     return true;
 }
 
-/* Returns the slope of the column heights along one axis: the smaller one of both sides, so that a single step does
- * not count. */
+/* Returns the slope of the column heights at index `place` along axis c->axis[k] [1], over AWAY columns. Of the slopes
+ * on both sides it is the smaller one, so that a single step does not count as a slope. */
 static real slope_along(const struct ends *c, int64_t place, int k)
 {
     int64_t stride = 1;
@@ -76,7 +77,8 @@ static real slope_along(const struct ends *c, int64_t place, int k)
     return isnan(after) ? isnan(before) ? 0 : before : isnan(before) || after < before ? after : before;
 }
 
-/* Returns the cosine of the angle between the axis of a face and the surface at particle i. */
+/* Returns the cosine of the angle between the outward axis of face b and the surface normal at particle i [1]. Uses the
+ * normal of the body's shape if c->height is NULL, else the slopes of the column heights. */
 static real cosine_at(const struct scene *scene, const struct particles *part, const struct boundary *b,
                       const struct ends *c, int64_t i)
 {
@@ -92,9 +94,9 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
     return 1 / sqrt(1 + slope2);
 }
 
-/* Sums the area of the particles of a face whose inner end along the axis is at `from` or further out, and separately
- * the area of those where the surface is inclined to the axis. from: coordinate along the axis, outward positive [m];
- * -INFINITY includes all. */
+/* Sums the area of particles of face f, and separately the area of those where the surface is inclined to the axis by
+ * more than ELSEWHERE degrees. Includes particles whose inner end is at the coordinate `from` along the axis (outward
+ * positive [m]) or further out; -INFINITY includes all. c: column heights (see cosine_at). */
 static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
                                        const struct boundary *b, const struct exposed_face *f, const struct ends *c,
                                        real from)
@@ -113,9 +115,8 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
     return w;
 }
 
-/* Returns a coordinate along the axis, outward positive [m]: if the region of the load begins there, it excludes
- * nearly all of the inclined part of the face. Returns INFINITY if no such coordinate is found. all: sums over the
- * whole face. */
+/* Returns a coordinate along the axis of face b, outward positive [m], such that a region beginning there excludes
+ * nearly all of the inclined part of the face; INFINITY if none is found. all: sums over the whole face. */
 static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct exposed_face *f,
                           const struct ends *c, const struct elsewhere *all)
 {
@@ -127,7 +128,7 @@ static real elsewhere_cut(const struct run *e, const struct boundary *b, const s
     return INFINITY;
 }
 
-/* Returns true if all bodies of a face have a shape with known normals. */
+/* Returns true if all bodies to which boundary b applies have a shape with known normals of its own. */
 static bool has_normals(const struct scene *s, const struct boundary *b)
 {
     bool all = true;

@@ -6,7 +6,8 @@
 #include "base/memory.h"
 #include "check_parts.h"
 
-/* Returns true if all solids are boxes along the axes, whose volume follows from the spacing. */
+/* Returns true if all solids of a shape are boxes along the axes. The volume of their particles follows from the
+ * spacing, so that no comparison is needed. */
 static bool all_boxes(const struct region *shape)
 {
     bool boxes = true;
@@ -15,8 +16,8 @@ static bool all_boxes(const struct region *shape)
     return boxes;
 }
 
-/* Returns the number of particles of a body. Includes particles that are not created if it is the only body; joined
- * bodies count as the first. */
+/* Returns the number of particles of a body. If it is the only body, particles that are not created (in coarse cells)
+ * are included. Bodies that are joined have the index of the first. */
 static int64_t particles_of(const struct scene *scene, const struct particles *part, int body)
 {
     int64_t n = 0;

@@ -26,8 +26,8 @@ static int64_t layer_site(const struct layer_map *m, const struct particles *p, 
     return site;
 }
 
-/* Marks the lattice sites that the particles of a body fill. Returns false, with nothing to free, if there are too many
- * sites. */
+/* Marks the lattice sites that the particles of a body fill, in the bounding box of these particles. Returns false,
+ * with nothing to free, for more than CELLS_MOST sites. Release m->filled otherwise. */
 static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
 {
     const struct particles *p = &e->part;
@@ -57,8 +57,8 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     return true;
 }
 
-/* Returns the number of consecutive filled sites along an axis, beginning next to site `from`, at most RUNS_MOST.
- * way: 1 or -1, the direction along the axis. Sets *mirrored to true if the row of sites ends at a plane of
+/* Returns the number of consecutive filled sites along an axis, at most RUNS_MOST. Counting begins next to site `from`
+ * [dim, indices] in the direction `way` (1 or -1). Sets *mirrored to true if the filled sites end at a plane of
  * symmetry. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {
@@ -76,8 +76,9 @@ static int layer_run(const struct layer_map *m, const int64_t *from, int axis, i
     return run;
 }
 
-/* Returns the number of particle layers across the body at a site: the smallest one of all axes. Across slanting
- * parts it is up to 1.4 times too large. */
+/* Returns the number of particle layers across the body at the site with the indices at[dim]: the smallest of the
+ * counts along the axes. A count that ends at a plane of symmetry is doubled. Across slanting parts the number is up to
+ * 1.4 times too large. */
 static double site_layers(const struct layer_map *m, const int64_t *at)
 {
     double least = RUNS_MOST;
@@ -90,8 +91,9 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Returns the median number of layers across those particles of a body that have fewer than `most` layers; INFINITY
- * if these are less than the share SHARE_LEAST of the body. */
+/* Returns the median number of particle layers across a body over those of its particles that have fewer than `most`
+ * layers. Returns INFINITY if these are less than the share SHARE_LEAST of the particles, or if the body has too many
+ * sites. */
 static double body_layers(const struct run *e, int body, double most)
 {
     const struct particles *p = &e->part;
@@ -127,14 +129,13 @@ double count_thin_layers(const struct run *e, int body, double max_layers)
 
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
 
-/* Returns the relative error of nearly incompressible peridynamic families in bending, in plane strain and 3D [%].
- * The values hold for 10 layers, from static bending with the models ospd and mospd, and fall with the inverse of the
- * number of layers. */
+/* Returns the relative error in bending of nearly incompressible peridynamic bodies, in plane strain and 3D [%]. The
+ * values were measured with 10 layers, in static bending with the models ospd and mospd, and decrease as 1/layers. */
 static double soft_families(double poisson, double layers) { return (poisson > 0.47 ? 30 : 15) * 10 / layers; }
 
-/* Returns the relative error in bending of cells of two spacings [%]: a beam of N layers is 1 + b/N^2 times as
- * stiff, with b = 0.65/(1 - 2 nu), an empirical fit to cantilevers of 8 and 16 layers with nu from 0.3 to 0.4995,
- * which is within a fifth of b. */
+/* Returns the relative error in bending of linear cells of two spacings [%]. A beam of N layers is 1 + b/N^2 times too
+ * stiff, with b = 0.65/(1 - 2 nu): an empirical fit to cantilevers of 8 and 16 layers with nu from 0.3 to 0.4995,
+ * within a fifth of b. */
 static double soft_cells(double poisson, double layers)
 {
     const double more = 0.65 / (1 - 2 * poisson) / (layers * layers);

@@ -19,7 +19,7 @@ void print_levels(const struct run *e)
                (long long)levels_count_cells(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
-/* Writes a large number as text, such as 52 million, and returns it. */
+/* Writes a number as text, in full or, if `millions` is true, as in "52 million". Returns text. */
 static const char *many(double n, bool millions, char text[static 32])
 {
     if (millions)
@@ -49,7 +49,8 @@ static const char *much_memory(double bytes, char text[static 32])
     return text;
 }
 
-/* Returns the number of material points in coarse cells, including points that are not created. */
+/* Returns the number of material points in the coarse cells of all levels, including points that are not created. A
+ * cell of level k has an edge of 2^(k+1) spacings. */
 static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
 {
     double n = 0;

@@ -8,8 +8,8 @@
 #define PROBE 0.9       /* [spacings] largest distance of a particle from a position inside the body */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
-/* Returns true if a particle of the body is within PROBE spacings of X, or if too many particles are near X to test
- * them all. */
+/* Returns true if a particle of the body is within PROBE spacings of X [m]. Also returns true if more particles are
+ * near X than can be tested. */
 static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };
@@ -20,8 +20,8 @@ static bool body_at(const struct run *e, int body, const real *X)
     return n > ROOM;
 }
 
-/* Returns the number of particles of a body through particle i along the axis on which there are fewest, at most
- * LAYERS_MOST. A plane of symmetry does not count as the end of the body. */
+/* Returns the thickness of a body at particle i as a number of particles: the smallest count along an axis through the
+ * particle, at most LAYERS_MOST. An axis along which the body ends at a plane of symmetry counts as LAYERS_MOST. */
 static int layers_at(const struct run *e, int64_t i)
 {
     const struct particles *p = &e->part;
@@ -45,8 +45,8 @@ static int layers_at(const struct run *e, int64_t i)
     return least;
 }
 
-/* Returns the smallest number of layers L such that at least the share THIN_SHARE of the body has L layers or fewer,
- * at most LAYERS_MOST. Tests a sample of its particles. */
+/* Returns the smallest number of layers L such that at least the share THIN_SHARE of the body's particles have L layers
+ * or fewer across the body (see layers_at), at most LAYERS_MOST. Tests a sample of some LOOKED_AT particles. */
 static int thinnest(const struct run *e, int body)
 {
     const struct particles *p = &e->part;

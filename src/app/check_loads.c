@@ -17,16 +17,15 @@ struct instant {
     const char *why;
 };
 
-/* Replaces *best by t and *most by the absolute value of f at t, if this value is larger than *most and t is in
- * 0..duration. */
+/* Replaces *best by the time t [s] and *most by |f(t)|, if |f(t)| is larger than *most and t is in 0..duration. */
 static void instant_try(const struct time_function *f, real t, real duration, real *best, real *most)
 {
     if (t < 0 || t > duration || !(fabs(time_function_value(f, t)) > *most)) return;
     *best = t, *most = fabs(time_function_value(f, t));
 }
 
-/* Returns the time in 0..duration at which the absolute value of a time function is largest [s], the first one of
- * several. Stores this value in *most. */
+/* Returns the time in 0..duration [s] at which the absolute value of the time function f is largest, the earliest of
+ * several. Stores this absolute value in *most. */
 static real largest_factor_at(const struct time_function *f, real duration, real *most)
 {
     real best = *most = 0;
@@ -45,10 +44,12 @@ static real largest_factor_at(const struct time_function *f, real duration, real
 
 enum { MOMENTS = 200, PLACES = 64 }; /* numbers of times, and of particles of a load, at which formulas are evaluated */
 
-/* Function for the vector of the k-th particle of a load at a time [dim]. */
+/* Type of functions that compute the force or displacement of the k-th particle of a load at time t [s] and store it in
+ * vector[dim]. */
 typedef void vector_fn(const struct load *l, const struct particles *p, int64_t k, real t, real *vector);
 
-/* Returns the sum of the squared vectors of a load at time t over a sample of its particles. */
+/* Returns the sum of the squared vectors (forces or displacements) of a load at time t, over a sample of its
+ * particles. */
 static real square_sum(const struct load *l, const struct particles *p, vector_fn *vector, real t)
 {
     real sum = 0, a[DIM_MAX];
@@ -56,8 +57,8 @@ static real square_sum(const struct load *l, const struct particles *p, vector_f
     return sum;
 }
 
-/* Returns the time at which the vectors of a load are largest, among evenly spaced times and the times of its table:
- * the last time, unless they are larger at an earlier one. */
+/* Returns the time [s] at which the vectors (forces or displacements) of a load are largest, among evenly spaced times
+ * and the times of its table. Returns `duration`, the last time, unless they are larger at an earlier one. */
 static real largest_at(const struct load *l, const struct particles *p, vector_fn *vector, real duration)
 {
     const struct time_function *f = &l->boundary->time;
@@ -71,8 +72,8 @@ static real largest_at(const struct load *l, const struct particles *p, vector_f
     return best;
 }
 
-/* Returns the time at which the forces of a load are reported, and the reason as a text: the time at which they are
- * largest, or the end of the run. */
+/* Returns the time at which the force of a load is reported, with a text that gives the reason: the time at which the
+ * force is largest, or the end of the run. */
 static struct instant instant_of(const struct load *l, const struct particles *p, real duration)
 {
     const struct boundary *b = l->boundary;
@@ -93,7 +94,8 @@ struct resultant {
     real force[DIM_MAX], moment[DIM_MAX];
 }; /* [N], about the origin [N m] */
 
-/* Returns the sums over the particles of a load; round-off is set to 0. */
+/* Returns the total force and the moment about the origin of a load at time t [s], summed over its particles. Sums that
+ * are round-off are set to 0. */
 static struct resultant resultant_at(const struct load *l, const struct particles *p, real t)
 {
     struct resultant r = {{0}, {0}};
@@ -128,7 +130,8 @@ struct faced {
     bool unknown;    /* for one of the bodies no distance is known */
 };
 
-/* Returns true if a body has a shape of its own for which distances are known. */
+/* Returns true if a body has a shape of its own, not shared with joined bodies, to whose surface distances can be
+ * computed. */
 static bool has_distance(const struct scene *s, int body)
 {
     const struct region *shape = &s->body[body].shape;
@@ -140,8 +143,9 @@ static bool has_distance(const struct scene *s, int body)
     return has;
 }
 
-/* Adds a face of particle i to the sums in `context` (struct faced): its area, its area projected on the surface of
- * the body's shape, and that times its distance from this surface. axis, side: outward normal of the face. */
+/* Adds one face of a particle to the sums in *context, a struct faced: its area [m^2], its area projected on the
+ * surface of the body's shape, and this projected area times its distance from the surface. i: particle; axis, side (1
+ * or -1): outward normal of the face. Called by pressure_visit_faces. */
 static void face_beside_shape(void *context, int32_t i, int axis, int side, real area)
 {
     struct faced *f = context;
@@ -158,10 +162,11 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->off += area * side * normal[axis] * off;
 }
 
-/* Prints area and mean distance of the faces of a pressure load, compared with the surface of the shape. Steps of a
- * slanting or curved surface have a larger area and are on both sides of it. The mean distance is the volume between
- * both over the area, by which a bore is wider than its shape: the flux of the shape's normals through closed steps
- * equals the flux through the surface. */
+/* Prints the area of the faces on which the pressure load number `which` acts, and their mean distance from the
+ * surface of the body's shape. Steps of a slanting or curved surface have a larger area and are on both sides of it.
+ * The mean distance is the volume between faces and surface over the area of the surface, by which a bore is wider
+ * than its shape. It is exact because the flux of the shape's normals through closed steps equals the flux through
+ * the surface. */
 static void say_pressed(const struct run *e, int which)
 {
     const struct load *l = &e->loads.load[which];
@@ -183,8 +188,8 @@ static void say_pressed(const struct run *e, int which)
                off < 0 ? "below" : "above");
 }
 
-/* Computes the exact area of the face of a box that is visible along the axis b->face, within the region of b [m^2].
- * Returns false if the body is no box, or the region is none along the axes. */
+/* Computes the exact area [m^2] of the face normal to axis b->face of a body that is a box, within the region of
+ * boundary b. Returns false if the body is no box along the axes, or the region is none. */
 static bool face_exact(const struct scene *s, const struct boundary *b, real *area)
 {
     const int body = b->body >= 0 ? b->body : 0;
@@ -214,7 +219,7 @@ static void say_traction_area(const struct scene *scene, const struct load *l)
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
 
-/* Prints the force and the moment of a load, and the time at which they are evaluated. */
+/* Prints the force and the moment of a load and the time for which they are computed, as clauses. */
 static void say_force(const struct particles *part, const struct scene *scene, const struct load *l)
 {
     const int dim = part->dim;
@@ -266,7 +271,8 @@ static void say_mean_displacement(const struct particles *part, const struct loa
     printf(" m%s", boundary_motion_varies_in_space(l->boundary) ? " in the mean" : "");
 }
 
-/* Prints the mean displacement at its maximum and at the end, and its growth rate. */
+/* Prints the mean displacement that a support prescribes, at its maximum and at the end of the run, and its largest
+ * speed if the solver is explicit. */
 static void say_displacement(const struct scene *scene, const struct particles *part, const struct load *l)
 {
     const bool explicit = scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;

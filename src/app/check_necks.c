@@ -43,9 +43,9 @@ struct chord {
     real middle, width;
 };
 
-/* Returns true if the run of cells through `cell` continues to the next cell along the axis of the widths. A run
- * consists of consecutive cells with particles, or of consecutive cells without particles that the piece partly
- * covers. way: -1 or 1, the direction along the axis. */
+/* Returns true if the run of cells through `cell` continues to the next cell in the direction `way` (-1 or 1) along
+ * k->axis. A run consists either of consecutive cells with particles, or of consecutive cells without particles that
+ * the piece partly covers. */
 static bool run_goes_on(const struct necks *k, int64_t cell, int way)
 {
     const struct cover *c = k->cover;
@@ -56,7 +56,8 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
 
-/* Returns the number of cells of a run, from its first cell. */
+/* Returns the number of cells of the run whose first cell is `from`. A run is a row of alike cells along k->axis (see
+ * run_goes_on). */
 static int64_t run_span(const struct necks *k, int64_t from)
 {
     int64_t n = 1;
@@ -64,8 +65,8 @@ static int64_t run_span(const struct necks *k, int64_t from)
     return n;
 }
 
-/* Returns true if there is a particle next to one of the ends of a run of n cells along the axis. from: its first
- * cell. */
+/* Returns true if a cell with a particle adjoins an end of a run of n cells along k->axis. from: the first cell of the
+ * run. */
 static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
@@ -75,8 +76,9 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
 
-/* Stores in k->rows, for all cells of a run of consecutive cells along the axis, one more than the number of its
- * particles. Runs of covered cells without particles get 1, unless they touch a run of particles. */
+/* Sets k->rows[cells]: 1 + the number of particles, at most NARROW, in the run along k->axis to which the cell belongs;
+ * 0 for cells in no run. Runs of cells without particles that the piece partly covers get 1, unless they adjoin a run
+ * of particles. */
 static void rows_count(struct necks *k)
 {
     const struct cover *c = k->cover;
@@ -90,8 +92,8 @@ static void rows_count(struct necks *k)
     }
 }
 
-/* Considers the run of cells through `cell`, and the cells next to it along the axis `across` in the direction way
- * (-1 or 1). Returns the one of these cells that is in the longest run of its own, or -1 if none is in a run. */
+/* Searches the cells beside the run through `cell`: those next to it along the axis `across`, in the direction `way`
+ * (-1 or 1). Returns the one of these cells whose own run has the most rows, or -1 if none of them is in a run. */
 static int64_t run_beside(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct cover *c = k->cover;
@@ -107,8 +109,7 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
     return found;
 }
 
-/* Returns true if a cell is the last one before a plane of symmetry normal to the axis `across`, in the direction way
- * (-1 or 1). */
+/* Returns true if a plane of symmetry normal to the axis `across` adjoins a cell in the direction `way` (-1 or 1). */
 static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct run *e = k->engine;
@@ -129,8 +130,8 @@ static void cell_point(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
 }
 
-/* Measures the width of the piece on the line along the axis through X: its midpoint and length. Returns false if X
- * is outside the piece or on its surface. */
+/* Measures the width of the piece along k->axis on the line through X [m], and stores its midpoint and length in
+ * *chord. Returns false if X is outside the piece or on its surface. */
 static bool chord_measure(const struct necks *k, const real *X, struct chord *chord)
 {
     const real h = k->cover->spacing, most = 2 * NARROW * h;
@@ -141,7 +142,8 @@ static bool chord_measure(const struct necks *k, const real *X, struct chord *ch
     return true;
 }
 
-/* Parallel chords across a neck, SAMPLES in a column, from `first` to `last`; chord 0 is on the lattice. */
+/* Parallel chords across a neck, from chord `first` to chord `last`, at a distance of 1/SAMPLES spacing. Chord 0 is on
+ * a lattice line. */
 enum { CHORDS_MOST = SAMPLES * (LONGEST + 8 * NARROW) };
 struct chords {
     int across, first, last;                 /* axis; numbers of chords, first <= 0 <= last */
@@ -152,9 +154,9 @@ struct chords {
 
 static struct chord *chord_of(struct chords *p, int m) { return &p->chord[CHORDS_MOST + m]; }
 
-/* Measures the width of the piece on parallel lines SAMPLES to a spacing, first through p->X (chord 0), then to both
- * sides, each through the midpoint of the previous chord. reach[2]: largest number of chords on the lower and upper
- * side; a side ends earlier where a line misses the piece. Returns false if no chord is found near p->X. */
+/* Measures the widths of the piece on parallel lines, SAMPLES lines per spacing: first through p->X (chord 0), then on
+ * both sides, each line through the midpoint of the previous chord. reach[2]: largest number of chords on the lower and
+ * the upper side; a side ends earlier where a line misses the piece. Returns false if no chord is found near p->X. */
 static bool chords_measure(struct chords *p, const struct necks *k, const int *reach)
 {
     real X[DIM_MAX];
@@ -181,8 +183,8 @@ static bool chords_measure(struct chords *p, const struct necks *k, const int *r
     return true;
 }
 
-/* Returns the number of the narrowest one of chords from..to; of several chords with this width, to within a
- * tolerance [m], the middle one. */
+/* Returns the number of the narrowest one of the chords from..to. If several chords have this width to within
+ * `tolerance` [m], it returns the middle one. */
 static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
 {
     int best = from, end;
@@ -192,8 +194,9 @@ static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
     return (best + end) / 2;
 }
 
-/* Returns the number of particle rows across the piece in the column of cells that contains chord m: lattice lines
- * between the ends of the chord in the middle of the column. Returns NAN if that chord was not measured. */
+/* Returns the number of particle rows across the piece in the column of cells that contains chord m: the number of
+ * lattice lines between the ends of the chord in the middle of this column. Returns NAN if that chord was not
+ * measured. */
 static real chord_rows(struct chords *p, const struct necks *k, int m)
 {
     const int column = (int)floor((m + 0.5 * SAMPLES) / SAMPLES) * SAMPLES;
@@ -204,9 +207,10 @@ static real chord_rows(struct chords *p, const struct necks *k, int m)
     return floor(high + ON_SURFACE) - ceil(low - ON_SURFACE) + 1;
 }
 
-/* Returns true if the piece widens on both sides of its narrowest chord, and its midline shifts less than its width
- * grows; bent strips of constant width fail the second condition. A side that ends at a plane of symmetry counts as
- * the other one. Sets *even to true if all changes of width are either negligible or larger than half a spacing. */
+/* Returns true if the piece widens by GROWTH spacings on both sides of its chord `narrowest`, and the midline shifts
+ * less than the width grows; bent strips of constant width fail the second condition. A side that ends at a plane of
+ * symmetry counts as the mirror image of the other side. Sets *even to true if the width changes only in steps: every
+ * change is below 0.001 or above 0.5 spacings. */
 static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool *even)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -227,8 +231,9 @@ static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool
     return fabs(shift[0] + shift[1]) < 0.75 * (growth[0] + growth[1]);
 }
 
-/* Returns the relative error of the width that the particle rows of a neck represent [1]. Width and rows are averaged
- * as the mean of their inverses, over a length of the neck equal to its width. */
+/* Returns the relative error of the width that the particle rows of a neck represent [1]. narrowest: number of its
+ * narrowest chord. Both widths are averaged over a length of the neck equal to its width, as 1/mean(1/width), which is
+ * how the compliance of the neck depends on them. */
 static real neck_off(struct chords *p, const struct necks *k, int narrowest)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -241,7 +246,7 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
     return exact / filled - 1;
 }
 
-/* Returns the cell at the centre of a neck, or -1 if the centre is in no run of particles. */
+/* Returns the index of the cell at the centre u->at of a neck, or -1 if this cell is outside the grid or in no run. */
 static int64_t neck_cell(const struct necks *k, const struct uneven *u)
 {
     int64_t cell = 0;
@@ -253,8 +258,8 @@ static int64_t neck_cell(const struct necks *k, const struct uneven *u)
     return k->rows[cell] > 0 ? cell : -1;
 }
 
-/* Moves X along an axis in fine steps until the piece ends, at most two spacings. Returns true if the width measured
- * last is less than 0.95 of `width` [m]. way: -1 or 1, the direction along the axis. X is changed. */
+/* Moves X [m] along `axis` in the direction `way` (-1 or 1) in steps of 1/FINE spacing until the piece ends, at most
+ * two spacings. Returns true if the width at the last point inside is less than 0.95 `width` [m]. */
 static bool narrows_to(const struct necks *k, real *X, int axis, int way, real width)
 {
     struct chord chord = {X[k->axis], width};
@@ -265,9 +270,9 @@ static bool narrows_to(const struct necks *k, real *X, int axis, int way, real w
     return chord.width < 0.95 * width;
 }
 
-/* Returns true if the neck is nowhere narrower along the third axis, up to the end of the piece or to where it
- * widens. cell: a cell of the neck; width: its width there [m]. Round rods fail, as they are narrower at their sides;
- * check_sections.c examines their cross-sections. */
+/* Returns true if a neck in 3D is nowhere narrower along the axis `third`, the one neither along its width nor along
+ * its length, up to the end of the piece or to where the neck widens. cell: a cell of the neck; width: width of the
+ * neck there [m]. Returns false for round rods, which are narrower at their sides; check_sections.c examines these. */
 static bool is_least_across(const struct necks *k, int64_t cell, int third, real width)
 {
     for (int way = -1; way <= 1; way += 2) {
@@ -281,9 +286,9 @@ static bool is_least_across(const struct necks *k, int64_t cell, int third, real
     return true;
 }
 
-/* Returns position, width and error of a neck at its narrowest chord. If the chords on both sides are known, the
- * minimum of a parabola through the three widths gives a better position, where the width is measured again. rows:
- * number of particle rows. */
+/* Returns position, width and error of a neck at its chord `narrowest`. If the chords on both sides are known, the
+ * width is measured again at the minimum of the parabola through the three widths. rows: number of particle rows across
+ * the neck. */
 static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
 {
     const real h = k->cover->spacing;
@@ -305,9 +310,9 @@ static struct uneven neck_at(struct chords *p, const struct necks *k, int narrow
     return u;
 }
 
-/* Measures a neck and adds it to the list if the width represented by its particle rows has a large error. cell: cell
- * of its first column; columns: number of consecutive columns with equal numbers of rows. p: memory for the chords,
- * whose axis and planes of symmetry are set. */
+/* Measures a neck and adds it to the list if the width of its particle rows differs too much from the measured width.
+ * cell: a cell of the first column of the neck; columns: number of consecutive columns with this number of rows. p:
+ * memory for the chords, with the axis p->across and p->mirrored set. */
 static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
 {
     const real h = k->cover->spacing, rows = k->rows[cell] - 1;
@@ -329,8 +334,8 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     uneven_list_add(list, &u, false);
 }
 
-/* Sets k->seen of all cells that are connected to `cell` through runs of the same length, so that their neck is
- * examined once. */
+/* Sets k->seen of all cells that are connected to `cell` through cells with the same number of rows, so that their neck
+ * is examined only once. */
 static void neck_mark(struct necks *k, int64_t cell)
 {
     int64_t top = 0;
@@ -349,8 +354,9 @@ static void neck_mark(struct necks *k, int64_t cell)
     }
 }
 
-/* Starts at the run of cells through `cell` and follows the runs of the same length along the axis `across`. If the
- * runs before and after them are longer, or a plane of symmetry is there, examines them as a neck. */
+/* Follows the runs of equal length along the axis `across`, starting at the run through `cell`. If the runs before and
+ * after them are longer, or a plane of symmetry is there, they are a neck: it is measured and, if its error is large,
+ * added to the list. */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);
@@ -393,8 +399,8 @@ void uneven_add_necks(struct uneven_list *list, const struct run *e, const struc
     memory_free(k.stack);
 }
 
-/* Adds a piece of a 1D body from `low` to `high` [m] to the list if its particles represent another length. first:
- * position of a particle [m]. */
+/* Adds the part of a 1D body from `low` to `high` [m] to the list if its particles represent a length with a relative
+ * error above LENGTH_OFF. first: coordinate of a particle of the body's lattice [m]. */
 static void length_judge(struct uneven_list *list, real low, real high, real first)
 {
     const real h = list->piece.scene->spacing;

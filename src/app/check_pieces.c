@@ -6,8 +6,8 @@
 #include "check_parts.h"
 #include "fracture/fragments.h"
 
-/* Sets driven[k] of each fragment k of which a support drives or holds a particle. If the scene has any plane of
- * symmetry, sets driven[] of all fragments, since the plane may hold them. */
+/* Sets driven[k] to true for each fragment k in which a support holds or drives a particle. If the scene has a plane of
+ * symmetry, sets it for all fragments, since the plane may hold them. driven: array with an entry for each fragment. */
 static void mark_driven(const struct bond_source *source, const struct particles *part, const struct fragments *f,
                         bool *driven)
 {
@@ -16,7 +16,9 @@ static void mark_driven(const struct bond_source *source, const struct particles
         if (f->of[i] >= 0 && part->flag[i] & FLAG_DRIVEN) driven[f->of[i]] = true;
 }
 
-/* Prints the fragments of a body except the heaviest one; particles without any bond are reported by a warning. */
+/* Prints the number of fragments of a body, the position of the second heaviest, and whether a fragment lacks a support
+ * in a static scene. Prints nothing for a body in one piece. driven[k]: fragment k has a support. Particles without any
+ * bond are not fragments; a warning reports them. */
 static void say_body(const struct scene *s, const struct fragments *f, const bool *driven, int body)
 {
     int64_t pieces = 0, particles = 0, free_ones = 0, first = -1;

@@ -41,8 +41,8 @@ static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
     return s->n++;
 }
 
-/* Creates a section that consists of all covered cells of a slice connected to cell `first`, and sums its area.
- * stack: memory for one index per cell of a slice. */
+/* Creates the section of a slice that contains the cell `first`: all covered cells of the slice connected to it. Sums
+ * the areas of the shape and of the particles. stack: work array with an element for each cell of a slice. */
 static void section_flood(struct sections *s, int64_t slice, int64_t first, int64_t *stack)
 {
     const struct cover *c = s->cover;
@@ -65,14 +65,15 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
     }
 }
 
-/* Returns the number of the section with the larger area, a or b; -1 stands for no section. */
+/* Returns that of the sections a and b which has the larger area, as its index. -1 denotes no section. */
 static int32_t larger(const struct sections *s, int32_t a, int32_t b)
 {
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
 }
 
-/* Finds the sections of all slices normal to an axis, and for each one the largest section that it touches in the
- * next and previous slice. named: marks of cells, kept for all axes. Release with sections_free. */
+/* Finds the sections (connected sets of covered cells) of all slices normal to `axis`, and for each section the largest
+ * one that it touches in the next and in the previous slice. named[cells]: marks of reported parts, which are borrowed
+ * and kept for all axes. Release s with sections_free. */
 static void sections_make(struct sections *s, const struct cover *c, int axis, uint8_t *named)
 {
     const int64_t stride[DIM_MAX] = {1, c->n[0], c->n[0] * c->n[1]};
@@ -106,16 +107,16 @@ static void sections_free(struct sections *s)
     memory_free(s->of);
 }
 
-/* Returns true if section k exists, touches sections in the previous and next slice, and has the given area [cells]
- * to within the relative tolerance ALIKE. */
+/* Returns true if section k exists, touches sections in the previous and next slice, and has the area `area` [cells] to
+ * within the relative tolerance ALIKE. k is -1 for no section. */
 static bool goes_on_alike(const struct sections *s, int32_t k, real area)
 {
     return k >= 0 && s->section[k].before >= 0 && s->section[k].after >= 0 &&
            fabs(s->section[k].area - area) <= ALIKE * area;
 }
 
-/* Returns the mean width of a section along s->across[k] [cells]: its area over the number of lines of cells along
- * this axis. The area is the one of the shape, or with `filled` the one of the particles. */
+/* Returns the mean width of a section along the axis s->across[k] [cells]: its area over the number of lines of cells
+ * along this axis that it occupies. filled: uses the area of the particles in place of the area of the shape. */
 static real width_along(const struct sections *s, int32_t number, int k, bool filled)
 {
     const struct cover *c = s->cover;
@@ -133,8 +134,8 @@ static real width_along(const struct sections *s, int32_t number, int k, bool fi
     return sum > 0 ? (filled ? section->filled : section->area) / sum : 0;
 }
 
-/* Describes a section with a wrong number of particle rows: its centre, and its widths along the axis on which the
- * width of the particles differs most from the width of the shape. off: relative error of the area. */
+/* Returns the description of a section with a wrong number of particle rows: its centre, and the widths of shape and
+ * particles along the axis on which they differ most. off: relative error of the area [1]. */
 static struct uneven uneven_of(const struct sections *s, int32_t number, real off)
 {
     const struct cover *c = s->cover;
@@ -161,8 +162,8 @@ static struct uneven uneven_of(const struct sections *s, int32_t number, real of
     return u;
 }
 
-/* Sums over consecutive sections of nearly equal area. middle: the section halfway; area and filled: areas of the
- * shape and of the particles [cells]. */
+/* Sums over consecutive sections of nearly equal area. slices: their number; middle: the section halfway; area, filled:
+ * areas of the shape and of the particles [cells]. */
 struct stretch {
     int slices;
     int32_t middle;
@@ -170,8 +171,8 @@ struct stretch {
     bool even; /* all sections have equal numbers of particles: their faces are along the axis */
 };
 
-/* Sums over at most `most` consecutive sections with nearly the area of section `first`, in ascending order of
- * slices. */
+/* Returns the sums over at most `most` consecutive sections, in ascending order of slices, that begin with section
+ * `first` and have nearly its area. */
 static struct stretch stretch_from(const struct sections *s, int32_t first, int most)
 {
     const struct section *begin = &s->section[first];
@@ -185,8 +186,8 @@ static struct stretch stretch_from(const struct sections *s, int32_t first, int 
     return t;
 }
 
-/* Marks in s->named the cells of section `from` and of all sections that continue it with nearly equal area on both
- * sides. axis: the axis of the wrong width. */
+/* Marks the cells of a part as reported, in s->named. The part consists of section `from` and the sections that
+ * continue it on both sides with nearly equal area. axis: axis along which the width of the part is wrong. */
 static void part_mark(const struct sections *s, int32_t from, int axis)
 {
     const real area = s->section[from].area;
@@ -202,9 +203,9 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
     }
 }
 
-/* Compares the areas of shape and particles over SLICES sections from `first` on, or over fewer if the part is
- * shorter. Uses SLICES_SLANTING sections if they differ, because errors from the steps of slanting faces average out.
- * Adds the part to the list if the areas differ too much. */
+/* Compares the areas of shape and particles over SLICES sections from section `first` on, or over fewer if the part is
+ * shorter. If the sections differ, it uses SLICES_SLANTING of them, because errors from the steps of slanting faces
+ * average out. Adds the part to the list if the areas differ too much. */
 static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];
@@ -222,8 +223,8 @@ static void part_judge(const struct sections *s, int32_t first, struct uneven_li
     uneven_list_add(list, &u, known);
 }
 
-/* Examines the sections of a piece across each axis and adds narrow parts to the list whose particles have a wrong
- * area. */
+/* Examines the sections of a piece across each axis and adds to the list the narrow parts whose particles have a wrong
+ * area. c: cells of the piece; named[cells]: marks the cells of listed parts. */
 static void piece_sections(struct uneven_list *list, const struct cover *c, uint8_t *named)
 {
     for (int axis = 0; axis < c->dim; axis++) {
@@ -234,8 +235,8 @@ static void piece_sections(struct uneven_list *list, const struct cover *c, uint
     }
 }
 
-/* Examines the narrow parts of the piece in the list, which is a body or all its parts of one material, and adds
- * those with a wrong number of particle rows. */
+/* Adds to the list the narrow parts of list->piece that have a wrong number of particle rows. The piece is a body, or
+ * all its parts of one material. */
 static void piece_judge(struct uneven_list *list, const struct run *e)
 {
     struct cover c;

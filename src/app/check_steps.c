@@ -21,7 +21,7 @@ enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies ro
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of tips of pre-cracks. */
+/* Returns the number of crack tips that belong to pre-cracks. */
 static int tips_of_cracks(const struct fracture_state *fracture)
 {
     int n = 0;
@@ -34,8 +34,8 @@ static bool is_sif_driven(const struct run *e)
     return tips_of_cracks(e->fracture) > 0 && sif_growth_why_impossible(e, NULL) == NULL;
 }
 
-/* Returns the distance over which the bodies extend from a crack tip [m]: ahead of it (side 1) or back along the
- * crack (side -1). Bodies from particle lists are ignored. */
+/* Returns the distance over which bodies extend from a crack tip [m]: ahead of the tip (side 1) or back along the crack
+ * (side -1). Bodies from particle lists are ignored. */
 static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
     const real most = 2 * (particles_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
@@ -50,7 +50,8 @@ static real way_within(const struct scene *s, const struct particles *part, cons
     return way;
 }
 
-/* Returns the length of the pre-crack behind a tip, inside bodies [m]; INFINITY if unknown. */
+/* Returns the length of the pre-crack behind a tip that is inside bodies [m]; INFINITY if the pre-crack is bent, in 3D,
+ * or not found. */
 static real crack_behind(const struct scene *s, const struct particles *part, const struct crack_tip *tip)
 {
     for (int k = 0; k < s->cracks && s->dim == 2; k++)
@@ -90,7 +91,8 @@ void print_load_steps(const struct run *e)
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
 
-/* Writes a line for loads that do not grow from zero. */
+/* Writes a remark if loads act before the first load step, and one if loads decrease although the control of the load
+ * steps requires that they grow. */
 static void advise_growth(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -114,7 +116,7 @@ static void advise_growth(const struct run *e, FILE *out)
             falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
 }
 
-/* Writes a line for tips with a short crack behind them or little material ahead. */
+/* Writes a remark for each crack tip with fewer than FEW spacings of crack behind it or of body ahead of it. */
 static void advise_lengths(const struct run *e, FILE *out)
 {
     const real h = e->scene->spacing;
@@ -132,7 +134,7 @@ static void advise_lengths(const struct run *e, FILE *out)
     }
 }
 
-/* Returns the number of particle columns of a load along an axis; 0 if they extend over the whole body along it. */
+/* Returns the number of particle columns of a load along an axis; 0 if they extend over the whole width of the body. */
 static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
     const real h = scene->spacing;
@@ -145,8 +147,8 @@ static int support_width(const struct scene *scene, const struct particles *part
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
 }
 
-/* Writes a line for supports that are meant as pins or rollers but constrain rotation: they hold several columns of
- * particles, but too few for a grip. */
+/* Writes a remark for each support that is meant as a pin or roller but constrains rotation: it holds more columns of
+ * particles than a pin, but too few for a grip. */
 static void advise_supports(const struct run *e, FILE *out)
 {
     for (int b = 0; b < e->loads.n; b++) {
@@ -176,9 +178,9 @@ void print_load_step_advice(const struct run *e, FILE *out)
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
-/* Estimates the number of equilibria that one crack increment takes. In 2D a fixed number of bond pairs breaks per
- * equilibrium, in 3D the largest number that the scene allows; cracks driven by stress-intensity factors take a fixed
- * number of equilibria. */
+/* Returns an estimate of the number of equilibria that one crack increment takes. In 2D PAIRS_AT_ONCE pairs of bonds
+ * break per equilibrium, in 3D the largest number that the scene allows. Cracks driven by stress-intensity factors take
+ * LED_EQUILIBRIA. */
 static double equilibria_of_advance(const struct run *e)
 {
     const struct scene *s = e->scene;
@@ -195,8 +197,8 @@ static double equilibria_of_advance(const struct run *e)
     return 1 + SPACINGS * 0.5 * neighbours * reach * wide / at_once;
 }
 
-/* Estimates the total number of crack increments of a run: the number of steps for cracks driven by energy, else the
- * distance ahead of all tips over the length of an increment; 0 if no bond can break. */
+/* Returns an estimate of the number of crack increments in a run: the number of load steps if they are controlled by
+ * energy, else the distance ahead of all tips over the length of an increment. Returns 0 if no bond can break. */
 static double advances_of(const struct run *e)
 {
     const struct scene *s = e->scene;

@@ -9,7 +9,8 @@
 #define SPENDS_MORE_PLANE 8 /* kappa above which cracks spend about 5 % more than G_c; measured */
 #define SPENDS_MORE_SOLID 5
 
-/* Returns the horizon at which material m has the given ratio kappa of critical stretch to onset, squared [m]. */
+/* Returns the horizon [m] at which the softening law of material m has the ratio kappa = (critical stretch/onset
+ * stretch)^2 [1]. */
 static real horizon_of_ratio(const struct scene *s, const struct material *m, real kappa)
 {
     const struct softening_curve curve = softening_curve_of(m->softening);
@@ -18,7 +19,8 @@ static real horizon_of_ratio(const struct scene *s, const struct material *m, re
     return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
 }
 
-/* Prints at which horizons the law of a material holds. */
+/* Prints the present horizon and those below which the softening law of material m has its strength and cracks run free
+ * of the lattice. */
 static void say_horizons(const struct scene *s, const struct material *m)
 {
     const real more = s->dim == 3 ? SPENDS_MORE_SOLID : SPENDS_MORE_PLANE;

@@ -13,7 +13,7 @@
 
 #define NEAR_ENOUGH 1e-6 /* [spacings], and share of a largest component */
 
-/* Returns the index of the particle at X [dim, m], or -1. */
+/* Returns the index of the only particle at the position X [dim, m], or -1. */
 static int64_t particle_at(const struct run *e, const real *X)
 {
     int32_t found[4];
@@ -28,8 +28,8 @@ static real largest(const real *a, int64_t n)
     return most;
 }
 
-/* Returns true if the value a[i] of each particle i equals the value a[twin[i]] of its mirror image, or its opposite
- * with `odd`. */
+/* Returns true if the value a[i] of each particle i of n equals a[twin[i]], the value of its mirror image, or
+ * -a[twin[i]] if `odd` is true. */
 static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 {
     const real most = NEAR_ENOUGH * largest(a, n);
@@ -38,8 +38,8 @@ static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
     return true;
 }
 
-/* Returns true if material, body, kind, volume and initial damage of each particle equal those of its mirror image.
- * twin[]: index of the image. */
+/* Returns true if material, body, kind, strength, volume and initial damage of each particle equal those of its mirror
+ * image. twin[i]: index of the mirror image of particle i. */
 static bool matter_agrees(const struct particles *p, const int32_t *twin)
 {
     for (int64_t i = 0; i < p->n; i++)
@@ -49,8 +49,8 @@ static bool matter_agrees(const struct particles *p, const int32_t *twin)
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 
-/* Returns a number that depends on the kind of a load and on its function of time, so that different loads have
- * different numbers and sums of them hardly ever agree by chance. */
+/* Returns a number that depends on the kind of a load and on its function of time. Different loads have different
+ * numbers, and sums of them hardly ever agree by chance. */
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;
@@ -61,9 +61,9 @@ static real load_mark(const struct boundary *b)
     return mark;
 }
 
-/* Sums over all loads, for component d of each particle: the load times its number from load_mark, to ask[n], and
- * this number for each prescribed motion or absorbing boundary, to held[n]. Particles at mirror images must have
- * equal sums. */
+/* Sums the loads on component d of each particle in a form that can be compared between mirror images. ask[n]: sum of
+ * the loads or prescribed velocities times load_mark of their boundary; held[n]: sum of load_mark over prescribed
+ * motions and absorbing boundaries. In a symmetric scene, particles at mirror images have equal sums. */
 static void loads_ask(const struct particles *part, const struct loads *loads, int d, real *ask, real *held)
 {
     array_fill_bytes(ask, 0, part->n, sizeof *ask);
@@ -84,8 +84,9 @@ static void loads_ask(const struct particles *part, const struct loads *loads, i
     }
 }
 
-/* Returns true if loads, constraints and initial velocities are symmetric about a plane normal to `axis`. twin[]:
- * index of the mirror image of each particle. */
+/* Returns true if loads, constraints and initial velocities are symmetric about a plane normal to `axis`. twin[i]:
+ * index of the mirror image of particle i. Returns false for formulas and rotating supports, whose symmetry is
+ * unknown. */
 static bool loads_agree(const struct particles *p, const struct loads *loads, int axis, const int32_t *twin)
 {
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
@@ -104,8 +105,9 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
     return same;
 }
 
-/* Stores in twin[n] the mirror image of every particle in the plane normal to `axis` at `at` [m]. Returns false if a
- * particle has no image, or is its own image, since a half scene would then cut a layer of particles. */
+/* Stores in twin[n] the index of the mirror image of every particle in the plane normal to `axis` at the coordinate
+ * `at` [m]. Returns false if a particle has no image, or is its own image: half of the scene would then cut a layer of
+ * particles. */
 static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
@@ -142,8 +144,8 @@ static bool rigid_twins(const struct particles *p, const struct scene *scene, in
     return same;
 }
 
-/* Returns true if every rigid body has a mirror image in the plane normal to `axis` at `at` [m], and none moves
- * freely. */
+/* Returns true if every rigid body has a mirror image among the rigid bodies in the plane normal to `axis` at the
+ * coordinate `at` [m], and no rigid body moves freely. */
 static bool rigid_bodies_agree(const struct scene *scene, const struct particles *part, int axis, real at)
 {
     const struct scene_body *rigid = scene->body + scene->bodies;
@@ -156,11 +158,11 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
     return true;
 }
 
-/* Returns true for equal numbers, and if neither is given. */
+/* Returns true if two numbers are equal or both are NAN, which denotes a number that is not given. */
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* Returns true if every growing crack has a mirror image with equal settings, in the plane normal to `axis` at `at`
- * [m]. */
+/* Returns true if every growth rule of cracks has a mirror image with equal settings in the plane normal to `axis` at
+ * the coordinate `at` [m]. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {
@@ -182,7 +184,7 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
     return true;
 }
 
-/* Returns true if the plane normal to `axis` at `at` [m] crosses no ring-shaped integration domain of a probe of
+/* Returns true if the plane normal to `axis` at the coordinate `at` [m] crosses no ring over which a probe integrates
  * stress-intensity factors. */
 static bool rings_clear(const struct run *e, int axis, real at)
 {

@@ -10,21 +10,21 @@
 #define SAME_PLACE 2    /* largest distance of two measurements of one width [spacings] */
 enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
-/* Returns true if a part with the relative error `off` would be in the list: it is not full, or its smallest error is
- * not clearly larger. Errors of equal parts differ by up to a tenth, as they come from samples. */
+/* Returns true if a part with the relative error `off` may belong to the list: the list is not full, or |off| exceeds
+ * 0.9 times the smallest |off| in it. Errors of equal parts differ by up to a tenth, as they come from samples. */
 bool uneven_list_would_keep(const struct uneven_list *list, real off)
 {
     return list->n < UNEVEN_MOST || fabs(off) > 0.9 * fabs(list->part[list->n - 1].off);
 }
 
-/* Returns true if two parts have nearly the same width, and both have too many or both too few rows. */
+/* Returns true if two parts have nearly the same width, and both have too many rows or both have too few. */
 static bool same_width(const struct uneven *a, const struct uneven *b)
 {
     return fabs(a->width - b->width) < SAME_WIDTH * b->width && a->off * b->off > 0;
 }
 
-/* Returns true if two entries have the same axis and position, to within SAME_PLACE spacings: a part is then found
- * twice, in the whole body and in its part of one material. */
+/* Returns true if two parts have the same axis of the width and positions within SAME_PLACE spacings. They are then one
+ * part that was found twice: in the whole body, and in its piece of one material. */
 static bool same_place(const struct uneven *a, const struct uneven *b, const struct scene *s)
 {
     real r2 = 0;
@@ -80,8 +80,8 @@ real piece_distance_to_surface(const struct piece *p, const real *X, int axis, r
     return fabs(inside);
 }
 
-/* Computes the coordinates at which the piece ends below and above the point u->at, along the axis of its width
- * [m]. */
+/* Computes the coordinates *low and *high [m] at which the piece p ends below and above the point u->at, along the axis
+ * u->axis of the width. */
 static void width_ends(const struct piece *p, const struct uneven *u, real *low, real *high)
 {
     const real h = p->scene->spacing, most = 4000 * h;
@@ -89,8 +89,9 @@ static void width_ends(const struct piece *p, const struct uneven *u, real *low,
     *high = u->at[u->axis] + piece_distance_to_surface(p, u->at, u->axis, 0.05 * h, most);
 }
 
-/* Measures the width of a part through its point u->at. Replaces u->width, which comes from areas, if the measured
- * width differs by less than 10 % and is still far enough from the width of the particles. Sets u->measured then. */
+/* Measures the width of the part u of piece p through its point u->at. Replaces u->width, which comes from areas, and
+ * sets u->measured if the measured width differs by less than 10 % and still differs clearly from the width u->filled
+ * of the particles. */
 static void width_measure(struct uneven *u, const struct piece *p)
 {
     real low, high;
@@ -101,8 +102,8 @@ static void width_measure(struct uneven *u, const struct piece *p)
     if (u->measured) u->width = width;
 }
 
-/* Returns the number of lattice rows between two coordinates along an axis [m], if the body had another spacing; -1
- * if its lattice cannot be determined for this spacing. */
+/* Returns the number of lattice rows between the coordinates `low` and `high` along an axis [m] if the scene had
+ * another spacing [m]; -1 if the lattice of the body cannot be determined for this spacing. */
 static int64_t rows_at(const struct piece *p, int axis, real low, real high, real spacing)
 {
     struct scene other = *p->scene;
@@ -129,9 +130,9 @@ static struct length_unit unit_of_spacing(real spacing)
     return unit[k];
 }
 
-/* Prints the nearest smaller and larger spacing that divide a width and whose lattice has the matching number of
- * rows in it, cut to six digits; if the present spacing divides the width, prints how the lattice can be shifted to
- * fit. */
+/* Prints the nearest smaller and larger spacing that divide the width of a part and whose lattice has the matching
+ * number of rows in it, cut to six digits. If the present spacing divides the width, prints how the part can be moved
+ * to fit the lattice. */
 static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
 {
     const struct length_unit unit = unit_of_spacing(p->scene->spacing);
@@ -170,7 +171,8 @@ static void say_place(const real *at, int dim, FILE *out)
     fprintf(out, dim > 1 ? "(%s) m" : "%s m", position_text(at, dim, 4).text);
 }
 
-/* Prints the name of the body, the material of the part if it is one of several, and the position. */
+/* Prints the beginning of a remark: the name of the body and, if the part u belongs to a piece of one material, the
+ * material. */
 static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
 {
     fprintf(out, "accuracy       body %s: ", p->scene->body[p->body].name);

@@ -45,7 +45,8 @@ static void print_number(double a)
         printf(" %14.7g", a);
 }
 
-/* Prints one value of both runs and the difference B - A; prints nothing if neither run has the value. */
+/* Prints a row of the table: label, unit, the values a and b of the runs A and B, and b - a. Prints nothing if both
+ * values are NAN, a dash for one that is. */
 static void compare_print_row(const char *label, const char *unit, double a, double b)
 {
     char text[KEY_LENGTH];
@@ -73,8 +74,8 @@ static double interval(const struct times *t)
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Finds the last frame of run A that has a frame of run B at the same time; stores both indices. Returns false if
- * there is none. */
+/* Finds the latest frame of run A for which run B has a frame at the same time, to within SAME_TIME of the time between
+ * frames. Stores the indices of the two frames in *i and *j. Returns false if there are none. */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -98,8 +99,8 @@ struct difference {
     int64_t where;              /* particle of the largest        */
 };
 
-/* Returns the largest and the root-mean-square difference of two vector or tensor fields over n particles, and the
- * particle with the largest one. */
+/* Returns the largest and the root-mean-square difference |a - b| of two fields over n particles, the particle of the
+ * largest difference, and the largest |a|. a, b: [components][n]. */
 static struct difference field_difference(float *const *a, float *const *b, int components, int64_t n)
 {
     struct difference d = {0};
@@ -120,8 +121,8 @@ static struct difference field_difference(float *const *a, float *const *b, int 
     return d;
 }
 
-/* Prints the largest and root-mean-square difference of a field, its scale, and the position of the largest
- * difference. */
+/* Prints a row of the table of fields: the largest and root-mean-square difference, the scale of the field, and the
+ * position of the largest difference. f: frame of run A with the reference positions. */
 static void print_field(const char *label, const char *unit, const struct output_frame *f, struct difference d)
 {
     char text[KEY_LENGTH];
@@ -164,7 +165,8 @@ static double frame_step_length(const struct output_frame *f)
     return f->step > 0 ? f->t / (double)f->step : INFINITY;
 }
 
-/* Prints the difference in time of the two frames that are compared, unless it is negligible. */
+/* Prints the difference in time of the two frames that are compared, unless it is below half a step, and that the
+ * states of a run of LAMMPS are at other times within a step. */
 static void print_time_apart(const struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
@@ -199,7 +201,8 @@ static void compare_particles(struct pair *p, const struct output_frame *a, cons
     print_fields(a, b);
 }
 
-/* Compares the last frames of equal time, if both runs have one. */
+/* Compares the last frames at a common time of both runs particle by particle and prints the differences, or why frames
+ * are not compared. Returns FAILED if frames cannot be read. */
 static status compare_frames(struct pair *p)
 {
     struct times t[2] = {{0}};
@@ -229,14 +232,14 @@ static status compare_frames(struct pair *p)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the last value of a column of a history; NAN if there is none. */
+/* Returns the value of a column in the last row of a history; NAN if there is no such column or row. */
 static double last_of(const struct history *h, const char *name)
 {
     return h->rows > 0 ? history_at(h, h->rows - 1, history_find_column(h, name)) : NAN;
 }
 
-/* Prints the energies and errors of both runs in the last lines of history.csv, with their differences; a message if
- * a run has no such file. */
+/* Prints the energies and errors in the last lines of history.csv of both runs, with their differences. Prints a
+ * message if a run has no such file. Returns FAILED if a file cannot be read. */
 static status compare_energies(const struct pair *p)
 {
     static const struct {
@@ -270,14 +273,15 @@ static status compare_energies(const struct pair *p)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number stored under a key of summary.json in a folder; NAN if it is missing. */
+/* Returns the number that is stored under a key of summary.json in a folder; NAN if there is none. */
 static double compare_figure_of(const char *folder, const char *key)
 {
     double value;
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Reads the position of crack tip k of a run [m] from its summary. Returns false if there is no tip k. */
+/* Reads the position place[DIM_MAX] of crack tip number k [m] from the summary of a run. Returns false if the run has
+ * no such tip. */
 static bool tip_place(const char *folder, int k, double place[DIM_MAX])
 {
     bool found = false;
@@ -291,7 +295,7 @@ static bool tip_place(const char *folder, int k, double place[DIM_MAX])
     return found;
 }
 
-/* Prints every tip of A with the distance to the nearest tip of B. */
+/* Prints every crack tip of run A with the distance to the nearest tip of run B. */
 static void print_tips(const struct pair *p)
 {
     double a[DIM_MAX], b[DIM_MAX];
@@ -347,8 +351,8 @@ static void compare_time(const struct pair *p)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Reads the two folders from the command line. REFUSED for options, another number of words, or a folder without a
- * run. */
+/* Reads the two folders of the command line into p->folder. REFUSED for options, another number of words, or a folder
+ * without a run. */
 static status read_words(struct pair *p, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++)
@@ -365,7 +369,8 @@ static status read_words(struct pair *p, int argc, char **argv)
     return OK;
 }
 
-/* Prints name, method and state of a run. FAILED if its summary exists and cannot be read. */
+/* Prints name, method and state of the run in a folder, after the letter A or B. FAILED if its summary exists and
+ * cannot be read. */
 static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];

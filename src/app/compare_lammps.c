@@ -16,7 +16,8 @@ bool lammps_run_exists(const char *folder)
     return run_has_file(folder, "plate.dump") && run_has_file(folder, "in.lammps");
 }
 
-/* Reads the time step of the script [s]. */
+/* Reads the time step [s] from the LAMMPS script in.lammps of a folder into *dt. FAILED if the script has no such
+ * line. */
 static status lammps_time_step(const char *folder, double *dt)
 {
     struct path path = path_join(folder, "in.lammps");
@@ -47,7 +48,8 @@ status lammps_frames_list(const char *folder, int *n, struct listed_frame **list
 
 /* ---- check.csv --------------------------------------------------------------------------------------------------- */
 
-/* Columns of check.csv by id: X, x [m], damage, and damage at the start. */
+/* The table check.csv, which holds particle states computed by Cleave, and the columns of reference position X,
+ * position x [m], damage, and damage at the start. */
 struct check {
     struct history h;
     int X[DIM_MAX], x[DIM_MAX], damage, start;
@@ -55,8 +57,8 @@ struct check {
 
 static double check_at(const struct check *c, int64_t i, int column) { return c->h.value[i * c->h.columns + column]; }
 
-/* Sorts the rows of check.csv by particle id, in a new array that replaces the old one. FAILED unless all columns are
- * present and the ids are 1..n. */
+/* Sorts the n rows of check.csv by particle id, in a new array that replaces the old one. path: file name for messages.
+ * FAILED unless all columns are present and the ids are 1..n. */
 static status check_sort(struct check *c, int64_t n, const char *path)
 {
     const int id = history_find_column(&c->h, "id"), columns = c->h.columns;
@@ -91,7 +93,7 @@ static status check_read(struct check *c, const char *folder, int64_t n)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if all particles have z = 0, so that the run is two-dimensional. */
+/* Returns true if all reference positions have z = 0, so that the run is two-dimensional. */
 static bool lies_in_plane(const struct check *c)
 {
     for (int64_t i = 0; i < c->h.rows; i++)
@@ -142,7 +144,8 @@ status lammps_run_read_frame(struct output_frame *f, const char *folder, int num
 
 /* ---- the check --------------------------------------------------------------------------------------------------- */
 
-/* Prints the largest differences in displacement and damage between a frame of LAMMPS and Cleave's check.csv. */
+/* Prints the largest differences in displacement and damage between the frame f of LAMMPS and the states of Cleave in
+ * check.csv. */
 static void check_print(const struct check *c, const struct lammps_frame *f)
 {
     double apart = 0, size = 0, damage = 0;

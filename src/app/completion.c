@@ -6,7 +6,8 @@
 #include "commands.h"
 #include "scene/scene.h"
 
-/* Writes the options of a command, each after a blank, from the text of its usage; --help is last. */
+/* Writes the options of a command, each after a blank, as found in the text of its usage, and --help as the last
+ * one. */
 static void options_of(FILE *out, const struct command *c)
 {
     for (const char *at = c->words; *at; at++) {
@@ -19,8 +20,8 @@ static void options_of(FILE *out, const struct command *c)
     fputs(" --help", out);
 }
 
-/* Writes a `case` statement of the shell that assigns the options of the current command to the variable
- * `options`. */
+/* Writes a `case` statement for the shell that assigns to the shell variable `options` the options of the command in
+ * the shell variable `command`. */
 static void cases_print(FILE *out)
 {
     fputs("    case \"$command\" in\n", out);

@@ -24,8 +24,8 @@ struct converge_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
-/* Reads the time that the study may take, such as "10 min" [s]; also sets w->finer. REFUSED unless it is a positive
- * time. */
+/* Reads the time that the study may take from the value of --budget, such as "10 min", into w->budget [s], and sets
+ * w->finer, so that finer spacings use this time. REFUSED unless it is a positive time. */
 static status budget_read(struct convergence_request *w, const char *text)
 {
     char what[256];
@@ -97,9 +97,8 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Sets the folder of the results, by default one named after the scene, and checks it. REFUSED if it contains the
- * study of another scene or files that do not belong to a study. The study of another scene is accepted with
- * --overwrite. */
+/* Sets the folder of the results, by default one named after the scene, and checks that it can be used. REFUSED if it
+ * contains files that do not belong to a study, or the study of another scene without --overwrite. */
 static status converge_place(struct converge_arguments *a)
 {
     struct convergence_request *w = &a->wish;

@@ -47,7 +47,8 @@ static const struct {
     {"scenes|yaml", "inputs/scenes.md; `cleave help scene` lists all keys"},
 };
 
-/* Returns where the manual or the program answers about a word, or NULL. */
+/* Returns the text that names where the manual or the program treats a word, from the table `topics`; NULL if the word
+ * is not in it. */
 static const char *topic_answer(const char *word)
 {
     for (size_t k = 0; k < COUNT_OF(topics); k++)
@@ -55,7 +56,8 @@ static const char *topic_answer(const char *word)
     return NULL;
 }
 
-/* Prints where the manual answers about a word, and the keys that the word names. REFUSED for an unknown word. */
+/* Prints where the manual treats a word, and the description of the key of this name. REFUSED if the word is neither a
+ * topic nor a key. */
 static status help_topic(const char *word)
 {
     const char *answer = topic_answer(word);
@@ -64,7 +66,7 @@ static status help_topic(const char *word)
     return answer && !scene_has_key(word) ? OK : scene_print_help(stdout, word);
 }
 
-/* Prints the page of all keys, after the line with which an editor finds the schema. */
+/* Prints the page of all scene keys, preceded by the line with which an editor finds the schema of scenes. */
 static status help_scene(void)
 {
     char schema[4096];
@@ -75,8 +77,8 @@ static status help_scene(void)
     return scene_print_help(stdout, NULL);
 }
 
-/* Returns REFUSED if a word is not a key but is within two letters of the name of a page or command; the message
- * contains that name. Returns OK otherwise. */
+/* Returns REFUSED, with the nearest name in the message, if a word is no key or topic but at most two edits away from
+ * the name of a page or command. Returns OK otherwise. */
 static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
@@ -90,8 +92,8 @@ static status help_misspelt(const char *word)
     return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
 }
 
-/* Joins the words after `help` by underscores into joined[capacity], as in names of keys: fracture energy becomes
- * fracture_energy. Returns joined, or NULL if there are no words. */
+/* Joins the words after `help` by underscores, as in names of keys: fracture energy becomes fracture_energy. Stores the
+ * text in joined[capacity] and returns it, or NULL if there are no words. */
 static const char *help_word(int argc, char **argv, char *joined, size_t capacity)
 {
     size_t used = 0;

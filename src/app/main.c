@@ -19,7 +19,8 @@
 #define LEAVE _exit
 #endif
 
-/* Returns true if --help is among the words after a command, unless it is the value of an option. */
+/* Returns true if -h or --help is among the words after a command, unless it is the value of an option of one
+ * letter. */
 static bool asks_help(int argc, char **argv)
 {
     bool asks = false;
@@ -41,18 +42,18 @@ static status call(int argc, char **argv)
     return c->call(argc - 1, argv + 1);
 }
 
-/* Sets a short spin of OpenMP threads before the library starts, unless the environment sets one. Threads wait for
- * each other by spinning for milliseconds, which slows a run many times over on a busy machine. Measured for
- * plate_hole with two threads on two cores next to two other processes: 0.1 to 0.9 s with a short spin; without it 2
- * to 23 s in one of ten runs. */
+/* Sets a short spin of OpenMP threads by GOMP_SPINCOUNT and restarts the program with it, unless the environment sets a
+ * wait policy. By default threads wait for each other by spinning for milliseconds, which slows a run many times over
+ * on a busy machine. Measured for plate_hole with two threads on two cores next to two other processes: 0.1 to 0.9 s
+ * with a short spin; without it 2 to 23 s in one of ten runs. */
 static void limit_spin(char **argv)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
     if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv); /* without /proc the default remains */
 }
 
-/* Opens the descriptors of standard input, output and error if they are closed, as they are under daemons. Otherwise
- * the next file opened would get such a descriptor, and with it all printed text. */
+/* Opens the descriptors of standard input, output and error on /dev/null if they are closed, as they are under daemons.
+ * Otherwise the next file to be opened would get such a descriptor, and printed text would be written to it. */
 static void keep_descriptors(void)
 {
     int fd;
@@ -61,7 +62,7 @@ static void keep_descriptors(void)
     if (fd > STDERR_FILENO) close(fd);
 }
 
-/* Returns true if the program that reads the standard output through a pipe has ended. */
+/* Returns true if standard output is a pipe whose reader has ended. */
 static bool reader_gone(void)
 {
     struct pollfd output = {STDOUT_FILENO, POLLOUT, 0};

@@ -162,7 +162,7 @@ static const struct section sections[] = {
     SECTION("COPYRIGHT", copyright, false),
 };
 
-/* Prints words in lines of at most 100 characters that begin with `indent` blanks. */
+/* Prints a text in lines of at most 100 characters that begin with `indent` blanks. Breaks lines at blanks. */
 static void wrapped(FILE *out, const char *text, int indent)
 {
     int column = 0;
@@ -190,7 +190,8 @@ void usage_print(FILE *out)
         "\n`cleave COMMAND --help` says what a command takes; `cleave help run` what a run leaves and how it ends.\n");
 }
 
-/* Returns true if the form of a command contains this option as a word. */
+/* Returns true if the usage of a command contains an option. term: the option, which may be followed by a blank and its
+ * value. */
 static bool takes_option(const struct command *c, const char *term)
 {
     size_t length = strcspn(term, " ");
@@ -199,7 +200,7 @@ static bool takes_option(const struct command *c, const char *term)
     return false;
 }
 
-/* Returns true if an entry applies to a command, by its list of names. */
+/* Returns true if a manual entry applies to a command: its list of command names contains the command, or is NULL. */
 static bool is_of(const struct entry *e, const struct command *c)
 {
     const size_t length = strlen(c->name);
@@ -221,7 +222,7 @@ void usage_print_of(FILE *out, const struct command *c)
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
 
-/* Writes a text with escapes for characters that have a meaning in troff. */
+/* Writes a text and a line end, with escapes for characters that have a meaning in troff. */
 static void troff_text(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -246,7 +247,7 @@ static void section_troff(FILE *out, const struct section *s)
     }
 }
 
-/* Returns true if an entry is no option, or one of `cleave run`. */
+/* Returns true if an entry of a section belongs to `cleave help run`: it is no option, or an option of `cleave run`. */
 static bool is_of_run(const struct section *s, const struct entry *e)
 {
     const struct command *run = NULL;

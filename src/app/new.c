@@ -29,7 +29,8 @@ static status kinds_print(void)
     return OK;
 }
 
-/* Finds the kind of this name. REFUSED with the nearest name. */
+/* Finds the kind of scene with the given name and stores it in *found. REFUSED with the nearest name if there is
+ * none. */
 static status kind_find(const char *name, const struct kind **found)
 {
     const struct kind *nearest = kinds;
@@ -41,8 +42,8 @@ static status kind_find(const char *name, const struct kind **found)
                       nearest->name);
 }
 
-/* Finds the name of the scene in a path: *name points to its first letter in path, *length is the length of the path
- * without .yaml. REFUSED unless the name is a valid name of a run. */
+/* Finds the name of a new scene in its path: *name points to the first letter of the file name in `path`, *length is
+ * the length of `path` without the ending .yaml. REFUSED unless the name is valid as the name of a run. */
 static status check_path(const char *path, int *length, const char **name)
 {
     const char *slash = strrchr(path, '/');
@@ -76,7 +77,7 @@ static void scene_write(FILE *out, const struct kind *k, const char *path, const
         fputs(k->text, out);
 }
 
-/* Creates a new file. REFUSED if it exists. */
+/* Creates and opens a new file for writing. REFUSED if the file exists or cannot be created. */
 static status file_open(FILE **out, const char *path)
 {
     *out = fopen(path, "wx");
@@ -93,7 +94,7 @@ static status file_close(FILE *out, const char *path)
     return status_set(FAILED, "%s: cannot be written", path);
 }
 
-/* File name of the surface that belongs to a scene: NAME.stl for NAME.yaml. */
+/* File name of the surface that belongs to a scene: NAME.stl for NAME.yaml, returned by value. */
 struct part_name {
     char text[PATH_LONGEST + 8];
 };
@@ -104,7 +105,8 @@ static struct part_name part_path(const char *path)
     return file;
 }
 
-/* Writes the surface that belongs to a scene, if its kind reads one. */
+/* Writes the surface NAME.stl that belongs to the scene at `path`, if its kind reads one. REFUSED if the file exists,
+ * FAILED if it cannot be written. */
 static status part_write(const struct kind *k, const char *path)
 {
     FILE *out;

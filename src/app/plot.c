@@ -25,7 +25,7 @@ enum { FILM_FRAMES_MAX = 100000 };
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* Reads --frames: all, last, or their number. */
+/* Reads the value of --frames, which is `all`, `last`, or the number of frames. REFUSED for other texts. */
 static status read_frames_option(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -36,7 +36,8 @@ static status read_frames_option(struct plot_words *w, const char *text)
     return option_read_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
-/* Reads the times of --times, numbers with units separated by commas. */
+/* Reads the value of --times: numbers with units separated by commas, or all, or last. REFUSED for a text that is no
+ * time, or for more than PANELS_MAX times. */
 static status read_times(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -58,7 +59,8 @@ static status read_times(struct plot_words *w, const char *text)
     return s;
 }
 
-/* Reads `z=4mm`, or `z`: the slice normal to z with most damage. */
+/* Reads the value of --slice: `z=4mm`, or `z` for the slice normal to z with the most damage. REFUSED for other
+ * texts. */
 static status read_slice(struct plot_words *w, const char *text)
 {
     struct projection *projection = &w->request.projection;
@@ -100,7 +102,8 @@ static status read_format(struct plot_words *w, const char *text)
     return status_set(REFUSED, "plot: --format %s: png, svg, pdf, mp4 or gif is expected", printable_name(text).text);
 }
 
-/* Reads LOW:HIGH; the unit is that of the field and is checked when the field is known. */
+/* Reads the value of --range, LOW:HIGH, and stores both as texts. Their unit is that of the field and is checked when
+ * the field is known. REFUSED unless there are two texts. */
 static status read_range(struct plot_words *w, const char *text)
 {
     const char *colon = strchr(text, ':');
@@ -114,7 +117,8 @@ static status read_range(struct plot_words *w, const char *text)
     return OK;
 }
 
-/* Reads the rectangle X:X,Y:Y of lengths. */
+/* Reads the value of --crop, the rectangle X:X,Y:Y of lengths. REFUSED for other texts, and unless the lower end of
+ * each axis comes first. */
 static status read_crop(struct plot_words *w, const char *text)
 {
     char *copy = NEW("plot.crop", strlen(text) + 1, char), *rest = copy, what[256] = "X:X,Y:Y of lengths is expected";
@@ -137,7 +141,7 @@ static status read_crop(struct plot_words *w, const char *text)
                                       printable_name(text).text, what);
 }
 
-/* Reads a positive number of at most `most`. */
+/* Reads a positive number of at most `most` into *value. option: its name, for the message. REFUSED for other texts. */
 static status read_positive(double *value, const char *option, const char *text, double most)
 {
     char *end;
@@ -162,7 +166,8 @@ static status read_fps(struct plot_words *w, const char *text)
     return option_read_count(&w->request.fps, "plot: --fps", text, 1, 240);
 }
 
-/* Reads 1200x800 [pixel] or 90mmx60mm. */
+/* Reads the value of --size: 1200x800 [pixel] or 90mmx60mm. REFUSED unless both lengths are from 300 to 10000
+ * pixels. */
 static status read_picture_size(struct plot_words *w, const char *text)
 {
     enum { LEAST = 300, MOST = 10000 };
@@ -235,8 +240,8 @@ static status read_option(struct plot_words *w, const char *word, const char *va
                       word_nearest(word, name, COUNT_OF(name)), usage);
 }
 
-/* Sets the format from the file name extension of -o, unless --format is given. REFUSED if the extension is unknown,
- * or if it differs from --format. */
+/* Sets the format of the picture from the file name extension of -o, unless --format is given. REFUSED if the extension
+ * is unknown, or differs from --format. */
 static status settle_format(struct plot_words *w)
 {
     const char *out = w->request.out, *dot = out ? strrchr(out, '.') : NULL;
@@ -249,7 +254,8 @@ static status settle_format(struct plot_words *w)
                       printable_name(out).text, w->format);
 }
 
-/* Returns REFUSED if two of the given options exclude each other, or if neither a folder nor --scene is given. */
+/* Checks the options of `cleave plot` together. REFUSED if two of them exclude each other, or if neither a folder nor
+ * --scene is given. */
 static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;

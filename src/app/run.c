@@ -22,7 +22,8 @@
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
-/* Prints when and at how many positions bonds broke first, and the growth of the longest crack with its ends. */
+/* Prints when and at how many positions bonds broke first, the growth, angle and ends of the longest crack, and when a
+ * bond of particles that a boundary drives broke first. Prints nothing if no bond broke. */
 static void print_breaks(const struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
@@ -84,8 +85,10 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     return OK;
 }
 
-/* Creates the run, opens its folder, resumes from a checkpoint if requested, runs to the end and writes the summary.
- * The folder is opened after the run is created, so that a refused scene leaves no folder. */
+/* Creates the run e, opens its folder out, resumes from a checkpoint if requested, runs to the end and writes the
+ * summary. The folder is opened after the run is created, so that a refused scene leaves no folder. threads: number
+ * of threads, for messages and the summary. Returns OK, REFUSED, FAILED, or INTERRUPTED if a signal ended the run
+ * early. */
 static status run_engine(struct run *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {

@@ -13,16 +13,16 @@ static void on_signal(int number)
     stop_asked = 1;
 }
 
-/* Handles signals that batch systems send before the end of a job, some of them every second: repeated ones have no
- * effect. */
+/* Handles signals that batch systems send before the end of a job. Unlike on_signal, repeated signals have no further
+ * effect, since some systems send them every second. */
 static void on_notice(int number)
 {
     (void)number;
     stop_asked = 1;
 }
 
-/* Installs the handlers. A signal that the parent process ignores stays ignored, as nohup and `&` in a script
- * require. */
+/* Installs the handlers of all signals that request the end of a command. A signal that the parent process ignores
+ * stays ignored, as nohup and `&` in a script require. */
 static void listen_to_signals(void)
 {
     static const struct {

@@ -24,7 +24,7 @@ struct sweep_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
-/* Reads a key with its values from the text of -s and appends it. REFUSED if the key is given twice. */
+/* Reads a key with its values from the text of -s and appends it to a->key. REFUSED if the key is given twice. */
 static status key_add(struct sweep_arguments *a, const char *text)
 {
     TRY(varied_key_read(&a->key[a->keys], text));
@@ -35,7 +35,8 @@ static status key_add(struct sweep_arguments *a, const char *text)
     return OK;
 }
 
-/* Appends a figure of the option --of, or returns REFUSED if there are too many or it is missing. */
+/* Appends the figure of an option --of to a->of. name: NULL if the option has no value. REFUSED if the value is
+ * missing, or for more than FIGURES_MOST figures. */
 static status drawn_figure_add(struct sweep_arguments *a, const char *name)
 {
     TRY(option_has_value("--of", name != NULL, usage));
@@ -85,7 +86,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
 
 /* ---- what is printed --------------------------------------------------------------------------------------------- */
 
-/* Returns the number of runs of a study in a given state. */
+/* Returns the number of runs of a study that are in the given state. */
 static int cases_in(const struct study *s, enum case_state state)
 {
     int n = 0;
@@ -107,7 +108,7 @@ static void sweep_print(const struct study *s)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Reads the results of all runs, writes sweep.csv and draws the pictures. */
+/* Reads the results of all finished runs of a study, writes its table sweep.csv and draws its pictures. */
 static status sweep_collect(const struct study *s, const struct sweep_arguments *a)
 {
     struct study_table table;
@@ -118,7 +119,8 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
     return done;
 }
 
-/* Prints the commands of the runs, without duplicates. */
+/* Prints the commands of the runs of a study, one per line, without duplicates. REFUSED if the folder of the study is
+ * in use for something else. */
 static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 {
     TRY(a->options.overwrite ? study_folder_check(s->folder) : study_folder_check_scene(s->folder, s->text));
