@@ -11,19 +11,20 @@ struct stop {
     double at, red, green, blue;
 };
 
-/* Every eighth colour of viridis (Smith & van der Walt 2015). */
+/* Every eighth colour of viridis (Smith & van der Walt 2015): position in 0..1; red, green, blue. */
 static const struct stop sequential[] = {
     {0.000, 68, 1, 84},    {0.125, 71, 45, 123}, {0.250, 59, 82, 139},  {0.375, 44, 114, 142}, {0.500, 33, 145, 140},
     {0.625, 40, 174, 128}, {0.750, 94, 201, 98}, {0.875, 173, 220, 48}, {1.000, 253, 231, 37},
 };
 
-/* RdBu of ColorBrewer (Harrower & Brewer 2003), blue first; the middle is grey to differ from white paper. */
+/* Diverging colours RdBu of ColorBrewer (Harrower & Brewer 2003), blue first. The middle colour is grey, to differ from
+ * white paper. */
 static const struct stop diverging[] = {
     {0.0, 5, 48, 97},     {0.1, 33, 102, 172},  {0.2, 67, 147, 195},  {0.3, 146, 197, 222},
     {0.4, 200, 217, 228}, {0.5, 226, 226, 226}, {0.6, 240, 209, 192}, {0.7, 244, 165, 130},
     {0.8, 214, 96, 77},   {0.9, 178, 24, 43},   {1.0, 103, 0, 31},
 };
-/* Every ninth part of cividis (Nunez, Anderton & Renslow 2018), the same with any colour vision. */
+/* Ten evenly spaced colours of cividis (Nunez, Anderton & Renslow 2018), which look alike with any colour vision. */
 static const struct stop cividis[] = {
     {0, 0, 34, 78},
     {0.111111, 18, 53, 112},
@@ -36,7 +37,7 @@ static const struct stop cividis[] = {
     {0.888889, 225, 204, 85},
     {1, 254, 232, 56},
 };
-/* Every ninth part of inferno and magma (Smith & van der Walt 2015). */
+/* Ten evenly spaced colours of inferno and magma (Smith & van der Walt 2015). */
 static const struct stop inferno[] = {
     {0, 0, 0, 4},
     {0.111111, 27, 12, 65},
@@ -73,8 +74,8 @@ static const struct stop bond_stops[] = {
     {1.00, 6, 34, 86},
 };
 
-/* Returns the colour at a position 0..1 of a scale, interpolated between its stops; values beyond get the colour of
- * the end. */
+/* Returns the colour at the position `at` in 0..1 of a colour scale, interpolated linearly between its stops
+ * stop[stops]. Smaller and larger positions get the colour of the nearer end. */
 static struct colour along_stops(const struct stop *stop, int stops, double at)
 {
     int k = 0;
@@ -124,7 +125,7 @@ struct colour fragment_colour(int32_t fragment)
     return turn[(size_t)(fragment - 1) % COUNT_OF(turn)];
 }
 
-/* Light qualitative scheme of Tol (2021). */
+/* Returns the k-th colour of a list of nine light colours that repeats (light qualitative scheme of Tol 2021). */
 struct colour part_colour(int k)
 {
     static const struct colour turn[] = {{187, 204, 220, 255}, {238, 221, 136, 255}, {187, 204, 51, 255},

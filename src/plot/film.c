@@ -18,14 +18,14 @@
 enum { NOT_FOUND = 127, FILM_WORDS = 24 };
 static const int FRAMES_PER_SECOND = 8;
 
-/* A running ffmpeg that reads pictures. */
+/* A running process of ffmpeg that reads pictures and writes a film. */
 struct ffmpeg {
     int to, process;  /* standard input of ffmpeg, -1: closed; process id */
     FILE *complaints; /* standard error of ffmpeg */
 };
 
-/* Runs in the child process: executes ffmpeg with standard input `from` (-1: none) and its output and errors in the
- * file `complaints` (-1: discarded). word: arguments. */
+/* Runs in the child process: executes ffmpeg with the arguments word[]. from: descriptor of its standard input, -1:
+ * none; complaints: descriptor of the file for its output and errors, -1: these are discarded. Does not return. */
 static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
@@ -50,7 +50,8 @@ status film_check_encoder(void)
                                        "or take --format png");
 }
 
-/* Creates a pipe whose ends are closed in programs started later. Returns false and sets errno on a fault. */
+/* Creates a pipe, ends[2], whose descriptors are closed in programs that are started later. Returns false and sets
+ * errno if that fails. */
 static bool pipe_make(int *ends)
 {
     if (pipe(ends) != 0) return false;
@@ -58,8 +59,9 @@ static bool pipe_make(int *ends)
     return true;
 }
 
-/* Starts ffmpeg for the film PATH.cleave.tmp: H.264 with even sizes, which most players support, or a GIF with a
- * palette of its own. */
+/* Starts ffmpeg for the film sheet.path, which it writes under a temporary name: H.264 with even sizes, which most
+ * players support, or a GIF with a palette of its own. fps: frames per second; 0: the default. Returns FAILED if ffmpeg
+ * cannot be started. */
 static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
 {
     struct path to;
@@ -90,8 +92,8 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
     return OK;
 }
 
-/* Writes a file into the pipe. FAILED without a message if ffmpeg has stopped reading: its own message states the
- * cause. */
+/* Writes the file `picture` into the input of ffmpeg. Returns FAILED if the file cannot be read, and FAILED with an
+ * empty message if ffmpeg has stopped reading, since its own message states the cause. */
 static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
 {
     char *bytes;
@@ -107,8 +109,8 @@ static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
     return sent == length ? OK : status_set(FAILED, "%s", "");
 }
 
-/* Closes the input of ffmpeg and waits for the film. fed: status of writing the pictures. FAILED with ffmpeg's
- * message. */
+/* Closes the input of ffmpeg, waits for its end and gives the film its name. fed: status of writing the pictures.
+ * Returns `fed` if it is not OK, FAILED with the message of ffmpeg if there is no film. Removes an incomplete film. */
 static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
 {
     char reason[256];

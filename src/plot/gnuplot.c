@@ -34,8 +34,8 @@ void gnuplot_quote(FILE *to, const char *text)
     putc('\'', to);
 }
 
-/* Runs in the child process: executes gnuplot with standard input from the pipe and its output and errors in the file
- * `complaints`. */
+/* Runs in the child process: executes gnuplot with standard input from the pipe pipe_ends[2]. complaints: descriptor of
+ * the file for its output and errors. Does not return. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
     interrupt_cleanup_in_child();
@@ -50,7 +50,8 @@ static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
     _exit(NOT_FOUND);
 }
 
-/* Starts gnuplot: opens a pipe to it, g->to, and a file for its messages, g->complaints. */
+/* Starts gnuplot for the picture g->path. Opens a pipe to its standard input, g->to, and a file for its messages,
+ * g->complaints. Returns FAILED if gnuplot cannot be started. */
 static status gnuplot_start(struct gnuplot *g)
 {
     int ends[2];
@@ -97,7 +98,8 @@ static struct picture_size usual = {0, 0, PICTURE_DPI};
 void picture_size_set(struct picture_size size) { usual = size; }
 struct picture_size picture_size_get(void) { return usual; }
 
-/* Selects the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. */
+/* Writes the commands that select the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. width,
+ * height: size of the picture [pixel]. */
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height)
 {
     if (format == PICTURE_SVG)

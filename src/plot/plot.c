@@ -13,7 +13,7 @@
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of a picture in the folder and format of the request. */
+/* Returns the path of the standard picture `which` in the folder and format of the request. */
 static struct path sheet_path(const struct plot_request *r, enum picture which)
 {
     return picture_path(r->folder, which, picture_ending[r->format]);
@@ -51,7 +51,8 @@ static struct contents contents_of(const struct plotted_particles *cloud, int cl
     return has;
 }
 
-/* Draws, for each frame, a picture of what the selected ones contain: damage, kinds of particles, the chosen field. */
+/* Draws, for each frame of a run, the maps of damage, kinds of particles and the chosen field. A map is omitted if the
+ * selected frames do not contain its quantity. has: contents of the selected frames. */
 static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view,
                          const struct contents *has)
 {
@@ -75,8 +76,9 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
     return OK;
 }
 
-/* Draws the maps of damage, of the chosen field, of the kinds of particles and of fragments, each only if the frames
- * contain such. The same maps for every frame follow if r->every is set. */
+/* Draws the maps of damage, of the chosen field, of the kinds of particles and of fragments. A map is omitted if the
+ * frames do not contain its quantity. cloud[frames->shown]: drawn particles of the selected frames. If r->every is set,
+ * the same maps of every frame of the run follow. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
@@ -101,7 +103,8 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
     return r->every ? draw_every(r, frames, &view, &has) : OK;
 }
 
-/* Draws the map of the chosen field of a three-dimensional run in an outside view, and its cracks. */
+/* Draws an outside view of a three-dimensional run: the map of the chosen field, and the map of its cracks.
+ * cloud[frames->shown]: drawn particles of the selected frames. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
                            const struct plotted_particles *cloud)
 {
@@ -118,11 +121,12 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 
-/* Draws pictures of clouds, cloud[frames->shown]. */
+/* Type of functions that draw pictures of the selected frames. cloud[frames->shown]: their drawn particles. */
 typedef status draw_clouds_fn(const struct plot_request *r, const struct run_frames *frames,
                               const struct plotted_particles *cloud);
 
-/* Reads the selected frames as clouds and calls `draw`. */
+/* Reads the drawn particles of all selected frames and calls draw(r, frames, cloud) with them. Returns FAILED if a
+ * frame cannot be read, else the status of `draw`. */
 static status draw_clouds(const struct plot_request *r, const struct run_frames *frames, draw_clouds_fn *draw)
 {
     struct plotted_particles *cloud = NEW("plot.clouds", frames->shown, struct plotted_particles);
@@ -137,7 +141,8 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Draws the profiles of a bar with the closed-form solution of a probe, without the frame at t = 0. */
+/* Draws the profiles of a bar with the closed-form solution of the EXACT probe called `probe`. Leaves out the frame at
+ * t = 0 if there are others. */
 static status plot_draw_bar(const struct plot_request *r, const struct run_frames *frames, const char *probe)
 {
     char title[TITLE_LENGTH];
@@ -147,7 +152,7 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
                                        probe, frames->show + skipped, frames->shown - skipped);
 }
 
-/* Draws profiles of a bar: with the closed-form solution if a probe has one, else from the particles. */
+/* Draws profiles of a bar: with the closed-form solution if the run has an EXACT probe, else from the particles. */
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
@@ -163,7 +168,8 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Draws a slice of a run and, in 3D, an outside view. */
+/* Draws the maps of a run in two or three dimensions: those of a slice and, in 3D, of an outside view. last: the last
+ * selected frame. */
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;

@@ -12,7 +12,8 @@ enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
 
 #define TINT "#e8f1f9" /* background of peridynamic parts of a bar with both kinds */
 
-/* Panels from top to bottom: names of the computed and exact columns in the files of the probe, label and unit. */
+/* Panels from top to bottom: names of the columns with computed and with exact values in the profiles of the EXACT
+ * probe, label and unit. */
 static const struct {
     const char *computed, *exact, *label, *unit;
 } quantity[QUANTITIES] = {
@@ -24,7 +25,8 @@ static const struct {
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Reads the profile of a probe at frame `number`. FAILED if there is none. */
+/* Reads the profile of the EXACT probe called `probe` at frame `number` of the run in `folder`. FAILED if there is
+ * none. Release h with history_free. */
 static status profile_read(struct history *h, const char *folder, const char *probe, int number)
 {
     char path[PATH_LENGTH];
@@ -33,8 +35,8 @@ static status profile_read(struct history *h, const char *folder, const char *pr
     return history_read_file(h, path);
 }
 
-/* Returns true if `file` is the profile at the first frame and has the columns of a closed-form solution; stores the
- * name of its probe. */
+/* Returns true if `file` in `folder` is a profile at the first frame that has the columns of a closed-form solution.
+ * Stores the name of its probe in name[]. */
 static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_LENGTH])
 {
     const char ending[] = "_000000.csv";
@@ -49,8 +51,8 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
     return has;
 }
 
-/* Finds the probes with a closed-form solution whose profiles are in the folder, and stores the name of the first one
- * in alphabetical order. Returns false if there is none. */
+/* Stores in name[] the name of the first EXACT probe, in alphabetical order, of which a profile is in the folder of a
+ * run. Returns false if there is none. */
 bool exact_probe_find(const char *folder, char name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
@@ -74,7 +76,7 @@ struct scale {
     char label[64];
 };
 
-/* Extends the range of a scale by the finite values of a column of h; column NULL adds nothing. */
+/* Extends the range s->low..high by the finite values in a column of h. column: its name; NULL: adds nothing. */
 static void extend(struct scale *s, const struct history *h, const char *column)
 {
     int at = column ? history_find_column(h, column) : -1;
@@ -84,7 +86,7 @@ static void extend(struct scale *s, const struct history *h, const char *column)
     }
 }
 
-/* Writes a power of ten with superscript digits in UTF-8. text: capacity `capacity` [byte]. */
+/* Writes a power of ten with superscript digits in UTF-8, as 10⁻³, into text[capacity]. */
 static void power_text(char *text, size_t capacity, int power)
 {
     static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -93,8 +95,8 @@ static void power_text(char *text, size_t capacity, int power)
              raised[size % 10]);
 }
 
-/* Returns range, unit and label of panel q for the values of all frames, with a margin at both ends. Strains have a
- * power of ten as their unit, other quantities an SI prefix. */
+/* Returns range, unit and label of panel q for the values of all frames, with a margin at both ends of the range.
+ * h[frames]: profiles. Strains have a power of ten as their unit, other quantities an SI prefix. */
 static struct scale scale_of(const struct history *h, int frames, int q)
 {
     struct scale s = {.factor = 1};
@@ -123,7 +125,7 @@ static struct scale scale_of(const struct history *h, int frames, int q)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-/* Sends a number to gnuplot; NaN leaves a gap in a curve. */
+/* Sends a number to gnuplot, or NaN, which leaves a gap in a curve. */
 static void send_number(FILE *to, double a)
 {
     if (isfinite(a))
@@ -132,7 +134,8 @@ static void send_number(FILE *to, double a)
         fputs(" NaN", to);
 }
 
-/* Sends the data block $fK: x, then computed and exact values of every panel. metre: unit of x [m]. */
+/* Sends the profile h of the k-th drawn frame as the data block $fK: x, then computed and exact values of every panel.
+ * metre: unit of x [m]; scale[QUANTITIES]: units of the panels. */
 static void send_frame(FILE *to, const struct history *h, int k, double metre, const struct scale *scale)
 {
     fprintf(to, "$f%d << EOD\n", k);
@@ -148,8 +151,8 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
     fputs("EOD\n", to);
 }
 
-/* Colours the background of a panel where the bar consists of peridynamic particles in frame h. metre: unit of x [m];
- * half: half a spacing [m]. Returns false if the frame has particles of one kind only; nothing is coloured then. */
+/* Colours the background of a panel where the bar consists of peridynamic particles in the profile h. metre: unit of x
+ * [m]; half: half a spacing [m]. Returns false, and colours nothing, if the profile has particles of one kind only. */
 static bool tint_kinds(FILE *to, const struct history *h, double metre, double half)
 {
     int x = history_find_column(h, "x"), kind = history_find_column(h, "kind"), parts = 0;
@@ -168,7 +171,8 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
     return true;
 }
 
-/* Plots the curves of panel q for the selected frames, exact solutions dashed. */
+/* Plots the curves of panel q for the frames show[frames], with the exact solution dashed. tinted: the background shows
+ * peridynamic parts, which the key then explains. */
 static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
 {
     struct unit second = unit_for_largest_value(show[frames - 1].time, "s");
@@ -182,7 +186,7 @@ static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int
     putc('\n', to);
 }
 
-/* Draws all panels from the profiles h, [frames]. */
+/* Draws all panels of a bar with its closed-form solution. h[frames]: profiles of the frames show[frames]. */
 static status plot_bar_draw(struct sheet sheet, const char *title, const struct history *h,
                             const struct listed_frame *show, int frames)
 {

@@ -28,9 +28,9 @@ struct cube {
     double half[3], F[3][3], inverse[3][3], towards[3];
 };
 
-/* Intersects a line of sight with a cube. at: point of the line in the picture plane relative to the cube's centre [m].
- * Returns the axis of the face through which the line leaves the cube towards the viewer and stores the depth of that
- * point [m]; -1 if the line misses the cube. */
+/* Intersects a line of sight of the camera `eye` with the cube b. at[2]: point of the line in the picture plane
+ * relative to the cube's centre [m]. Returns the axis of the face through which the line leaves the cube towards the
+ * viewer, and stores the depth of that point [m]. Returns -1 if the line misses the cube. */
 static int leaves_cube(const struct camera *eye, const struct cube *b, const double *at, double *depth)
 {
     double enters = -INFINITY, leaves = INFINITY;
@@ -51,7 +51,7 @@ static int leaves_cube(const struct camera *eye, const struct cube *b, const dou
     return enters < leaves ? face : -1;
 }
 
-/* Computes the cube of particle i; a cube smaller than a pixel is enlarged to one pixel. */
+/* Computes the deformed cube b of particle i. A cube smaller than a pixel is enlarged to one pixel. */
 static void cube_of(const struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct cube *b)
 {
     const double least = 0.6 / v->per_metre[0], own = HALF * (c->size ? c->size[i] : c->spacing);
@@ -66,7 +66,7 @@ static void cube_of(const struct scene_canvas *v, const struct plotted_particles
     }
 }
 
-/* Returns half the extent of a cube along a direction [m]. */
+/* Returns half the extent of a cube along the unit vector `direction` [m]. */
 static double cube_reach(const struct cube *b, const double *direction)
 {
     double reach = 0;
@@ -78,8 +78,8 @@ static double cube_reach(const struct cube *b, const double *direction)
     return reach;
 }
 
-/* Returns the brightness of the face of a cube: that of the axis to which the face is normal, mixed where the cube has
- * turned. */
+/* Returns the brightness of a face of a cube, 0..1: the mean of the brightnesses of the axes, weighted by the squared
+ * components of the normal. Returns 1 if the view is along the normal. towards: direction to the viewer. */
 static double face_brightness(const struct cube *b, int face, const double *towards)
 {
     double length = 0, facing = 0, shade = 0;
@@ -90,7 +90,8 @@ static double face_brightness(const struct cube *b, int face, const double *towa
     return fabs(facing) >= STRAIGHT * sqrt(length) ? 1 : shade / length;
 }
 
-/* Paints the cube of particle i on the pixels on which it is nearer to the viewer than what is painted there. */
+/* Paints the cube of particle i in the given colour on those pixels on which it is nearer to the viewer than the cubes
+ * painted before. */
 static void paint_cube(struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct colour colour)
 {
     struct cube cube;

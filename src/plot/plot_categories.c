@@ -14,8 +14,8 @@ struct colour category_colour(const struct plot_field *field, float value)
     return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)value) : part_colour((int)value);
 }
 
-/* Writes the name of a value; names of bodies and materials are those of the scene s (NULL: unknown). name: capacity
- * `capacity` [byte]. */
+/* Writes the name of a value of a field into name[capacity]. The names of bodies and materials are those of the scene
+ * s; NULL: the scene is unknown, and they are numbered. */
 static void category_name(char *name, size_t capacity, const char *field, int value, const struct scene *s)
 {
     const char *known = NULL;
@@ -30,15 +30,16 @@ static void category_name(char *name, size_t capacity, const char *field, int va
         snprintf(name, capacity, "%s %d", field, value);
 }
 
-/* Returns the value of particle i, at least -1 also for damaged files. */
+/* Returns the value of particle i as a whole number from -1 to 2^24, also if the file that it was read from is
+ * damaged. */
 static int category_value(const struct plotted_particles *c, int64_t i)
 {
     static const float MOST = 1 << 24;
     return (int)fminf(fmaxf(c->value[i], -1), MOST);
 }
 
-/* Returns an allocated array seen[1 + value] that is true for each value that occurs in a cloud. Stores the largest
- * value in *last. */
+/* Returns an allocated array in which seen[1 + value] is true for each value that occurs in cloud[clouds]. Stores the
+ * largest value in *last. The caller releases the array with memory_free. */
 static bool *values_seen(int *last, const struct plotted_particles *cloud, int clouds)
 {
     *last = -1;

@@ -12,8 +12,8 @@ static const double COMPARISONS = 2e7;
 
 /* ---- spacing ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of particles, of n, that are sampled to estimate the spacing, so that the number of comparisons
- * is limited. */
+/* Returns how many of n particles are sampled to estimate the spacing, so that the number of distance comparisons,
+ * samples * n, is limited. */
 static int64_t sample_count(int64_t n)
 {
     int64_t samples = (int64_t)(COMPARISONS / (double)(n + 1));
@@ -63,7 +63,7 @@ double frame_spacing(const struct output_frame *f)
 }
 
 /* Returns true if the direction from particle i to its nearest neighbour is within 8 degrees of an axis of the map.
- * X: reference positions along the axes of the map [2][n, m]. */
+ * X[2][n]: reference positions along the axes of the map [m]. */
 static bool lies_along(float *const *X, int64_t n, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
@@ -77,8 +77,8 @@ static bool lies_along(float *const *X, int64_t n, int64_t i)
     return across < 0.14 * along; /* tan 8 degrees */
 }
 
-/* Returns true if n particles appear to be on a lattice along the axes of the map: lies_along holds for 90 % of a
- * sample. */
+/* Returns true if n particles appear to be on a lattice along the axes of the map: for 90 % of a sample the nearest
+ * neighbour is along an axis. X[2][n]: reference positions along the axes of the map [m]. */
 static bool is_aligned(float *const *X, int64_t n)
 {
     int64_t samples = sample_count(n), along = 0;
@@ -88,7 +88,7 @@ static bool is_aligned(float *const *X, int64_t n)
 
 /* ---- slices ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the extent of the reference positions of all particles along axis d [m]. */
+/* Computes the extent *from..*to of the reference positions of all particles along axis d [m]. */
 static void frame_extent(const struct output_frame *f, int d, double *from, double *to)
 {
     *from = INFINITY, *to = -INFINITY;
@@ -98,7 +98,7 @@ static void frame_extent(const struct output_frame *f, int d, double *from, doub
     }
 }
 
-/* Returns the thinnest direction of a solid; the last of equal ones. */
+/* Returns the coordinate axis along which a body in 3D has the smallest extent; the last one of equal axes. */
 static int thinnest_direction(const struct output_frame *f)
 {
     double thinnest = INFINITY;
@@ -113,7 +113,7 @@ static int thinnest_direction(const struct output_frame *f)
     return normal;
 }
 
-/* Returns the coordinate of the particle nearest to `wanted` [m]. */
+/* Returns the coordinate along the axis `normal` of the particle whose coordinate is nearest to `wanted` [m]. */
 static double nearest_coordinate(const struct output_frame *f, int normal, double wanted)
 {
     double best = INFINITY, at = wanted;
@@ -126,8 +126,9 @@ static double nearest_coordinate(const struct output_frame *f, int normal, doubl
     return at;
 }
 
-/* Returns the coordinate of the layer with the largest sum of damage [m]; among layers with at least 0.98 of this sum,
- * and among all layers of an undamaged body, the one nearest to the middle. */
+/* Returns the coordinate along the axis `normal` [m] of the particle layer that a slice shows. It is the layer nearest
+ * to the middle among those whose sum of damage is at least 0.98 of the largest sum; in an undamaged body, the layer
+ * nearest to the middle. */
 static double damaged_layer(const struct output_frame *f, int normal)
 {
     enum { LAYERS_MAX = 100000 };
@@ -189,7 +190,7 @@ struct camera camera_along(int axis, int side)
     return c;
 }
 
-/* Computes the position of a particle in the picture [m]: the current one, with magnified displacements. */
+/* Computes the drawn position x = X + magnify u of particle i [3, m]; components that the space lacks are 0. */
 static void place_now(const struct output_frame *f, int64_t i, double magnify, double *x)
 {
     for (int d = 0; d < 3; d++) x[d] = d < f->dim ? (double)f->X[d][i] + magnify * f->u[d][i] : 0;
@@ -200,8 +201,8 @@ static double along(const double *direction, const double *x)
     return direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2];
 }
 
-/* Appends the current position of particle i along the axes of the map and its reference position to the cloud, and
- * extends the bounding box of the cloud by the latter. */
+/* Appends particle i of the frame f to the cloud c: its drawn position and its reference position along the axes of the
+ * map. Extends the bounding box of the cloud by the reference position. */
 static void cloud_place(struct plotted_particles *c, const struct output_frame *f, int64_t i)
 {
     const int64_t k = c->n;
@@ -230,7 +231,7 @@ static void cloud_allocate(struct plotted_particles *c, const struct output_fram
     if (projection->value) c->value = NEW("plot.value", f->n, float);
 }
 
-/* Sets the axes of the map: x and y in 2D, the in-plane axes of a slice, or the directions of a camera. */
+/* Sets the axes of the map in c: x and y in 2D, the axes in the plane of a slice, or the directions of a camera. */
 static void cloud_axes(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {
     c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along(2, 1);

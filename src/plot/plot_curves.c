@@ -60,7 +60,8 @@ void curves_write_time_axis(FILE *to, const struct series *s)
 
 /* ---- crack ------------------------------------------------------------------------------------------------------- */
 
-/* Sets an axis from zero to `top`, with its label and tics in the colour of its curve. */
+/* Writes the commands for a vertical axis ("y" or "y2") from zero to `top`, with its label and tics in the colour of
+ * its curve. colour: index in curve_colour. */
 static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top)
 {
     fprintf(to,
@@ -69,7 +70,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
             axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
 }
 
-/* Returns true if a column of the history has different values. */
+/* Returns true if the values in a column of the history are not all equal. */
 static bool column_varies(const struct history *h, int column)
 {
     for (int64_t i = 1; i < h->rows; i++)
@@ -77,8 +78,8 @@ static bool column_varies(const struct history *h, int column)
     return false;
 }
 
-/* Draws crack length and share of peridynamic particles over time, each only if it changes; a bar has no length of
- * cracks. */
+/* Draws the crack length and the share of peridynamic particles over time, each only if it changes. The crack length of
+ * a bar is never drawn. Prints a message if neither changes. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
@@ -124,7 +125,8 @@ struct energies {
 /* Energies below this fraction of the largest one are not drawn: their curves coincide with the axis. */
 #define ENERGY_SHOWN 5e-4
 
-/* Selects the columns of energies that exist and are large enough to be visible. */
+/* Selects for drawing the energies whose largest value is at least ENERGY_SHOWN of the largest one of all, and chooses
+ * their unit. */
 static void choose_energies(struct energies *e, const struct history *h)
 {
     double largest = 0;
@@ -141,7 +143,7 @@ static void choose_energies(struct energies *e, const struct history *h)
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
 }
 
-/* Plots all energies, and their sum without external work dashed. */
+/* Plots all selected energies, and as a dashed line their sum without the external work. */
 static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);
@@ -154,7 +156,7 @@ static void plot_energies(FILE *to, const struct energies *e)
     fputs(") with lines lw 1.6 dt (6,4) lc rgb '#3d3d3d' title 'sum'\n", to);
 }
 
-/* Returns a round distance of tics that places one or two of them between 0 and `top`. */
+/* Returns a distance of tics, 1, 2 or 5 times a power of ten, that places one or two tics between 0 and `top`. */
 static double plot_curves_tic_distance(double top)
 {
     double decade = pow(10, floor(log10(top))), lead = top / decade;
@@ -172,7 +174,8 @@ static void plot_balance(FILE *to, const struct series *s, double largest)
             -top, top, plot_curves_tic_distance(top), curve_colour[6]);
 }
 
-/* Draws energies over time, and the balance error below. */
+/* Draws the energies of a run over time, and below them the balance error if the history has it. Prints a message if
+ * all energies are 0. */
 static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
 {
     struct energies e;
@@ -231,8 +234,8 @@ status history_curves_draw(const char *folder, const char *title, enum picture_f
 
 /* ---- profiles ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the colour of the curve of frame k of `frames`: a fixed colour each if there are few frames, else a shade of
- * a scale from dark to light. text: capacity `capacity` [byte]. */
+/* Writes the colour of the curve of the k-th of `frames` frames into text[capacity]: one of the fixed colours if they
+ * suffice, else a shade of a scale from dark to light. */
 static void frame_colour(char *text, size_t capacity, int k, int frames)
 {
     const struct colour c = colour_sequential(0.88 * k / fmax(frames - 1, 1));
@@ -252,8 +255,8 @@ static int plot_curves_by_place(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sets the range of the axis along the bar to the positions in all frames, extended by half a spacing at both ends.
- * metre: unit of the axis [m]. */
+/* Sets the range of the axis along the bar to the current positions of the particles in frame[frames], extended by half
+ * a spacing at both ends. metre: unit of the axis [m]. */
 static void profile_range(FILE *to, const struct output_frame *frame, int frames, double metre)
 {
     const double half = 0.5 * frame_spacing(&frame[0]);
@@ -267,7 +270,9 @@ static void profile_range(FILE *to, const struct output_frame *frame, int frames
     if (end > from) fprintf(to, "set xrange [%.9g:%.9g]\n", (from - beside) / metre, (end + beside) / metre);
 }
 
-/* Sends the data block $fK: the bar from left to right, with an empty line at each separation. */
+/* Sends the frame f as the data block $fK of the k-th curve: position, velocity, stress and damage of the particles
+ * from left to right. An empty line interrupts the curve where the bar has separated. unit[3]: units of position,
+ * velocity and stress. */
 static void send_profile(FILE *to, const struct output_frame *f, int k, double spacing, const struct unit *unit)
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
@@ -291,7 +296,7 @@ static double largest_in(const float *a, int64_t n)
     return largest;
 }
 
-/* Chooses units of position, velocity and stress for all frames. */
+/* Chooses unit[3], the units of position, velocity and stress, for the largest values in frame[frames]. */
 static void choose_units(struct unit *unit, const struct output_frame *frame, int frames)
 {
     double largest[3] = {0};
@@ -318,7 +323,7 @@ static void plot_profile(FILE *to, const struct output_frame *frame, int frames,
     putc('\n', to);
 }
 
-/* Returns the number of panels: damage, the last, is left out if it is zero everywhere. */
+/* Returns the number of panels of a profile: the last one, damage, is left out if damage is zero in all frames. */
 static int profile_panels(const struct output_frame *frame, int frames)
 {
     double damage = 0;
@@ -357,7 +362,8 @@ status bar_profiles_draw(struct sheet sheet, const char *title, const struct out
     return gnuplot_close(&g);
 }
 
-/* Sends the data block $fK: position and value, with an empty line at each separation. */
+/* Sends the frame f as the data block $fK of the k-th curve: position and value[f->n] of a field from left to right. An
+ * empty line interrupts the curve where the bar has separated. factor: units of position and value. */
 static void send_field(FILE *to, const struct output_frame *f, int k, const float *value, double spacing,
                        const double factor[2])
 {

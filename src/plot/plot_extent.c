@@ -8,13 +8,13 @@
 #include "data/cells.h"
 #include "plot/plot.h"
 
-/* Neighbours: the nearest ones of a lattice, diagonal ones included [spacings]. Deformations below STRAIN_SEEN are not
- * visible, as particles are drawn a tenth wider than the spacing. A pair of particles that have both lost bonds is
- * connected up to a drawn elongation of PARTED, or of PARTED_MORE times that of 99 % of the pairs that are surely
- * connected, if this is more. A pair is not drawn longer than LONGEST spacings, nor where
- * its elongation exceeds JUMP and JUMP_TIMES the median of the pairs of its particle: material points may part without
- * damage. A particle that has lost more than the
- * share LOOSE of its bonds is rubble, which has its own size. */
+/* Two particles are neighbours if their distance in the lattice is at most NEAR_REACH spacings, so that diagonal ones
+ * are included. Deformations below STRAIN_SEEN are not visible, as particles are drawn a tenth wider than the spacing.
+ * Two neighbours that have both lost bonds count as connected up to a drawn elongation of PARTED, or of PARTED_MORE
+ * times that of 99 % of the pairs that are surely connected, if this is more. A pair is not drawn longer than LONGEST
+ * spacings, nor where its elongation exceeds JUMP plus JUMP_TIMES the median of the pairs of its particle: material
+ * points may separate without damage. A particle that has lost more than the share LOOSE of its bonds is rubble, which
+ * has a size of its own. */
 #define NEAR_REACH 1.5
 #define STRAIN_SEEN 0.02
 #define PARTED 0.1
@@ -35,7 +35,7 @@ struct pairs {
     double spacing, limit, magnify;
 };
 
-/* Returns the relative elongation of the pair i, j [1]. */
+/* Returns the relative elongation |x_j - x_i|/|X_j - X_i| - 1 of the particles i and j [1]. */
 static double elongation(const struct output_frame *f, int64_t i, int64_t j)
 {
     double now = 0, first = 0;
@@ -46,20 +46,21 @@ static double elongation(const struct output_frame *f, int64_t i, int64_t j)
     return sqrt(now / first) - 1;
 }
 
-/* Returns true if two particles belong to one body, none is rubble, and no pre-crack separates them. */
+/* Returns true if the particles i and j belong to one body, none of them is rubble, and no pre-crack separates them. */
 static bool same_side(const struct pairs *p, int64_t i, int64_t j)
 {
     return p->f->body[i] == p->f->body[j] && fmaxf(p->f->damage[i], p->f->damage[j]) <= LOOSE &&
            !(p->scene && cracks_separate_particles(p->scene->crack, p->scene->cracks, &p->part, i, j));
 }
 
-/* Returns true if at least one of two neighbours has all its bonds. */
+/* Returns true if two neighbours are on one side of all cracks and at least one of them has all its bonds. */
 static bool surely_connected(const struct pairs *p, int64_t i, int64_t j)
 {
     return same_side(p, i, j) && (p->f->damage[i] <= 0 || p->f->damage[j] <= 0);
 }
 
-/* Returns the largest elongation without a jump of the pairs of particle i with the particles near it [1]. */
+/* Returns the largest elongation for which a pair of particle i and a particle near it counts as connected [1]: JUMP
+ * plus JUMP_TIMES the median elongation of its pairs. near: particles near i. */
 static double jump_of(const struct pairs *p, const struct neighbour_list *near, int64_t i)
 {
     double all[NEAR_MOST];
@@ -69,7 +70,8 @@ static double jump_of(const struct pairs *p, const struct neighbour_list *near, 
     return n > 0 ? JUMP + JUMP_TIMES * fmax(median_of(all, n), 0) : JUMP;
 }
 
-/* jump: largest elongation without a jump of the pairs of particle i. */
+/* Returns true if the neighbours i and j are drawn as connected. jump: largest elongation for which a pair of particle
+ * i counts as connected (jump_of). */
 static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
 {
     const double longer = elongation(p->f, i, j);
@@ -78,7 +80,7 @@ static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
     return longer <= most && same_side(p, i, j);
 }
 
-/* Returns the elongation above which two particles without all their bonds are apart [1]. */
+/* Returns the elongation above which two neighbours that have both lost bonds are drawn apart [1]. */
 static double parted_limit(const struct pairs *p)
 {
     struct neighbour_list near = {0};
@@ -98,9 +100,9 @@ static double parted_limit(const struct pairs *p)
     return limit;
 }
 
-/* Computes the deformation gradient F of particle i, 3 x 3, as the least-squares fit to its connected neighbours
- * (Silling et al. 2007 with unit weights). Where they do not span the space, F is the identity in what they leave open.
- */
+/* Computes the deformation gradient F[9] of particle i, rows along x, y, z, as the least-squares fit to its connected
+ * neighbours (Silling et al. 2007 with unit weights). In directions that the neighbours do not span, F is the identity.
+ * near: work list for neighbours. */
 static void gradient_of(const struct pairs *p, struct neighbour_list *near, int64_t i, float *F)
 {
     const struct output_frame *f = p->f;
@@ -126,7 +128,8 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
         }
 }
 
-/* Returns true if displacements differ enough for a visible deformation. */
+/* Returns true if the displacements in a frame differ by more than STRAIN_SEEN spacings, so that a deformation may be
+ * visible. */
 static bool may_be_deformed(const struct output_frame *f, double spacing)
 {
     double most = 0;

@@ -61,7 +61,7 @@ static const struct plot_field fields[] = {
 };
 
 /* Returns true if a field is a component along an axis that a run with `dim` dimensions does not have. The stress
- * normal to a plane exists in every run. */
+ * normal to the plane exists in two-dimensional runs, too. */
 static bool lacks_component(const struct plot_field *field, int dim)
 {
     const char *end = strrchr(field->name, '_');
@@ -72,8 +72,8 @@ static bool lacks_component(const struct plot_field *field, int dim)
     return false;
 }
 
-/* Returns REFUSED with the components of the field `name`, or, if it has none, with the field of the nearest name and
- * the names of all others. names: of all fields [COUNT_OF(fields)]. */
+/* Returns REFUSED for a name that is no field. The message lists the components of the field `name`, or if it has none,
+ * the field with the nearest name and the names of all fields. names[COUNT_OF(fields)]: names of all fields. */
 static status field_unknown(const char *name, const char *const *names)
 {
     char all[1024] = "", components[256] = "";
@@ -133,9 +133,8 @@ void plot_field_label(char *text, size_t capacity, const struct plot_field *fiel
         if (*c == '_') *c = ' ';
 }
 
-/* Returns true if particles of the frame `last` have lost bonds since the frame `first`, or if its particles are
- * others.
- */
+/* Returns true if particles have lost bonds between the frames `first` and `last`. If the particles of the frames
+ * differ, returns true if a particle of `last` is damaged. */
 static bool bonds_broke(const struct output_frame *first, const struct output_frame *last)
 {
     bool more = false;
@@ -144,7 +143,7 @@ static bool bonds_broke(const struct output_frame *first, const struct output_fr
     return more;
 }
 
-/* Returns true if a field of the frame f, which was read from the file `path`, is not 0 everywhere. */
+/* Returns true if a field can be read in the frame f and is not 0 everywhere. path: file of the frame. */
 static bool field_occurs(const struct plot_field *field, const struct output_frame *f, const char *path)
 {
     float *value = NULL;

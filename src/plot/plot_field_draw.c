@@ -12,7 +12,8 @@
 #include "plot/plot.h"
 #include "scene/scene_read.h"
 
-/* Determines the path of the picture: the option -o, or a file in DIR/pictures. */
+/* Determines the path of the picture of a field: the option -o, or a file in DIR/pictures, a folder that is created.
+ * field: name of the field. REFUSED if the file may not be replaced. */
 static status field_path(struct path *path, const struct plot_request *r, const char *field)
 {
     const char *ending = picture_ending[r->format];
@@ -45,7 +46,7 @@ static void field_title(char *title, const struct plot_request *r, const struct 
     picture_compose_title(title, r, name, c);
 }
 
-/* Prints the named values and how many more there are. */
+/* Prints the named values of a field, and how many further ones there are. */
 static void say_categories(const struct categories *k)
 {
     for (int i = 0; i < k->n; i++) printf("%s%s", i ? ", " : ": ", k->of[i].name);
@@ -53,7 +54,8 @@ static void say_categories(const struct categories *k)
     putchar('\n');
 }
 
-/* Prints what was drawn, with the range of the colours in SI units. */
+/* Prints which field was drawn to which file, with the numbers of frames and particles and the range of the colours in
+ * SI units. Returns FAILED if standard output cannot be written. */
 static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames,
                         int64_t particles)
 {
@@ -131,8 +133,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     return s;
 }
 
-/* Checks that the projection suits the space of the run. REFUSED if the request asks for a slice or an outside view of
- * a plane run. */
+/* Checks that slice or outside view suit the dimension of a run. REFUSED if the request has a slice or an outside view
+ * for a run in one or two dimensions. */
 static status projection_check(const struct plot_request *r, int dim)
 {
     if (dim == 3 || (!r->projection.placed && r->projection.normal < 0 && !r->projection.outside)) return OK;

@@ -17,8 +17,8 @@ enum { PATH_LENGTH = 4096 };
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the unit with the SI prefix for which the number for `largest` has one to three digits before the point.
- * name: the unit without prefix. */
+/* Returns the unit with the SI prefix for which the number for `largest`, a value without prefix, has one to three
+ * digits before the decimal point. name: the unit without prefix. */
 struct unit unit_for_largest_value(double largest, const char *name)
 {
     static const struct {
@@ -52,7 +52,7 @@ struct unit unit_of_figure(const char *name, double largest)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the folder of a run contains a file `name`. */
+/* Returns true if the folder of a run contains a file or folder called `name`. */
 bool run_has_file(const char *folder, const char *name)
 {
     char path[PATH_LENGTH];
@@ -66,7 +66,8 @@ status run_read_frame(struct output_frame *f, const char *folder, int number)
     return path.text[0] ? frame_read(f, path.text) : status_set(FAILED, "%s: the name is too long", folder);
 }
 
-/* Selects frames evenly spread from the first to the last; a single one is the last. */
+/* Selects at most `panels` of the frames r->list, evenly spread from the first to the last. A single one is the last
+ * frame. */
 static void spread_frames(struct run_frames *r, int panels)
 {
     r->shown = r->listed < panels ? r->listed : panels;
@@ -75,7 +76,7 @@ static void spread_frames(struct run_frames *r, int panels)
         r->show[k] = r->list[r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1))];
 }
 
-/* Selects the frames nearest to the requested times, each once. */
+/* Selects the frames nearest to time[times] [s]. A frame that is nearest to consecutive times is selected once. */
 static void nearest_frames(struct run_frames *r, const double *time, int times)
 {
     r->show = NEW("plot.show", times, struct listed_frame);
@@ -87,8 +88,8 @@ static void nearest_frames(struct run_frames *r, const double *time, int times)
     }
 }
 
-/* Checks that the requested times lie near frames. REFUSED if a time is farther from the nearest frame than the frames
- * are from each other. */
+/* Checks that the requested times time[times] [s] are within the range of the frames, extended by the mean time between
+ * frames at both ends. REFUSED otherwise. */
 static status times_within(const struct run_frames *f, const double *time, int times)
 {
     if (f->listed == 0) return OK;
@@ -175,7 +176,8 @@ status picture_destination(struct path *path, const char *out, const char *name,
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
-/* Prints that a picture is not drawn, and why, and removes an older picture of this name if Cleave drew it. */
+/* Prints that the picture `path` is not drawn, with the reason `why`, and removes an older picture of this name if
+ * Cleave drew it. Returns FAILED if standard output cannot be written. */
 status report_nothing_to_draw(const char *path, const char *why)
 {
     const char *slash = strrchr(path, '/');

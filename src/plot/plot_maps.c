@@ -22,8 +22,8 @@ enum { KEY_LINE = 22 };                  /* distance of lines of the key [pixel]
 enum { KEY_BELOW = 760 };                /* narrower pictures have the key below the title [pixel] */
 static const double SHAPE_WANTED = 0.72; /* height over width of the picture */
 
-/* Returns the layout with a given number of columns. aspect: height over width of a panel; right: margin on the right
- * [pixel]. */
+/* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height over width of a
+ * panel; right: margin on the right [pixel]. */
 static struct layout layout_of(int columns, int panels, double aspect, int right)
 {
     struct layout l = {.columns = columns, .rows = (panels + columns - 1) / columns, .right = right};
@@ -44,8 +44,8 @@ static struct layout layout_of(int columns, int panels, double aspect, int right
     return l;
 }
 
-/* Returns the arrangement of panels with the best compromise between large panels, a picture of the shape
- * SHAPE_WANTED and few empty positions. aspect: height over width of a panel; right: margin [pixel]. */
+/* Returns the layout of `panels` panels with the best compromise between large panels, a picture of the shape
+ * SHAPE_WANTED and few empty positions. aspect: height over width of a panel; right: margin on the right [pixel]. */
 static struct layout layout_choose(int panels, double aspect, int right)
 {
     struct layout best = layout_of(1, panels, aspect, right);
@@ -63,7 +63,8 @@ static struct layout layout_choose(int panels, double aspect, int right)
     return best;
 }
 
-/* Sets the margins of a box given in pixels from the upper left corner. */
+/* Writes the gnuplot margins of a box of the given width and height. left, above: its upper left corner. All lengths
+ * are in pixels. */
 static void set_box(FILE *to, const struct layout *l, double left, double above, double width, double height)
 {
     fprintf(to, "set lmargin at screen %.9g\nset rmargin at screen %.9g\n", left / l->width, (left + width) / l->width);
@@ -76,8 +77,8 @@ void panel_write_margins(FILE *to, const struct layout *l, double left, double a
     set_box(to, l, left, above, l->panel_width, l->panel_height);
 }
 
-/* Returns a round distance of tics, 1, 2 or 5 times a power of ten, for an axis of length `range` on `pixels` pixels.
- * Tics are at least `apart` pixels apart, and there are at most about ten. */
+/* Returns a round distance of tics, 1, 2 or 5 times a power of ten, for an axis of length `range` that is drawn on
+ * `pixels` pixels. Tics are at least `apart` pixels apart, and there are at most about ten. */
 static double plot_maps_tic_distance(double range, int pixels, int apart)
 {
     double least = range * fmax(apart, pixels / 10.0) / pixels, decade = pow(10, floor(log10(least)));
@@ -133,8 +134,8 @@ void panel_write_directions(FILE *to, const struct layout *l, const struct view 
         metre->name, (end - 0.5 * length) / l->width, (y + 22) / l->height);
 }
 
-/* Draws panel number `place`, counted row by row: the map of a cloud with axes and title. second: unit of time in the
- * titles; lowest: the panel has labels below, since no other one is there. */
+/* Draws the panel number `place`, counted row by row: the map of one frame's particles c with axes and title. second:
+ * unit of time in the title; lowest: no panel is below this one, so that its axis has labels there. */
 static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view,
                                  const struct plotted_particles *c, enum map map, const struct unit *second, int place,
                                  bool lowest)
@@ -194,7 +195,7 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     return s;
 }
 
-/* Returns the width of the longest number beside the bar [pixel]. */
+/* Returns the width of the longest number beside the colour bar [pixel]. format: of the numbers, for printf. */
 static double bar_numbers_width(const struct bar_scale *scale, const char *format)
 {
     int longest = 0;
@@ -206,7 +207,8 @@ static double bar_numbers_width(const struct bar_scale *scale, const char *forma
     return 10.0 * longest;
 }
 
-/* Says at the ends of a colour bar, `height` pixels high, which share of the particles is beyond them. */
+/* Prints at the ends of a colour bar, `height` pixels high, which share of the particles has values beyond them.
+ * particles: number of particles of a frame. */
 static void draw_beyond(FILE *to, const struct layout *l, const struct view *view, int64_t particles, int height)
 {
     for (int end = 0; end < 2; end++) {
@@ -219,7 +221,8 @@ static void draw_beyond(FILE *to, const struct layout *l, const struct view *vie
     }
 }
 
-/* Draws the colour bar as a narrow panel on the right beside the first row, at most as high as a panel. */
+/* Draws the colour bar as a narrow panel on the right beside the first row, at most 360 pixels high. particles: number
+ * of particles of a frame, of which the share beyond the ends is printed. */
 static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map,
                                int64_t particles)
 {
@@ -244,8 +247,8 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
     panel_write_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
 }
 
-/* Draws an entry of the key: a square in colour c, unless c is transparent, and its text. x, y: pixels from the upper
- * left corner. */
+/* Draws an entry of the key: a square in colour c, unless c is transparent, and its text. x, y: position from the upper
+ * left corner of the picture [pixel]. */
 static void key_entry(FILE *to, const struct layout *l, double x, double y, struct colour c, const char *text)
 {
     if (c.alpha > 0)
@@ -260,7 +263,8 @@ static void key_entry(FILE *to, const struct layout *l, double x, double y, stru
             1 - (y - 1) / l->height);
 }
 
-/* Draws the key above the panels: the two kinds of particles, or fragments. */
+/* Draws the key above the panels: the two kinds of particles, or for MAP_FRAGMENT the heaviest fragment and particles
+ * without bonds. */
 static void draw_key(FILE *to, const struct layout *l, enum map map)
 {
     const struct category entry[2][2] = {{{colour_points(), "material points"}, {colour_bonds(0.25), "peridynamics"}},
@@ -281,7 +285,8 @@ static void draw_categories(FILE *to, const struct layout *l, const struct categ
     if (k->more > 0) key_entry(to, l, x, ABOVE + 8 + KEY_LINE * k->n, (struct colour){0}, more);
 }
 
-/* Returns the width that the key of named values needs on the right of the panels [pixel]. */
+/* Returns the width of the margin on the right of the panels [pixel]. It holds the colour bar, or the key of named
+ * values. */
 static int right_room(const struct view *view, enum map map)
 {
     size_t longest = 12; /* `and 120 more` */
@@ -292,7 +297,8 @@ static int right_room(const struct view *view, enum map map)
     return (int)fmin(map == MAP_CATEGORY ? fmax(RIGHT, BAR_FROM + 30 + 9 * (double)longest) : RIGHT, RIGHT_MAX);
 }
 
-/* Draws the title and, if there are any, the number of particles outside the shown rectangle. */
+/* Draws the title and, unless it is 0, the number `outside` of particles outside the shown rectangle. Long titles are
+ * set in smaller letters. */
 static void draw_title(FILE *to, const struct layout *l, const char *title, int64_t outside)
 {
     char text[TITLE_LENGTH + 64];

@@ -20,8 +20,8 @@ struct canvas {
     double per_metre[2]; /* pixels per metre */
 };
 
-/* Shape of a particle in the map: F and its inverse along the axes of the map, half width or radius of the undeformed
- * particle [m]. */
+/* Shape of a particle in the map: the deformation gradient F along the axes of the map, its inverse, and the half width
+ * or radius of the undeformed particle [m]. square: a square; else a disc. */
 struct outline {
     double F[2][2], inverse[2][2], half;
     bool square;
@@ -50,8 +50,9 @@ static double outline_reach(const struct outline *s, int k)
     return s->half * (s->square ? fabs(s->F[k][0]) + fabs(s->F[k][1]) : hypot(s->F[k][0], s->F[k][1]));
 }
 
-/* Returns the distance of a point from the centre of a particle where both were before the deformation [m]; INFINITY
- * outside the particle. off: of the point from the centre [m]; beside: enlarges the particle [m]. */
+/* Returns the distance [m] from the centre of a particle to the material point that is drawn at `off` [2, m] from the
+ * centre, measured before the deformation. Returns INFINITY if the point is outside the particle enlarged by `beside`
+ * [m]. */
 static double distance_within(const struct outline *s, const double *off, double beside)
 {
     double xi[2];
@@ -65,8 +66,8 @@ static double distance_within(const struct outline *s, const double *off, double
 static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
 static const double FACE_HALF = 0.7; /* half width of the line [pixel] */
 
-/* Returns the pre-crack within `reach` of the reference position of particle i [m]; NULL if there is none, or if the
- * map does not show pre-cracks. */
+/* Returns the pre-crack within the distance `reach` [m] of the reference position of particle i. Returns NULL if there
+ * is none, or if the map does not show pre-cracks. */
 static const struct crack *face_at(const struct view *view, const struct plotted_particles *c, int64_t i, double reach,
                                    enum map map)
 {
@@ -78,8 +79,8 @@ static const struct crack *face_at(const struct view *view, const struct plotted
     return NULL;
 }
 
-/* Returns true if the material point at a distance `off` from the centre of particle i [m] is on the faces of a
- * pre-crack, within `half` [m]. */
+/* Returns true if a material point is within `half` [m] of the pre-crack `face` (may be NULL) in the reference state.
+ * off: drawn position of the point from the centre of particle i [2, m]; s: shape of the particle. */
 static bool on_crack_face(const struct crack *face, const struct plotted_particles *c, int64_t i,
                           const struct outline *s, const double *off, double half)
 {
@@ -88,8 +89,9 @@ static bool on_crack_face(const struct crack *face, const struct plotted_particl
     return face && segment_distance(face->corner[0], face->corner[1], X, 2) < half;
 }
 
-/* Paints particle i on all pixels that it covers and that no better particle has: nearer to the centre of the pixel,
- * or, if several particles are on one pixel, more damaged. */
+/* Paints particle i on all pixels that it covers, except those with a particle of better rank. The rank is better the
+ * nearer the centre of the particle is to the pixel or, if pixels are larger than particles, the more damaged the
+ * particle is. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *c, int64_t i,
                            enum map map)
 {

@@ -40,8 +40,8 @@ void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f
     memory_free(at);
 }
 
-/* Returns the level set of a rigid body at the present position x [DIM_MAX, m]: negative inside [m]. cut: cut an
- * unbounded body to its box. */
+/* Returns the level set of a rigid body at the present position x[3] [m]: negative inside. dim: dimension of the run;
+ * cut: an unbounded body is cut to its box. */
 static double level_at(const struct rigid_shown *r, int dim, const double *x, bool cut)
 {
     real X[DIM_MAX] = {0};
@@ -54,7 +54,8 @@ static double level_at(const struct rigid_shown *r, int dim, const double *x, bo
     return level;
 }
 
-/* Computes the present position of corner k of the box of a body along the direction `axis` [m]. */
+/* Returns the present coordinate along the direction `axis` [m] of corner k of the box of a rigid body. Bit d of k
+ * selects the upper end of the box along axis d. */
 static double corner_along(const struct rigid_shown *r, int dim, int k, const double *axis)
 {
     double sum = 0;
@@ -80,7 +81,8 @@ void view_show_rigids(struct view *v, const struct plotted_particles *c)
             }
 }
 
-/* Computes the position of a pixel in the picture plane, with depth z along the direction of view [m]. */
+/* Computes the position x[3] [m] of pixel q of a picture of size[0] x size[1] pixels, at the depth `depth` towards the
+ * viewer [m]. */
 static void pixel_position(const struct plotted_particles *c, const struct view *v, const int *size, int64_t q,
                            double depth, double *x)
 {
@@ -103,7 +105,9 @@ void rigids_paint_flat(struct colour *pixel, int width, int height, const struct
         }
 }
 
-/* Returns the brightness of the surface of a body at x: that of the axes to which its normal points. */
+/* Returns the brightness of the surface of a rigid body at x[3] [m], from its normal: the brightnesses of the axes,
+ * weighted by the squared components of the normal, and less where the surface turns away. towards: direction to the
+ * viewer; step: distance for differences of the level set [m]. */
 static double brightness_at(const struct rigid_shown *r, const double *x, const double *towards, double step)
 {
     double normal[3], length = 0, shade = 0, facing = 0;

@@ -9,8 +9,8 @@
 
 enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6, LEAST_ROWS = 3 };
 
-/* Finds the columns of the history whose names end in `quantity`, and stores the parts before it, the names of the
- * probes, in name[most]. Returns their number, at most `most`. */
+/* Finds the columns of the history whose names end in `quantity`, for example ".K_I". Stores the parts of the names
+ * before it, the names of the probes, in name[most]. Returns their number, at most `most`. */
 static int probes_with(const struct history *h, const char *quantity, char name[][NAME_MAX_LENGTH], int most)
 {
     const size_t tail = strlen(quantity);
@@ -41,8 +41,8 @@ struct factors {
     struct unit unit;
 };
 
-/* Finds the columns of K_I, K_II and contour_spread of all probes of stress-intensity factors, and a unit for their
- * largest value. */
+/* Finds the columns of K_I, K_II and contour_spread of the first PROBES_SHOWN probes of stress-intensity factors, and a
+ * unit for the largest factor. */
 static void find_factors(struct factors *f, const struct history *h)
 {
     double largest = 0;
@@ -59,7 +59,8 @@ static void find_factors(struct factors *f, const struct history *h)
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
 }
 
-/* Plots the factors. One probe: a colour for each mode; several probes: a colour for each, K_II dashed. */
+/* Plots the stress-intensity factors. With one probe each mode has a colour; with several probes each probe has a
+ * colour, and K_II is dashed. */
 static void plot_factors(FILE *to, const struct factors *f)
 {
     fputs("plot 0 with lines lw 0.8 lc rgb '#888888'", to);
@@ -71,8 +72,8 @@ static void plot_factors(FILE *to, const struct factors *f)
     putc('\n', to);
 }
 
-/* Plots the relative differences between the contours of each probe. More than 1/2 indicates waves or a kink of the
- * crack within the contours. */
+/* Plots the relative differences between the integration contours of each probe. More than 1/2 indicates waves or a
+ * kink of the crack within the contours. */
 static void plot_spread(FILE *to, const struct series *s, const struct factors *f)
 {
     curves_write_time_axis(to, s);
@@ -135,7 +136,8 @@ static double plot_sif_figure_of(const char *folder, const char *probe, const ch
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Finds the paths of the tips that have grown and stores them in w, [PATHS_SHOWN]; returns their number. */
+/* Finds the paths of the crack tips that have grown and stores them in w[PATHS_SHOWN]. Returns their number. folder:
+ * folder of the run; h: its history. */
 static int find_tip_paths(struct tip_path *w, const char *folder, const struct history *h)
 {
     char name[PATHS_SHOWN][NAME_MAX_LENGTH];
@@ -161,7 +163,8 @@ static int find_tip_paths(struct tip_path *w, const char *folder, const struct h
     return n;
 }
 
-/* Sends the data block $wK: the tip position of each sample, without repeated positions. */
+/* Sends the k-th path w as the data block $wK: the tip position of each sample, without repeated positions. factor:
+ * unit of length [m]. */
 static void send_tip_path(FILE *to, const struct history *h, const struct tip_path *w, int k, double factor)
 {
     double last = -1;
@@ -174,8 +177,9 @@ static void send_tip_path(FILE *to, const struct history *h, const struct tip_pa
     fputs("EOD\n", to);
 }
 
-/* Computes the end of a line from the start of a path at the crack angle of an experiment, on the side to which the
- * computed path has turned and as long as this path has grown [m]. Returns false if there is no experiment. */
+/* Computes the end of the line that shows the crack angle of an experiment, end[2] [m]. The line begins at the start of
+ * the path w, is as long as the path has grown, and is on the side to which the path has turned. Returns false if the
+ * path has no experiment. */
 static bool ray_of(const struct tip_path *w, double end[2])
 {
     const double pi = 3.14159265358979323846, along = w->direction * pi / 180;
@@ -196,8 +200,8 @@ enum {
     PATH_LOW = 200
 };
 
-/* Computes the rectangle low .. high [2, m] that contains the ends of all paths and the lines of the experiments, with
- * a margin, and at least as high as wide over four. */
+/* Computes the rectangle low[2]..high[2] [m] that contains the ends of the n paths w and the lines of experiments, with
+ * a margin. Each of its sides is at least a quarter of the longest one. */
 static void paths_extent(const struct tip_path *w, int n, double *low, double *high)
 {
     double end[2], longer = 0;
@@ -216,7 +220,8 @@ static void paths_extent(const struct tip_path *w, int n, double *low, double *h
     }
 }
 
-/* Opens the picture of paths, as high as the rectangle needs, and sets the ranges of its axes in the same scale. */
+/* Opens the picture of crack paths and sets the ranges of its axes in one scale. The picture is as high as the
+ * rectangle low[2]..high[2] [m] requires. Returns FAILED if gnuplot cannot be started. */
 static status paths_open(struct gnuplot *g, const char *path, const struct series *s, const double *low,
                          const double *high, const struct unit *metre)
 {
@@ -236,7 +241,7 @@ static status paths_open(struct gnuplot *g, const char *path, const struct serie
     return OK;
 }
 
-/* Plots initial cracks, angles of experiments, and paths. */
+/* Plots the initial cracks, the lines at the angles of experiments, and the n paths w. metre: unit of length. */
 static void plot_tip_paths(FILE *to, const struct tip_path *w, int n, const struct unit *metre)
 {
     double end[2];

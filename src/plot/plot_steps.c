@@ -31,8 +31,8 @@ struct components {
     bool since;
 };
 
-/* Finds the columns of the components of a quantity of a probe or rigid body, for example NAME.force_x = probe, by and
- * quantity, followed by the axis. */
+/* Finds the columns of the components of a vector quantity of a probe or rigid body. The name of a column is `probe`,
+ * `by` and `quantity` followed by the axis, for example NAME.force_x. */
 static struct components components_of(const struct history *h, const char *probe, const char *by, const char *quantity)
 {
     struct components c = {0};
@@ -73,7 +73,7 @@ struct reactions {
     double force, displacement; /* largest force [N]; largest displacement while there is a force [m] */
 };
 
-/* Returns the row of the history in which a force is largest. */
+/* Returns the row of the history in which the magnitude of a force is largest. */
 static int64_t peak_of(const struct history *h, const struct components *force)
 {
     int64_t at = 0;
@@ -82,8 +82,8 @@ static int64_t peak_of(const struct history *h, const struct components *force)
     return at;
 }
 
-/* Returns the index of the first column, from column `from` on, whose name ends in `quantity`, and stores the name
- * before it, the one of its probe. Returns -1 if there is none. */
+/* Finds the first column, from column `from` on, whose name ends in `quantity`. Returns its index and stores the part
+ * of its name before `quantity`, the name of the probe, in name[]. Returns -1 if there is none. */
 static int probe_from(const struct history *h, int from, const char *quantity, char name[NAME_MAX_LENGTH])
 {
     const size_t tail = strlen(quantity);
@@ -97,8 +97,8 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
     return -1;
 }
 
-/* Adds the rigid bodies that bear a force and move, or, if `resting`, also those that rest. Returns true if one moves.
- */
+/* Appends the rigid bodies that carry a force and move to the curves of r; if `resting`, also those that rest. Returns
+ * true if one of them moves. */
 static bool reactions_add_rigids(struct reactions *r, const struct history *h, bool resting)
 {
     char name[NAME_MAX_LENGTH];
@@ -117,8 +117,9 @@ static bool reactions_add_rigids(struct reactions *r, const struct history *h, b
     return moving;
 }
 
-/* Finds the reaction probes whose supports move, and rigid bodies that move under a force. If none moves, takes all of
- * them and draws their forces over the displacement of the first point probe that moves. */
+/* Finds the curves of force over displacement: of reaction probes whose supports move, and of rigid bodies that move
+ * under a force. If none moves, takes all of them and uses the displacement of the first point probe that moves. Stores
+ * the largest force, and the largest displacement while there is a force. */
 static void reactions_find(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
@@ -164,7 +165,8 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
-/* Plots the curves, each with a ring at its peak. */
+/* Plots the curves of force over displacement, each with a ring at its largest force. newton, metre: units of the
+ * axes. */
 static void reactions_plot(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
                            struct unit metre)
 {
@@ -183,7 +185,8 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Returns the width of the longest text of the key over the width of the picture. */
+/* Returns the share of the width of a picture that its key needs [1]. longest: number of letters of its longest
+ * text. */
 static double key_share(size_t longest) { return fmin(0.05 + 0.0085 * (double)longest, 0.5); }
 
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps)
@@ -217,8 +220,8 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
 
 /* ---- R-curve ----------------------------------------------------------------------------------------------------- */
 
-/* Reads the different critical energy release rates of the materials from the scene of a run into value[]. Returns
- * their number; 0 if the scene cannot be read. */
+/* Reads the critical energy release rates of the materials in the scene of a run into value[] [J/m^2], each value once.
+ * Returns their number; 0 if the scene cannot be read. */
 static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
 {
     struct scene s;
@@ -234,8 +237,8 @@ static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
     return n;
 }
 
-/* Returns square millimetres for areas from 0.01 to 100,000 of them, else square metres. largest: largest value to be
- * shown [m^2]. */
+/* Returns the unit for areas up to `largest` [m^2]: square millimetres between 0.01 mm^2 and 100,000 mm^2, else square
+ * metres. */
 static struct unit unit_for_area(double largest)
 {
     return largest > 1e-8 && largest < 0.1 ? (struct unit){1e-6, "mm²"} : (struct unit){1, "m²"};
@@ -256,7 +259,8 @@ static void release_send(FILE *to, const struct history *h, int area, int rate, 
     fputs("EOD\n", to);
 }
 
-/* Plots the energy release rate, its mean, and the critical values G_c of n materials as horizontal lines. */
+/* Plots the energy release rate over the crack area, the mean rate [J/m^2], and the critical rates toughness[n] of the
+ * materials as horizontal lines. rate: unit of the axis. */
 static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
 {
     fprintf(to,

@@ -14,7 +14,8 @@ static int plot_view_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sorts a sample of the finite ones of n values, evenly spaced by index, into sample[SAMPLE_MOST]. Returns its size. */
+/* Copies the finite ones of n values, at most SAMPLE_MOST of them evenly spaced by index, into sample[SAMPLE_MOST] in
+ * ascending order. Returns their number. */
 static int64_t sample_sorted(float *sample, const float *value, int64_t n)
 {
     const int64_t stride = n / SAMPLE_MOST + 1;
@@ -29,9 +30,9 @@ struct span {
     double from, to;
 };
 
-/* Returns the range of n values without their lowest and highest ones: a share of all at each end, or `few` values if
- * these are more, but not more than 1/20 of all for `few`. sample[SAMPLE_MOST]: work array. The range is empty if no
- * value is finite. */
+/* Returns the range of n values without the lowest and the highest ones. At each end the share `share` of the values is
+ * left out, or `few` values (at most 1/20 of all) if these are more. sample[SAMPLE_MOST]: work array. Returns an empty
+ * range if no value is finite. */
 static struct span bulk_of(float *sample, const float *value, int64_t n, double share, int64_t few)
 {
     const int64_t kept = sample_sorted(sample, value, n), part = (int64_t)(share * (double)(kept - 1));
@@ -46,8 +47,9 @@ static struct span values_extent(const float *value, int64_t n)
     return s;
 }
 
-/* Returns the range to be shown along axis k. It contains, for each frame, all particles but 1 % at each end,
- * extended by 20 % of their range, and the initial body, but is not larger than the extent of all particles. */
+/* Returns the range to be shown along axis k of the map [m]. It contains the initial body and, for each of
+ * cloud[clouds], all particles but 1 % at each end, extended by 20 % of their range. It is not larger than the extent
+ * of all particles. */
 static struct span span_along(const struct plotted_particles *cloud, int clouds, int k)
 {
     static const double SHARE = 0.01, BESIDE = 0.2;
@@ -103,7 +105,8 @@ struct view view_around(const struct plotted_particles *cloud, int clouds)
     return v;
 }
 
-/* Returns the smallest range that contains the result of bulk_of for the values of every cloud. */
+/* Returns the smallest range that contains the range without extremes (bulk_of) of the values of each of cloud[clouds].
+ * share, few: what bulk_of leaves out. */
 static struct span values_bulk(const struct plotted_particles *cloud, int clouds, double share, int64_t few)
 {
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
@@ -126,7 +129,7 @@ void view_set_field(struct view *v, const struct plot_field *field, const struct
     if (!(v->high > v->low)) v->high = v->low + 1; /* all values are equal */
 }
 
-/* Reads an end of the colours of a field. */
+/* Reads an end of the colour scale of a field from a text with a unit of the field. REFUSED for other texts. */
 static status range_end_read(real *value, const char *text, const struct plot_field *field)
 {
     char what[256];
@@ -134,7 +137,8 @@ static status range_end_read(real *value, const char *text, const struct plot_fi
     return status_set(REFUSED, "plot: --range %s: %s", printable_name(text).text, what);
 }
 
-/* Counts the particles whose values are beyond the ends of the colours. */
+/* Counts the particles whose values are below and above the ends of the colour scale, and stores the largest numbers
+ * over cloud[clouds] in v->beyond. */
 static void count_beyond(struct view *v, const struct plotted_particles *cloud, int clouds)
 {
     v->beyond[0] = v->beyond[1] = 0;
@@ -149,7 +153,8 @@ static void count_beyond(struct view *v, const struct plotted_particles *cloud, 
     }
 }
 
-/* Sets the rectangle, and ends and table of the colours, that the request asks for. */
+/* Sets the rectangle of a view, and the ends and table of its colours, to the options of the request. REFUSED if an end
+ * of the colours is no number with a unit of the field, or if the ends are in the wrong order. */
 static status view_set_options(struct view *v, const struct plot_request *r)
 {
     v->table = r->table;

@@ -11,14 +11,15 @@ enum { ARROWS_MOST = 22, ARROWS_FIELD = 60, ARROWS_BAR = 4, HOW = 160, TEXT = 16
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
-/* Appends words to text, which has the capacity TEXT, and returns its new length. */
+/* Appends words to text[TEXT], whose length is `length`, and returns the new length. Cuts what does not fit. */
 static int add_words(char *text, int length, const char *words)
 {
     const int more = snprintf(text + length, (size_t)(TEXT - length), "%s", words);
     return length + more < TEXT ? length + more : TEXT - 1;
 }
 
-/* Appends a value with its unit, for example `12 MPa`, or the magnitude of a vector. Returns the length of the text. */
+/* Appends a value with its unit to text[TEXT], for example ` 12 MPa`, and returns the new length. length: of the text
+ * before; unit: without prefix. */
 static int add_value(char *text, int length, double value, const char *unit)
 {
     char words[64];
@@ -27,7 +28,7 @@ static int add_value(char *text, int length, double value, const char *unit)
     return add_words(text, length, words);
 }
 
-/* Returns the magnitude of a vector. */
+/* Returns the magnitude of the vector value[dim]. */
 static double value_size(const real *value, int dim)
 {
     double sum = 0;
@@ -35,7 +36,7 @@ static double value_size(const real *value, int dim)
     return sqrt(sum);
 }
 
-/* Returns true if a boundary prescribes zero velocity. */
+/* Returns true if boundary b holds particles: it prescribes zero velocity. */
 static bool is_support(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && value_size(b->value, dim) == 0;
@@ -58,15 +59,16 @@ struct acting {
     bool varies;
 };
 
-/* Returns the boundary condition that the scene gives for a load. Static solvers use boundaries of their own, in
- * which velocities ramp the prescribed displacements. */
+/* Returns the boundary condition of the scene that the load l represents. Static solvers replace the boundaries of the
+ * scene, so that l->boundary may have velocities in place of prescribed displacements. */
 static const struct boundary *boundary_of(const struct run *e, const struct load *l)
 {
     const int64_t number = l - e->loads.load;
     return number < e->scene->boundaries ? &e->scene->boundary[number] : l->boundary;
 }
 
-/* Computes the vector of a load at its k-th particle at time t; returns its magnitude [unit_of_value]. */
+/* Computes vector[dim], the vector of a load at its k-th particle and time t [s], and returns its magnitude, both in
+ * the unit of unit_of_value. */
 static double vector_at(const struct run *e, const struct load *l, int64_t k, double t, real *vector)
 {
     const struct particles *p = &e->part;
@@ -94,8 +96,8 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     return force > 0 ? pressure : 0;
 }
 
-/* Computes the largest magnitude of a load at time t, and the number of its particles on which it is not 0, from
- * every `every`-th particle. on[]: particles that count; NULL: all. */
+/* Returns the largest magnitude of a load at time t [s] and the number of its particles on which it is not 0, from
+ * every `every`-th of its particles. on[i]: particle i counts; NULL: all particles count. */
 static struct acting acting_at(const struct run *e, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
     struct acting a = {.t = t};
@@ -113,15 +115,17 @@ static struct acting acting_at(const struct run *e, const struct load *l, const 
     return a;
 }
 
-/* Sets the mark of a particle with a face under pressure; context: marks of all particles. */
+/* Sets the mark of a particle that has a face under pressure. context: uint8_t marks of all particles. Called by
+ * pressure_visit_faces. */
 static void face_on(void *context, int32_t particle, int axis, int side, real area)
 {
     (void)axis, (void)side;
     ((uint8_t *)context)[particle] |= area > 0;
 }
 
-/* Returns an allocated array with 1 for each particle whose face carries a pressure. A pressure is distributed over
- * two layers of particles, of which only the outer one has a face. */
+/* Returns an allocated array with 1 for each particle that has a face under the pressure load l, else 0. A pressure is
+ * distributed over two layers of particles, of which only the outer one has a face. The caller releases the array with
+ * memory_free. */
 static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 {
     const struct particles *p = &e->part;
@@ -135,7 +139,7 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 }
 
 /* Returns the state of a load at the time of its largest magnitude, among evenly spaced times and the characteristic
- * times of its time function. on[]: particles that count; NULL: all. */
+ * times of its time function. on[i]: particle i counts; NULL: all particles count. */
 static struct acting acting_of(const struct run *e, const struct load *l, const uint8_t *on)
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };
@@ -159,7 +163,8 @@ static struct acting acting_of(const struct run *e, const struct load *l, const 
     return most;
 }
 
-/* Describes a boundary condition for the key. */
+/* Writes the description of a boundary condition for the key into text[TEXT]: name, kind, largest value, components or
+ * face, and number of particles. acting: state of the load at its largest magnitude. */
 static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting)
 {
     char face[16], many[64];
@@ -191,17 +196,18 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, con
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the stride that selects at most `most` of n particles. */
+/* Returns the stride with which at most `most` of n elements are selected. */
 static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most - 1) / most : 1; }
 
-/* Particles of a load that are drawn: those on every `every`-th layer of the lattice along each axis, so that the
- * drawn particles cover the whole load. layers: number of layers along each axis; from: the first one [m]. */
+/* Selection of the particles of a load that are drawn: those on every `every`-th layer of the lattice along each axis,
+ * so that they cover the whole load. layers[d]: number of layers along axis d; from[d]: coordinate of the first layer
+ * [m]. */
 struct chosen {
     double from[DIM_MAX], spacing;
     int64_t layers[DIM_MAX], every;
 };
 
-/* Returns true if particle i is on a drawn layer along every axis. */
+/* Returns true if particle i is on a layer that is drawn along every axis. */
 static bool chosen_has(const struct chosen *c, const struct particles *p, int32_t i)
 {
     real X[DIM_MAX];
@@ -222,7 +228,8 @@ static int64_t chosen_count(const struct chosen *c, const struct particles *p, c
     return n;
 }
 
-/* Chooses the smallest distance of layers for which at most `most` particles of a load are drawn. */
+/* Returns the selection of particles of a load with the smallest distance between drawn layers for which at most `most`
+ * particles are drawn. */
 static struct chosen choose_particles(const struct marks *m, const struct load *l, int64_t most)
 {
     const struct particles *p = &m->engine->part;
@@ -242,7 +249,9 @@ static struct chosen choose_particles(const struct marks *m, const struct load *
     return c;
 }
 
-/* Draws the arrows of a load: arrows of tension begin at the particle, arrows of compression end there. */
+/* Draws the arrows of a load. Arrows of tension begin at the particle, arrows of compression end there. on[i]: particle
+ * i counts, NULL: all particles count; acting: the largest magnitude of the load, whose arrow has full length, and its
+ * time. */
 static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t *on, const struct acting *acting)
 {
     const struct particles *p = &m->engine->part;
@@ -273,7 +282,7 @@ static void points_of_load(struct marks *m, const struct load *l)
     }
 }
 
-/* Draws a plane of symmetry: a line across the picture in 2D, the outline in the body's box in 3D. */
+/* Draws a plane of symmetry: a line across the picture in 2D, a rectangle a little larger than the body in 3D. */
 static void mirror_plane_mark(struct marks *m, const struct boundary *b)
 {
     const struct particles *p = &m->engine->part;
@@ -290,8 +299,8 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
     }
 }
 
-/* Draws boundary condition `number` in a colour of its own: arrows, points or a plane of symmetry, with its
- * description in the key. */
+/* Draws the boundary condition with the index `number` in a colour of its own, as arrows, points or a plane of
+ * symmetry, and adds its description to the key. */
 static void boundary_mark(struct marks *m, int number)
 {
     const struct scene *s = m->engine->scene;
@@ -320,7 +329,8 @@ static void boundary_mark(struct marks *m, int number)
     memory_free(on);
 }
 
-/* Draws points after arrows, which would hide them. */
+/* Draws all loads and supports, first those with arrows and then supports drawn as points, since arrows would hide
+ * points. */
 void marks_draw_loads(struct marks *m)
 {
     const struct run *e = m->engine;
@@ -339,8 +349,8 @@ static double speed_at_start(const struct particles *p, int64_t i)
     return sqrt(sum);
 }
 
-/* Draws an arrow from the centre of each moving rigid body, along its velocity. fastest: the speed that has an arrow
- * of full length [m/s]. */
+/* Draws an arrow from the centre of each moving rigid body along its velocity. fastest: the speed whose arrow has full
+ * length [m/s]. */
 static void rigid_arrows(struct marks *m, double fastest)
 {
     const struct scene *s = m->engine->scene;

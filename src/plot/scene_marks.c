@@ -13,7 +13,7 @@
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the component of x along an axis of the picture. */
+/* Returns the component of the vector x[dim] along an axis of the picture. */
 static double marks_across(const double *axis, const double *x, int dim)
 {
     double sum = 0;
@@ -34,7 +34,7 @@ void marks_add_point(struct marks *m, const real *X, const double *vector)
     putc('\n', m->to);
 }
 
-/* Ends a line: the next position begins another one. */
+/* Ends a line of positions in the current block of marks; the next position begins another line. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
 void marks_end_block(struct marks *m, const char *how, const char *text)
@@ -57,7 +57,7 @@ void marks_add_colour_key(struct marks *m, struct colour c, const char *text)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Sends the outline of a crack as a line. */
+/* Sends the outline of a crack as a line, which is closed for a polygon in 3D. */
 static void crack_line(struct marks *m, const struct crack *c)
 {
     for (int k = 0; k < c->n; k++) marks_add_point(m, c->corner[k], NULL);
@@ -91,7 +91,7 @@ void marks_draw_cracks(struct marks *m)
 
 enum { PROBES_NAMED = 10, CIRCLE = 48 };
 
-/* Sends the four edges of a box in 2D, or its twelve edges in 3D. */
+/* Sends the edges of the box from[dim]..to[dim] as lines: four in 2D, twelve in 3D. */
 static void box_lines(struct marks *m, const real *from, const real *to, int dim)
 {
     for (int a = 0; a < dim; a++)
@@ -115,14 +115,15 @@ static void circle_line(struct marks *m, const real *centre, double radius)
     }
 }
 
-/* Marks the initial position of every crack tip. */
+/* Adds a point at the initial position of every crack tip to the current block of marks. */
 static void tip_marks(struct marks *m)
 {
     const struct crack_tips *t = &m->engine->fracture->tips;
     for (int k = 0; k < t->n; k++) marks_add_point(m, t->tip[k].origin, NULL);
 }
 
-/* Draws the position or line of a probe; a probe without a position is listed in the key only. */
+/* Draws the position, line or region of probe k, with `text` as its entry in the key (empty: none). A probe without a
+ * position is listed in the key only. */
 static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
@@ -176,7 +177,7 @@ void marks_draw_probes(struct marks *m)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Draws boxes around the named regions of the scene. */
+/* Draws the bounding boxes of the named regions of the scene, and adds their names to the key. */
 void marks_draw_regions(struct marks *m)
 {
     const struct scene *s = m->engine->scene;
@@ -197,7 +198,8 @@ void marks_draw_regions(struct marks *m)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if a cell is the lowest one of the coarse cell that contains it. k[]: its indices along the axes. */
+/* Returns true if a fine cell is the one at the lower corner of the coarse cell that contains it. Stores the indices of
+ * the fine cell along the axes in k[dim]. */
 static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -209,7 +211,7 @@ static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k
     return corner;
 }
 
-/* Draws the outlines of all coarse cells of a level and returns their number. */
+/* Draws the outlines of all coarse cells of a level. Returns their number. */
 static int64_t level_cells_draw(struct marks *m, int level)
 {
     const struct mesh_levels *l = &m->engine->frame->levels;

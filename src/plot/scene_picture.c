@@ -29,13 +29,15 @@ static const double BAR_HALF = 0.02;
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of the material of a particle, or of its body if all bodies have the same material. */
+/* Returns the index of the material of particle i, or of its body if all bodies have the same material. It determines
+ * the colour. */
 static int part_number(const struct scene *s, const struct particles *p, int64_t i)
 {
     return s->materials > 1 ? p->material[i] : p->body[i];
 }
 
-/* Appends a square particle to a cloud, at the position x projected on the picture plane. size: edge [m]. */
+/* Appends a square particle to the cloud c, at the position x[dim] [m] projected on the picture plane. size: its edge
+ * [m]. */
 static void cloud_add(struct plotted_particles *c, const real *x, int dim, double size, struct colour colour)
 {
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
@@ -49,8 +51,9 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
     c->colour[c->n++] = colour;
 }
 
-/* Appends particles to a cloud, coloured by material or body. spacing: edges of the points of coarse cells [m]; NULL:
- * particles with the spacing of the scene, of which peridynamic ones are darker. */
+/* Appends the particles p to the cloud c, coloured by material or body. part: all particles of the run. spacing[p->n]:
+ * edges of the points of coarse cells [m]; NULL: the particles have the spacing of the scene, and peridynamic ones are
+ * darker if there are both kinds. */
 static void cloud_add_particles(struct plotted_particles *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
@@ -65,8 +68,8 @@ static void cloud_add_particles(struct plotted_particles *c, const struct scene 
 }
 
 /* Computes a lattice of sites in the bounding box of a rigid body, or in the box around the particles if the body is
- * unbounded. Stores its lower corner from[] [m], the number of sites along each axis and their distance [m]. Returns
- * the number of sites. */
+ * unbounded. Stores its lower corner from[] [m], the number of sites along each axis count[] and their distance *step
+ * [m]. Returns the number of sites. */
 static int64_t rigid_sites(const struct scene *s, const struct particles *part, const struct region *shape, real *from,
                            int64_t *count, double *step)
 {
@@ -103,7 +106,8 @@ static void cloud_add_rigid(struct plotted_particles *c, const struct scene *sce
     }
 }
 
-/* Collects everything that has a position from the run. */
+/* Collects everything in a run that is drawn as a square or cube: its particles, the points of coarse cells, and rigid
+ * bodies as lattices of points. Release c with plotted_particles_free. */
 static void scene_cloud(struct plotted_particles *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
@@ -133,7 +137,8 @@ static void scene_cloud(struct plotted_particles *c, struct run *e, const struct
 
 /* ---- key --------------------------------------------------------------------------------------------------------- */
 
-/* Counts the particles of a part, without hollow cells. */
+/* Returns the number of particles with the material or body `number` (see part_number), without those in coarse
+ * cells. */
 static int64_t count_part(const struct particles *part, const struct scene *scene, int number)
 {
     int64_t n = 0;
@@ -141,7 +146,7 @@ static int64_t count_part(const struct particles *part, const struct scene *scen
     return n;
 }
 
-/* Describes a rigid body, for example `ball: rigid, 4.1 g, 150 m/s`. */
+/* Writes a description of a rigid body for the key into text[TEXT_ROOM], for example `ball: rigid, 4.1 g, 150 m/s`. */
 static void rigid_words(char *text, const struct scene_body *b, int dim)
 {
     double speed = 0;
@@ -188,7 +193,7 @@ static int key_lines(const struct scene *s)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-/* Returns the view with a margin for arrows beside the body. */
+/* Returns the view of a scene, with a margin of the length of an arrow [m] around the body. */
 static struct view scene_view(const struct plotted_particles *c, double arrow)
 {
     struct view v = view_around(c, 1);
@@ -245,7 +250,8 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
             (PICTURE_LEFT + l->panel_width + 14.0) / l->width, 1 - 58.0 / l->height);
 }
 
-/* Sends the image, then the marks, in one plot command. */
+/* Sends the image of the particles, then the marks, in one plot command. marks: plot arguments of the marks; metre:
+ * unit of the axes. */
 static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
                        const struct unit *metre, const char *marks)
 {
@@ -292,7 +298,8 @@ static status draw_scene(struct sheet sheet, struct run *e, struct plotted_parti
 
 /* ---- command ----------------------------------------------------------------------------------------------------- */
 
-/* Determines the path of the picture of a scene: the option -o, or a file in results. */
+/* Determines the path of the picture of a scene: the option -o, or a file in results/. REFUSED if the file may not be
+ * replaced. */
 static status scene_sheet(struct path *path, const struct scene *s, const struct plot_request *r)
 {
     char name[sizeof s->name + 16];
@@ -300,8 +307,8 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
     return picture_destination(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
-/* Creates the run of the scene, draws it and prints what was drawn. REFUSED for an outside view of a scene that is
- * not three-dimensional. */
+/* Creates the run e of the scene, draws it and prints what was drawn. REFUSED for an outside view of a scene that is
+ * not three-dimensional; FAILED if the run cannot be created or gnuplot fails. */
 static status draw_made(struct run *e, const struct scene *s, const struct plot_request *r)
 {
     struct path path;
