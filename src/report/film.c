@@ -22,7 +22,7 @@ static void *copy_of(const void *from, int64_t n, size_t size)
     return to;
 }
 
-/* Returns true if a frame has the particles of the set. */
+/* Returns true if a frame has the particles of the set s: equal number, reference positions and sizes. */
 static bool set_is_of(const struct film_set *s, const struct output_frame *frame)
 {
     bool same = s->n == frame->n && !s->size == !frame->spacing;
@@ -54,7 +54,8 @@ static void set_free(struct film_set *s)
     memory_free(s->hidden);
 }
 
-/* Marks particles that are damaged or have yielded in this frame, and adds kind and fragment to their history. */
+/* Sets s->busy of the particles that are damaged or have yielded in a frame, and adds kind and fragment of all
+ * particles to the hash s->history. frame, path: the frame and its file. */
 static void set_mark(struct film_set *s, const struct output_frame *frame, const char *path)
 {
     int columns = 0;
@@ -86,7 +87,8 @@ static void frame_scan(struct film *f, struct film_frame *shown, const struct ou
     film_fields_scan(f, frame, path);
 }
 
-/* Selects at most `most` of n evenly spread numbers, the first and the last included. Returns the k-th of them. */
+/* Returns the k-th of at most `most` numbers that are evenly spread over 0..n-1, with 0 and n-1 included. If n <= most,
+ * returns k. */
 static int spread(int k, int n, int most) { return n <= most ? k : (int)lround((double)k * (n - 1) / (most - 1)); }
 
 status film_read(struct film *f, const char *folder, const struct scene *scene)
@@ -143,7 +145,8 @@ static bool fits(const struct film *f, int64_t budget)
     return bytes <= budget;
 }
 
-/* Uses what the groups leave of the budget: for extra fields, then for frames. */
+/* Uses the bytes of the budget that the groups of particles leave: first for the extra fields, then for more frames.
+ * budget: size of the film in the page [byte]. */
 static void film_fill(struct film *f, int64_t budget)
 {
     const int used = f->used;
@@ -175,7 +178,8 @@ void film_fit(struct film *f, int64_t budget)
 
 /* ---- second reading ---------------------------------------------------------------------------------------------- */
 
-/* Writes the reference positions of the shown groups along one axis as 16 bits between their least and greatest. */
+/* Writes the reference positions of the shown groups of a particle set along axis d: the mean of the particles of each
+ * group, as 16 bits between the smallest and the largest one. */
 static void write_positions(struct page *p, const struct film_set *s, int d)
 {
     double *mean = NEW("report.mean", s->groups, double), low = INFINITY, high = -INFINITY;
@@ -196,7 +200,8 @@ static void write_positions(struct page *p, const struct film_set *s, int d)
     memory_free(stored), memory_free(mean);
 }
 
-/* Writes the displacements of the shown groups along one axis as 16 bits of the largest. */
+/* Writes the displacements u[s->n] [m] of a frame along axis d for the shown groups: the mean over each group, as
+ * signed 16 bits of the largest displacement f->reach[d]. */
 static void write_displacements(struct page *p, const struct film *f, const struct film_set *s, const float *u, int d)
 {
     int16_t *stored = NEW("report.stored", s->shown, int16_t);
@@ -222,7 +227,8 @@ static void write_sizes(struct page *p, const struct film *f, const struct film_
     memory_free(size);
 }
 
-/* Writes what the frames of a set share. frame: the first of them. */
+/* Writes the data that all frames of a particle set share: numbers, reference positions, sizes, and fields that do not
+ * change. frame, path: the first frame of the set and its file. */
 static void write_film_set(struct page *p, const struct film *f, const struct film_set *s,
                            const struct output_frame *frame, const char *path)
 {

@@ -11,7 +11,8 @@ enum { SAMPLES_OF_FRAME = 4000, VALUE_MOST = 254, VALUE_NONE = 255, FRAGMENT_NON
 /* Share of the values beyond either end of the stored range: a few hot particles do not use up the colours. */
 static const double BEYOND = 5e-4;
 
-/* Names of fields in the order of the page. */
+/* Names of the fields of a film in the order of the page. extra: left out first if the page becomes too large; fixed:
+ * equal in all frames. */
 static const struct {
     const char *name;
     bool extra, fixed;
@@ -63,8 +64,8 @@ static int float_compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Chooses the stored range: without a few extreme values; from zero, or symmetric, as the scale of the field
- * requires. */
+/* Chooses the range of values that a field is stored with: without a few extreme values, extended to zero or symmetric
+ * about zero as the colour scale of the field requires. Sets field->used to false if all values are equal. */
 static void field_settle(struct film_field *field)
 {
     const bool damage = strcmp(field->of->name, "damage") == 0;
@@ -102,7 +103,9 @@ int film_fields_bytes(const struct film *f)
     return bytes;
 }
 
-/* Returns the value of a group in the stored form. */
+/* Returns the mean of value[s->n] over group g as a stored number: 0..254 over the range of the field, 255 for no
+ * value. Categories are stored unchanged, and fragments with 16 bits. Of both the value of one particle of the group is
+ * used. */
 static unsigned value_stored(const struct film_field *field, const struct film_set *s, const float *value, int64_t g)
 {
     double sum = 0;

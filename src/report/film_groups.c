@@ -21,8 +21,8 @@ static int member_compare(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
-/* Returns the key of the cell with 2^level spacings along its edge that holds particle i. from: lower corner of the
- * lattice [m]. */
+/* Returns a number that identifies the cubic cell, with an edge of 2^level spacings, that contains particle i.
+ * from[dim]: lower corner of the lattice [m]. */
 static uint64_t cell_key(const struct film_set *s, const struct film *f, const double *from, int level, int64_t i)
 {
     uint64_t key = (uint64_t)level;
@@ -38,13 +38,15 @@ static bool particles_are_alike(const struct film_set *s, int64_t i, int64_t j)
     return s->history[i] == s->history[j] && s->material[i] == s->material[j] && s->body[i] == s->body[j];
 }
 
-/* Returns true if particle i has the spacing of the film, so that a cell of the lattice may hold it. */
+/* Returns true if particle i may be merged into a cell of the lattice: it is neither damaged nor yielded, and has the
+ * spacing of the film. */
 static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_t i)
 {
     return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);
 }
 
-/* Raises the level of all particles in full cells of the given level to that level. */
+/* Merges particles into cells with an edge of 2^level spacings: sets s->level to `level` for all particles of cells
+ * that are full and whose particles are alike. from[dim]: lower corner of the lattice [m]. */
 static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);
@@ -64,7 +66,8 @@ static void merge_cells(struct film_set *s, const struct film *f, const double *
     memory_free(m);
 }
 
-/* Fills groups, first and member from the levels of the particles. */
+/* Sets s->groups, s->first and s->member, the lists of particles of each group, from the levels of the particles.
+ * from[dim]: lower corner of the lattice [m]. */
 static void film_groups_fill(struct film_set *s, const struct film *f, const double *from)
 {
     struct member *m = BARE("report.members", s->n, struct member);

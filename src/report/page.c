@@ -86,7 +86,7 @@ void page_add_time(struct page *p, const char *key, time_t at)
         json_text(&p->json, key, text);
 }
 
-/* Writes a text as the content of an HTML element. */
+/* Writes a text as the content of an HTML element, with < and & escaped. */
 static void write_escaped(FILE *to, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -97,7 +97,8 @@ static void write_escaped(FILE *to, const char *text)
     }
 }
 
-/* Writes JSON in which `<`, which occurs in strings alone, is escaped, so that no string can end a <script>. */
+/* Writes the JSON text[length] with every < escaped, so that no string in it can end a <script> element. In JSON, <
+ * occurs in strings only. */
 static void write_json(FILE *to, const char *text, size_t length)
 {
     for (size_t k = 0; k < length; k++) {
@@ -129,7 +130,7 @@ static void write_page(FILE *to, const struct page *p, const char *title)
     fputs("</script>\n</body></html>\n", to);
 }
 
-/* Ends the streams of the page. Returns FAILED if memory was exhausted. */
+/* Closes the streams of JSON and arrays of the page. Returns FAILED if there was no memory for them. */
 static status page_close(struct page *p)
 {
     fputs("\n}\n", p->json.file);

@@ -17,7 +17,7 @@ static bool is_study(const char *folder)
     return run_has_file(folder, "sweep.csv") || run_has_file(folder, "converge.csv");
 }
 
-/* Checks that a folder holds a run or a study. */
+/* Checks that `folder` holds a run or a study. REFUSED otherwise. */
 static status folder_check_kind(const char *folder)
 {
     const struct printable_name shown = printable_name(folder);
@@ -33,7 +33,9 @@ static status folder_check_kind(const char *folder)
                       shown.text);
 }
 
-/* Determines the path of the page and checks that it may be written. */
+/* Determines the path of the page: the option -o, or report.html in the folder. Creates the folder of -o if its name
+ * ends in /. REFUSED if the name is empty or too long, or if the page would replace a file that is no page of Cleave
+ * without --overwrite. */
 static status page_destination(struct path *path, const struct report_request *r)
 {
     const char *out = r->out ? r->out : r->folder;
@@ -51,7 +53,8 @@ static status page_destination(struct path *path, const struct report_request *r
                       printable_name(path->text).text);
 }
 
-/* Writes what all pages have: the folder, and when and by what the page is made. */
+/* Writes the entries that all pages have: the folder, and version, commit, processor and time with which the page is
+ * made. */
 static void write_origin(struct page *p, const struct report_request *r)
 {
     json_text(&p->json, "folder", r->folder);

@@ -27,7 +27,8 @@ struct units {
     const char *header;
 };
 
-/* Writes the unit of one figure of summary.json, if it has one. */
+/* Writes the unit of the figure of summary.json called `key`, if it has one. context: struct units. Called for each
+ * figure. */
 static void write_unit(void *context, const char *key, double value)
 {
     const struct units *u = context;
@@ -51,7 +52,9 @@ static void write_figures(struct page *p, const char *folder, const char *header
 
 /* ---- history ----------------------------------------------------------------------------------------------------- */
 
-/* Writes the columns of history.csv in single precision; of long histories every so manieth line, and the last. */
+/* Writes the columns of history.csv in single precision. Of long histories it writes every n-th line, so that they fit
+ * into HISTORY_BYTES, and the last line. header: first line of the file; "": there is no file. Returns FAILED if the
+ * file cannot be read. */
 static status write_history(struct page *p, const char *folder, const char *header)
 {
     struct history h;
@@ -105,8 +108,8 @@ static void write_names(struct page *p, const struct scene *s)
     json_close(&p->json, '}');
 }
 
-/* Draws the scene to a temporary file beside the page and adds it. Returns FAILED or REFUSED, with the reason in the
- * message, if the scene cannot be drawn. */
+/* Draws the scene to a temporary file beside the page and adds the picture to the page. scene: path of the scene file;
+ * path: path of the page. Returns FAILED or REFUSED, with the reason in the message, if the scene cannot be drawn. */
 static status write_picture(struct page *p, const char *scene, const char *path)
 {
     struct path picture;
@@ -139,8 +142,8 @@ static void write_scene(struct page *p, const char *folder, const struct scene *
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
 
-/* Writes frames, if there are any. scene: of the run; NULL: not known. Stores the number of particles of the first
- * frame in *particles. */
+/* Writes the frames of a run, if there are any, to the page. scene: of the run; NULL: not known. Stores the number of
+ * particles of the first frame in *particles, 0 without frames. Returns FAILED if a frame cannot be read. */
 static status write_film(struct page *p, const char *folder, const struct scene *scene, int64_t *particles)
 {
     struct film f;

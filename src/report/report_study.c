@@ -18,8 +18,8 @@ enum { PICTURES_MOST = 12, WARNINGS_MOST = 20, MESSAGE_ROOM = 600 };
 
 static int name_compare(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
-/* Stores the names of the entries of a folder, in order, in an allocated array *name. Returns their number; names and
- * array are for folder_names_free. */
+/* Stores the names of the entries of a folder, except hidden ones, in alphabetical order in an allocated array *name.
+ * Returns their number. Release names and array with folder_names_free. */
 static int folder_names_read(char ***name, const char *folder)
 {
     int n = 0;
@@ -42,7 +42,7 @@ static void folder_names_free(char **name, int n)
     memory_free(name);
 }
 
-/* Adds the pictures that Cleave drew for the study. */
+/* Adds the pictures that Cleave has drawn for the study in `folder` to the page, at most PICTURES_MOST. */
 static void write_pictures(struct page *p, const char *folder)
 {
     char **name;
@@ -65,7 +65,7 @@ static void write_pictures(struct page *p, const char *folder)
     folder_names_free(name, n);
 }
 
-/* Adds the warnings of the runs of a study, each text once. */
+/* Adds the warnings of the runs of the study in `folder` to the page, each text once and at most WARNINGS_MOST. */
 static void write_warnings(struct page *p, const char *folder)
 {
     char **name, key[32], text[MESSAGE_ROOM];
@@ -90,8 +90,8 @@ static void write_warnings(struct page *p, const char *folder)
     folder_names_free(name, n);
 }
 
-/* Adds the units of the figures of a sweep, from the header of the history of any of its runs. header: first line of
- * sweep.csv. */
+/* Adds the units of the columns of sweep.csv to the page. They are determined from the header of the history of the
+ * first run that has one. folder: folder of the study. */
 static void write_study_units(struct page *p, const char *folder)
 {
     char **name, header[HEADER_ROOM] = "", unit[UNIT_ROOM], *table = NULL;
