@@ -5,18 +5,19 @@
 #include "base/memory.h"
 #include "export_parts.h"
 
-/* Tolerance of weights: shares of volume are rounded, and so are weights (family.c); every other rule differs by
- * more. */
+/* Relative tolerance of weights of bonds: shares of volume are rounded, and so are weights (family.c). Weights by other
+ * rules differ by more. */
 static const real WEIGHT_NEAR = 1e-6;
 
-/* Returns the share of volume of a neighbour at distance r in peri/pmb and peri/lps: 1, and within half a lattice
- * constant of the horizon a linear ramp that is 1/2 at the horizon. */
+/* Returns the share beta(r) of the volume of a neighbour at distance r [m] in the LAMMPS styles peri/pmb and peri/lps:
+ * beta = 1/2 + (cutoff - r)/lattice within half a lattice constant of the cutoff, and 1 closer to the particle. */
 static real lammps_share(const struct exported *x, real r)
 {
     return fabs(r - x->cutoff) <= 0.5 * x->lattice ? 0.5 + (x->cutoff - r) / x->lattice : 1;
 }
 
-/* Returns the squared distance as LAMMPS computes it [m^2]; in 2D all particles are at z = 0. */
+/* Returns the squared distance of the particles i and j at rest as LAMMPS computes it [m^2]. In 2D all particles are at
+ * z = 0. */
 static real distance2(const struct particles *p, int64_t i, int64_t j)
 {
     real sum = 0;
@@ -24,8 +25,8 @@ static real distance2(const struct particles *p, int64_t i, int64_t j)
     return sum;
 }
 
-/* Returns the micro-modulus of a bond between materials a and b over the one of material 0. The two halves of the
- * bond act as springs in series. */
+/* Returns the micro-modulus of a bond between the materials a and b over the one of material 0 [1]. The two halves of
+ * the bond act as springs in series: c = 2 c_a c_b/(c_a + c_b). */
 static real modulus_ratio(const struct exported *x, int a, int b)
 {
     const struct family *f = &x->e->source.family;
@@ -35,8 +36,8 @@ static real modulus_ratio(const struct exported *x, int a, int b)
     return 2 * first * second / (first + second) / family_micro_modulus(f, &m[0]);
 }
 
-/* Returns true if the weight of a bond of particle i equals the weight that LAMMPS would use, to within
- * WEIGHT_NEAR. */
+/* Returns true if the weight of a bond of particle i equals the weight that LAMMPS would use, to within the relative
+ * tolerance WEIGHT_NEAR. */
 static bool weight_alike(const struct exported *x, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &x->e->part;
@@ -54,9 +55,9 @@ static status bond_refuse(const struct exported *x, int64_t i, const char *what)
                       p->X[0][i], p->X[1][i], p->dim > 2 ? p->X[2][i] : 0, what);
 }
 
-/* Sets bonded[j] = i + 1 for each neighbour j to which particle i has a bond, and stores the number of these bonds in
- * *n. REFUSED if a bond is beyond the cutoff of LAMMPS by round-off, as bonds of exactly the length of the horizon
- * can be, or if it has another weight than in LAMMPS. */
+/* Sets bonded[j] = i + 1 for each neighbour j of particle i to which the scene has a bond, and stores the number of
+ * these bonds in *n. REFUSED if a bond is longer than the cutoff of LAMMPS by round-off, as can happen to bonds of
+ * exactly the length of the horizon, or if its weight differs from the one in LAMMPS. */
 static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
 {
     const struct run *e = x->e;
@@ -74,7 +75,8 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
     return OK;
 }
 
-/* Finds the neighbours of particle i in LAMMPS; stores them in found[capacity] and returns their number. */
+/* Finds the particles to which LAMMPS would bond particle i, those within its cutoff. Stores their indices in
+ * found[capacity] and returns their number. */
 static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int capacity)
 {
     const struct run *e = x->e;
@@ -89,7 +91,7 @@ static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int 
 
 /* ---- keys -------------------------------------------------------------------------------------------------------- */
 
-/* Adds a word to a hash and returns the new hash. */
+/* Returns the hash of a sequence of words that ends with `word`. hash: hash of the words before it. */
 static uint64_t mix(uint64_t hash, int64_t word)
 {
     hash = (hash ^ (uint64_t)word) * 0x9E3779B97F4A7C15u;
@@ -101,8 +103,9 @@ static int64_t lattice_place(const struct exported *x, int64_t i, int d)
     return (int64_t)floor((x->e->part.X[d][i] - x->e->part.X[d][0]) / x->s->spacing + 0.5);
 }
 
-/* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo
- * twice the reach of bonds plus one [spacings], so that the keys of two neighbours determine their offset. */
+/* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo 2 m +
+ * 1 spacings along each axis, m being the reach of bonds in spacings. The positions in the keys of two neighbours thus
+ * determine their offset. */
 static uint64_t key_of(const struct exported *x, int64_t i)
 {
     const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
@@ -129,8 +132,8 @@ struct search {
 };
 
 /* Sets a->number[i] to 1 for each particle i with at least one cut bond, else to 0. Cut bonds are pairs within the
- * cutoff of LAMMPS that have no bond in the scene. Stores the number of bonds and of cut bonds. REFUSED if LAMMPS
- * cannot represent a bond. */
+ * cutoff of LAMMPS that have no bond in the scene. Stores the number of bonds of the scene in *bonds and of cut bonds
+ * in *cut. REFUSED if LAMMPS cannot represent a bond. */
 static status touched_find(const struct exported *x, struct search *a, int64_t *bonds, int64_t *cut)
 {
     int64_t ends = 0, ends_cut = 0;
@@ -145,8 +148,8 @@ static status touched_find(const struct exported *x, struct search *a, int64_t *
     return OK;
 }
 
-/* Lists the particles marked in a->number as touched, allocates their keys, and replaces a->number by the index of
- * each particle in the list, -1 for others. */
+/* Lists in t the touched particles, those at a cut bond that are marked in a->number, and allocates their keys.
+ * Replaces a->number[i] by the index of particle i in this list, or -1 for other particles. */
 static void touched_list(struct touched *t, const struct exported *x, struct search *a)
 {
     const int64_t n = x->e->part.n;
@@ -160,8 +163,8 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-/* Lists the neighbours of each touched particle, with the kind of each pair (bonded or cut), and computes the key of
- * each touched particle from key_of and the offsets of its cut bonds. */
+/* Lists the neighbours of each touched particle in LAMMPS, with the kind of each pair (bonded or cut). Computes the key
+ * of each touched particle as the sum of key_of and the hashes of the offsets of its cut bonds. */
 static void touched_near(struct touched *t, const struct exported *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {

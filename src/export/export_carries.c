@@ -64,15 +64,16 @@ static status carries_materials(const struct scene *s, bool bond_style)
 
 /* ---- keys -------------------------------------------------------------------------------------------------------- */
 
-/* Appends a key that the export has to change, its new value and a text about the effect, if `differs` is true. */
+/* Appends a key that the export has to change, if `differs` is true. value: new value of the key; effect: how results
+ * change, as a text. The texts are kept by reference. */
 static void settings_add(struct lammps_settings *to, bool differs, const char *key, const char *value,
                          const char *effect)
 {
     if (differs) to->of[to->n++] = (struct lammps_setting){key, value, effect};
 }
 
-/* Adds the contact settings that an export needs. own: the pair style has contact of its own, to which the settings
- * of the scene are changed; otherwise contact is switched off. Adds nothing if the scene has no contact. */
+/* Appends the contact settings that an export needs; none if the scene has no contact. own: the pair style of LAMMPS
+ * has contact of its own, whose rules the settings must follow; otherwise contact is switched off. */
 static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
 {
     static const char *const effect = "pieces that meet push each other by LAMMPS' rule for pairs of particles";
@@ -90,8 +91,8 @@ static void contact_settings(struct lammps_settings *to, const struct scene *s, 
 
 bool lammps_families_differ(const struct scene *s) { return s->model == MODEL_OSPD && scene_bonds_break(s); }
 
-/* Adds the peridynamic settings of the scene that differ from the fixed rules of LAMMPS, with the effect of changing
- * them. */
+/* Appends the peridynamic settings of the scene that differ from the fixed rules of LAMMPS, with the effect of changing
+ * them. bond_style: the export is for bond_style bpm/peri. */
 static void pd_settings(struct lammps_settings *to, const struct scene *s, bool bond_style)
 {
     const bool state = s->model == MODEL_OSPD, touches = s->contact_between != CONTACT_NONE && !state;

@@ -19,7 +19,9 @@ void touched_free(struct touched *t)
     *t = (struct touched){0};
 }
 
-/* Colours assigned so far. Pairs of colours are stored in rows of COLOURS_MOST. */
+/* Colours assigned so far. of[k]: colour of particle k in the list of touched particles, -1: none yet; n: number of
+ * colours; key[c]: key of the particles with colour c; pair[COLOURS_MOST * a + b]: kind of pairs of the colours a and
+ * b. */
 struct colouring {
     const struct touched *t;
     int32_t *of;
@@ -30,8 +32,8 @@ struct colouring {
 
 static uint8_t pair_kind(const struct touched *t, int64_t q) { return t->cut[q] ? PAIR_CUT : PAIR_BONDED; }
 
-/* Returns true if particle k can have colour c: for each coloured neighbour, the pair of colours is unused so far or
- * stands for the same kind of pair (bonded or cut). */
+/* Returns true if particle k can have colour c: the pair of c with the colour of each coloured neighbour is unused so
+ * far, or stands for the same kind of pair, bonded or cut. */
 static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
 {
     for (int64_t q = a->t->first[k]; q < a->t->first[k + 1]; q++) {
@@ -42,8 +44,8 @@ static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns colour c to particle k and records the kind (bonded or cut) of the pairs with its coloured neighbours.
- * Returns false if one pair of colours would need both kinds. */
+/* Assigns colour c to particle k and records the kind, bonded or cut, of the pairs of colours with its coloured
+ * neighbours. Returns false if one pair of colours would need both kinds. */
 static bool colour_take(struct colouring *a, int64_t k, int32_t c)
 {
     a->of[k] = c;
@@ -57,8 +59,9 @@ static bool colour_take(struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Colours all particles, each with the first colour of its key that is consistent with its neighbours, or with a new
- * one. Returns false if COLOURS_MOST colours are not enough. */
+/* Assigns a colour to all touched particles: the first colour of the particle's key that fits its neighbours
+ * (colour_fits), else a new one. Returns false if more than COLOURS_MOST colours are needed or a pair of colours needs
+ * both kinds. */
 static bool colours_share(struct colouring *a)
 {
     for (int64_t k = 0; k < a->t->n; k++) {

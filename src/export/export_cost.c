@@ -3,9 +3,9 @@
 
 #include "export_parts.h"
 
-/* Time per directed bond and step on one core of the same machine [ns], from `cleave bench peers` (bench/README.md):
- * here: Cleave; there: LAMMPS of 29 September 2021, pair_style peri; there_bonds: bond_style bpm/peri, 3.6 and 5.4
- * times as fast as pair_style peri on 4096 particles in LAMMPS' own examples/bpm/peri. */
+/* Time per directed bond and step on one core of the same machine [ns], from `cleave bench peers` (bench/README.md).
+ * here: Cleave; there: LAMMPS of 29 September 2021, pair_style peri; there_bonds: bond_style bpm/peri, which is 3.6
+ * (bond-based) and 5.4 (state-based) times as fast on 4096 particles in LAMMPS' own examples/bpm/peri. */
 struct bond_time {
     real here, there, there_bonds;
 };
@@ -16,7 +16,7 @@ static struct bond_time bond_time_of(const struct scene *s)
     return s->dim == 2 ? (struct bond_time){1.13, 40.6, 40.6 / 5.4} : (struct bond_time){1.39, 44.7, 44.7 / 5.4};
 }
 
-/* A duration as text. */
+/* A duration as text with its unit, returned by value. */
 struct duration {
     char text[40];
 };

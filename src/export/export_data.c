@@ -4,7 +4,8 @@
 
 #include "export_parts.h"
 
-/* Returns the type of bonds between materials a and b: one type for each pair of materials, from 1. */
+/* Returns the number of the LAMMPS bond type between the materials a and b, from 1: each unordered pair of the
+ * `materials` materials has one. */
 static int bond_type(int materials, int a, int b)
 {
     const int low = a < b ? a : b, high = a < b ? b : a;
@@ -46,8 +47,8 @@ static void velocities_write(FILE *to, const struct exported *x)
     }
 }
 
-/* Writes the per-particle columns. They are the last section, since LAMMPS of 2021 reads no section after one of `fix
- * property/atom`. */
+/* Writes the section of plate.data with the per-particle columns of loads and displacements. It is the last section,
+ * since LAMMPS of 2021 reads no section after one of `fix property/atom`. */
 static void columns_write(FILE *to, const struct exported *x)
 {
     fputs("\nColumns\n\n", to);

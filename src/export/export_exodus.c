@@ -46,7 +46,8 @@ struct exodus_export {
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the components of a field as variables, in the names that readers join to vectors and tensors. */
+/* Appends the components of the field with the index `field` as variables. Their names end in _x or _xx, by which
+ * readers of Exodus files join them to vectors and tensors. */
 static void variables_add(struct exodus_export *x, int field)
 {
     static const char *const vector[] = {"_x", "_y", "_z"}, *const tensor[] = {"_xx", "_yy", "_zz",
@@ -63,7 +64,8 @@ static void variables_add(struct exodus_export *x, int field)
     }
 }
 
-/* Lists the frames of the run and the variables of the first one. */
+/* Lists the frames of the run in x->folder, and the variables from the fields of the first frame. REFUSED without
+ * frames, FAILED if the frame cannot be read. */
 static status frames_open(struct exodus_export *x)
 {
     struct output_frame f;
@@ -83,7 +85,8 @@ static status frames_open(struct exodus_export *x)
     return OK;
 }
 
-/* Returns REFUSED unless a frame has the particles of the mesh, which one list of elements for all times requires. */
+/* Checks that a frame has the particles of the exported mesh, as an Exodus file has one list of elements for all times.
+ * REFUSED otherwise. */
 static status frame_check(const struct exodus_export *x, const struct output_frame *f)
 {
     const struct particles *p = &x->mesh.e->part;
@@ -97,7 +100,8 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
                       printable_name(x->folder).text, f->t, (long long)f->n, (long long)x->mesh.n);
 }
 
-/* Writes the variables of frame k as a record. */
+/* Writes the variables of frame k as a record of the file, in the order of variables_define. FAILED or REFUSED if the
+ * frame cannot be read or has other particles or components. */
 static status exodus_frame_write(struct exodus_export *x, int k)
 {
     const struct export_mesh *m = &x->mesh;
@@ -143,7 +147,8 @@ struct shared {
     int records, dim, nodes, blocks, sets, name, line, rows;
 };
 
-/* Defines the arrays of blocks; `over` receives the dimension of elements of each. */
+/* Defines the arrays of the element blocks, one block for each material. Stores in over[materials] the dimension of the
+ * number of elements of each block. */
 static void blocks_define(struct exodus_export *x, const struct shared *d, int *over)
 {
     struct netcdf_writer *w = &x->w;
@@ -176,7 +181,8 @@ static void sets_define(struct exodus_export *x, const struct shared *d)
     }
 }
 
-/* Defines names and values of variables; those over time come last, in the order of exodus_frame_write. */
+/* Defines the arrays with names and values of variables. Arrays over time are the last ones, in the order in which
+ * exodus_frame_write writes them. over[materials]: dimension of the number of elements of each block. */
 static void variables_define(struct exodus_export *x, const struct shared *d, const int *over)
 {
     struct netcdf_writer *w = &x->w;
@@ -199,7 +205,8 @@ static void variables_define(struct exodus_export *x, const struct shared *d, co
         }
 }
 
-/* Defines all dimensions and arrays, in the order in which body_write and exodus_frame_write write them. */
+/* Defines all dimensions, arrays and attributes of the file, in the order in which exodus_put and exodus_frame_write
+ * write their contents. attribute[attributes]: attributes of the file, kept by reference. */
 static void all_define(struct exodus_export *x, const struct netcdf_attribute *attribute, int attributes)
 {
     static const char *const axes[] = {"coordx", "coordy", "coordz"};
@@ -230,7 +237,7 @@ static void all_define(struct exodus_export *x, const struct netcdf_attribute *a
 
 /* ---- contents ---------------------------------------------------------------------------------------------------- */
 
-/* Writes lengths and materials of the scene as lines of text. */
+/* Writes spacing, horizon and materials of the scene as lines of text, the array info_records. */
 static void info_write(struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;
@@ -260,7 +267,8 @@ static void coordinates_write(struct exodus_export *x)
     memory_free(numbers);
 }
 
-/* Writes the block of one material: its elements, and radius and volume of their spheres. */
+/* Writes the block of one material: the nodes of its elements, and the attributes radius and volume of their
+ * spheres. */
 static void block_write(struct exodus_export *x, int material)
 {
     const int64_t first = x->mesh.first[material], n = block_size(&x->mesh, material);
@@ -317,7 +325,8 @@ static void sets_write(struct exodus_export *x)
     }
 }
 
-/* Writes the whole file; context: a struct exodus_export. */
+/* Writes the whole Exodus file to `to`. context: struct exodus_export. Returns FAILED or REFUSED if a frame cannot be
+ * written. Called by export_write_file. */
 static status exodus_put(FILE *to, void *context)
 {
     struct exodus_export *x = context;
@@ -363,7 +372,8 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
     return export_write_file(x->request->folder, exodus_put, x);
 }
 
-/* Prints what was written, and what an Exodus file does not hold. */
+/* Prints which file was written with which contents, and the pre-cracks of the scene, which Exodus files do not
+ * hold. */
 static void exodus_print(const struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;

@@ -15,8 +15,8 @@
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-/* Reads the scene with the overrides of the user, with bonds in the whole body, and with the settings `with` that the
- * export needs. */
+/* Reads the scene of the request with the overrides of the user, with bonds in the whole body, and with the settings
+ * `with` that the export needs. REFUSED or FAILED if it cannot be read. */
 static status scene_make(struct scene *s, const struct export_request *r, const struct lammps_settings *with)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1 + with->n, struct scene_override);
@@ -29,7 +29,8 @@ static status scene_make(struct scene *s, const struct export_request *r, const 
     return read;
 }
 
-/* Returns REFUSED with one message that lists all keys of the scene that the export would have to change. */
+/* Returns REFUSED with a message that lists all keys of the scene that the export would have to change, with the new
+ * values. Without such keys the message states the difference that no key removes. */
 static status settings_refuse(const struct lammps_settings *settings, const struct scene *s)
 {
     char list[1024] = "";
@@ -68,7 +69,8 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Prints which output of the scene the script does not write; nothing if it writes all. */
+/* Prints to `to` the probes and particle series of the scene, which the script does not write. Prints nothing if there
+ * are none. */
 static void left_out_write(FILE *to, const struct scene *s)
 {
     if (s->probes == 0 && s->n_series == 0) return;
@@ -152,16 +154,16 @@ static status put_script(FILE *to, struct exported *x, const struct lammps_types
     return lammps_script_write(to, x, t), OK;
 }
 
-/* Files in the order of writing: the check runs steps and therefore follows the data; a folder with the script is
- * complete. */
+/* Files of an export in the order of writing. check.csv is written late because it makes time steps, which change the
+ * particles. The script is the last, so that a folder with the script is complete. */
 static const struct export_file files[] = {{"plate.data", put_data},
                                            {"README.txt", put_readme},
                                            {"scene.yaml", put_scene_text},
                                            {"check.csv", put_check},
                                            {"in.lammps", put_script}};
 
-/* Writes and syncs a file under its temporary name. FAILED, with the file removed, if it cannot be written
- * completely. */
+/* Writes and syncs a file of the export under its temporary name. t: types of the particles. FAILED, with the file
+ * removed, if it cannot be written completely. */
 static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
 {
     const struct path path = path_join(x->request->folder, f->name), aside = file_begin_temporary(path.text);
@@ -193,8 +195,8 @@ static bool is_script_of_export(const char *path, const char *scene_text)
     return is;
 }
 
-/* Checks where the export would write. REFUSED if the folder holds other files, or an older export that must not be
- * replaced, or if the export would overwrite a file that it reads. */
+/* Checks that the folder of the request may be written to. REFUSED if it holds other files, an older export without
+ * --overwrite, or an input of this export. */
 static status export_guard(const struct export_request *r)
 {
     static const struct folder_kind kind = {.what = "export", .sign = "in.lammps", .is_sign = is_script_of_export};
@@ -206,9 +208,9 @@ static status export_guard(const struct export_request *r)
     return OK;
 }
 
-/* Writes the files into a locked folder: first all under temporary names, so that an older export stays complete if one
- * fails. Then the older script is removed and the new files are renamed, the script last, because a folder without
- * script is not recognised as an export. */
+/* Writes the files of an export into its locked folder. All are first written under temporary names, so that an older
+ * export stays complete if one fails. Then the older script is removed and the new files are renamed, the script last,
+ * because a folder without script is not recognised as an export. FAILED if a file cannot be written. */
 static status files_write_locked(struct exported *x, const struct lammps_types *t)
 {
     const char *folder = x->request->folder;
@@ -234,8 +236,8 @@ static status files_write(struct exported *x, const struct lammps_types *t)
 
 /* ---- the export -------------------------------------------------------------------------------------------------- */
 
-/* Prints how to start LAMMPS on the export, the bonds that it cuts, the cost, and how the results differ from the
- * scene. */
+/* Prints how to start LAMMPS on the export, the number of bonds that it cuts, the estimated cost, and how the results
+ * differ from the scene. t: types of the particles. */
 static void export_print(const struct exported *x, const struct lammps_types *t)
 {
     printf("%s: run LAMMPS in this folder with: lmp -in in.lammps\n", printable_name(x->request->folder).text);

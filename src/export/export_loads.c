@@ -24,7 +24,7 @@ static bool is_constant(const struct load *load) { return load->boundary->time.k
 
 /* ---- what can be done -------------------------------------------------------------------------------------------- */
 
-/* Returns true if LAMMPS can evaluate this kind of time function. */
+/* Returns true if a time function can be written as a formula of LAMMPS. */
 static bool function_carries(const struct time_function *f)
 {
     const enum time_kind kind = f->kind;
@@ -89,8 +89,9 @@ void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX])
 
 /* ---- columns of plate.data --------------------------------------------------------------------------------------- */
 
-/* Returns component d of a force on its k-th particle: force per volume for pair styles, whose mass is the density
- * [N/m^3]; force for bond styles [N]. */
+/* Returns component d of the force of a load on its k-th particle at the factor 1 of its time function. For pair
+ * styles, in which the density stands for the mass, it is the force per volume [N/m^3]; for bond styles the force
+ * [N]. */
 static real force_on(const struct exported *x, const struct load *load, int d, int64_t k)
 {
     const real force = load->boundary->value[d] * load->share[d][k];
@@ -102,7 +103,7 @@ static bool pushes_along(const struct load *load, int d)
     return is_force(load) && load->n > 0 && load->boundary->value[d] != 0;
 }
 
-/* Returns true if the particles of a force differ by more than round-off. */
+/* Returns true if component d of the forces of a load differs between its particles by more than round-off. */
 static bool force_varies(const struct exported *x, const struct load *load, int d)
 {
     for (int64_t k = 1; k < load->n; k++)
@@ -118,8 +119,8 @@ static bool is_displaced(const struct particles *p)
     return false;
 }
 
-/* Adds a per-particle column for each component of a force that varies over its particles, and a column for each
- * component of displacement if particles are displaced at the start. */
+/* Adds a per-particle column to x->column for each component of a force that varies over the particles of its load, and
+ * for each component of displacement if particles are displaced at the start. */
 static void columns_make(struct exported *x)
 {
     const struct loads *l = &x->e->loads;
@@ -154,7 +155,7 @@ void lammps_write_compute_commands(FILE *to, const struct exported *x)
     }
 }
 
-/* Returns the index of particle i in the ascending list of a load; -1: not in the list. */
+/* Returns the index of particle i in the ascending list load->particle, or -1 if it is not in the list. */
 static int64_t index_in_load(const struct load *load, int64_t i)
 {
     int64_t low = 0, high = load->n;
@@ -179,15 +180,15 @@ real lammps_column_value(const struct exported *x, int c, int64_t i)
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Writes a finite number to the script, in parentheses if it is negative. */
+/* Writes a number to the script, in parentheses if it is negative. Infinite numbers become 1e300 or -1e300. */
 static void put(FILE *to, real value)
 {
     if (!isfinite(value)) value = value > 0 ? 1e300 : -1e300;
     fprintf(to, value < 0 ? "(%.17g)" : "%.17g", value);
 }
 
-/* Writes a formula: each % in `text` is replaced by the next entry of `number`, each letter t by the variable name
- * `t`. */
+/* Writes a formula: the template `text`, in which each % is replaced by the next element of number[], and each letter t
+ * by the name of the time variable `t`. */
 static void put_formula(FILE *to, const char *text, const char *t, const real *number)
 {
     for (; *text; text++)
@@ -210,7 +211,7 @@ static void put_table(FILE *to, const struct time_function *f, const char *t)
     put_formula(to, "+(t>=%)*%)", t, (real[]){f->t[f->n - 1], f->value[f->n - 1]});
 }
 
-/* Writes a function of time as a LAMMPS formula in the variable whose name is t. */
+/* Writes the time function f as a LAMMPS formula. t: name of the LAMMPS variable with the time. */
 static void put_function(FILE *to, const struct time_function *f, const char *t)
 {
     const real a = f->from, b = f->until;
@@ -236,7 +237,8 @@ static void put_function(FILE *to, const struct time_function *f, const char *t)
 
 /* ---- commands ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the command that defines the LAMMPS group of load k: all types of particles on which the load acts. */
+/* Writes the command that defines the LAMMPS group of load k, which contains all types of particles on which the load
+ * acts. t: types of the particles. */
 static void group_write(FILE *to, int k, const struct lammps_types *t, const struct exported *x)
 {
     fprintf(to, "group load%d type", k + 1);
@@ -245,8 +247,8 @@ static void group_write(FILE *to, int k, const struct lammps_types *t, const str
     fputc('\n', to);
 }
 
-/* Returns component d of force k as an argument of a LAMMPS command: a number, or a variable if the force depends on
- * time or on the particle. The definition of that variable is written to the script before. */
+/* Returns component d of the force of load k as an argument of a LAMMPS command: a number, or the name of a variable if
+ * the force depends on time or on the particle. The definition of the variable is written to `to` before. */
 static struct word force_word(FILE *to, const struct exported *x, int k, int d)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -266,8 +268,8 @@ static struct word force_word(FILE *to, const struct exported *x, int k, int d)
     return w;
 }
 
-/* Writes the commands for force k. Its function of time is the mean of the values at the beginning and end of the
- * velocity update in which the force acts; updates end half a step later than the step. */
+/* Writes the commands for the force of load k. Its time function is the mean of the values at the beginning and at the
+ * end of the velocity update in which the force acts. Such an update ends half a step later than the step. */
 static void force_write(FILE *to, const struct exported *x, int k)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -283,8 +285,8 @@ static void force_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-/* Writes component d of the force on particles with a prescribed displacement. It changes their velocity such that
- * they are at the prescribed position at the end of the step. */
+/* Writes the variable with component d of the force on the particles of load k, which have a prescribed displacement.
+ * The force changes their velocity such that they are at the prescribed position at the end of the step. */
 static void displacement_write(FILE *to, const struct exported *x, int k, int d)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
@@ -295,8 +297,8 @@ static void displacement_write(FILE *to, const struct exported *x, int k, int d)
     fprintf(to, "-c_placed[%d])/%.17g-v%c)/%.17g\"\n", d + 1, x->e->clock.dt, axis_name[d], x->e->clock.dt);
 }
 
-/* Writes the force on particles with a prescribed velocity. It changes their velocity from the middle of the last
- * step to the prescribed one in the middle of this step. */
+/* Writes the commands for the particles of load k with a prescribed velocity or displacement. The force on them changes
+ * their velocity from the middle of the previous step to the prescribed one in the middle of this step. */
 static void drive_write(FILE *to, const struct exported *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;

@@ -9,7 +9,8 @@
 #include "output/output_files.h"
 #include "scene/scene_read.h"
 
-/* Reads the scene, with all particles of bodies of material points. */
+/* Reads the scene of the request into m->scene. For methods with material points, sets mpm.fill=all, so that all
+ * particles of the bodies are created. REFUSED or FAILED if it cannot be read. */
 static status scene_make_whole(struct export_mesh *m, const struct export_request *r)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1, struct scene_override);
@@ -24,7 +25,7 @@ static status scene_make_whole(struct export_mesh *m, const struct export_reques
     return s;
 }
 
-/* Orders keys of material, id and index. */
+/* Compares two keys int64_t[3] of material, id and index for qsort, first by material and then by id. */
 static int mesh_key_order(const void *a, const void *b)
 {
     const int64_t *p = a, *q = b;

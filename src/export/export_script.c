@@ -24,8 +24,8 @@ static real modulus_of(const struct exported *x, int a, int b)
     return first == second ? first : 2 * first * second / (first + second);
 }
 
-/* Writes the coefficients of a pair of materials. In 2D, G_L = 8 G/15 and K_L = 4 (lambda + G)/9 turn the 3D law of
- * LAMMPS into the 2D law. */
+/* Writes the coefficients of the law between the materials a and b for pair_coeff or bond_coeff. In 2D, G_L = 8 G/15
+ * and K_L = 4 (lambda + G)/9 turn the 3D law of LAMMPS into the 2D law. */
 static void law_write(FILE *to, const struct exported *x, int a, int b)
 {
     const struct material *m = &x->s->material[a];
@@ -38,7 +38,7 @@ static void law_write(FILE *to, const struct exported *x, int a, int b)
     fprintf(to, " %.17g %.17g 0.0\n", x->cutoff, stretch_of(x, a, b));
 }
 
-/* Writes the types of a material as a range; they are numbered consecutively. */
+/* Writes the particle types of a material as a range FIRST*LAST. They are numbered consecutively. */
 static void types_of(FILE *to, const struct lammps_types *t, int material)
 {
     int first = 0, last = 0;
@@ -47,7 +47,7 @@ static void types_of(FILE *to, const struct lammps_types *t, int material)
     fprintf(to, " %d*%d", first, last);
 }
 
-/* Returns true if particles of a material exist. */
+/* Returns true if a particle type, and hence a particle, of a material exists. */
 static bool is_there(const struct lammps_types *t, int material)
 {
     bool there = false;
@@ -121,7 +121,7 @@ static void particles_write(FILE *to, const struct exported *x)
 }
 
 /* Writes the commands that follow the creation of bonds: two runs of zero steps, the end of the exclusion of pairs of
- * types, so that these pairs can come into contact, initial displacements, and time integration. */
+ * types, initial displacements, and time integration. Without the exclusion these pairs can come into contact. */
 static void start_write(FILE *to, const struct exported *x, const struct lammps_types *t)
 {
     fprintf(to, "\ntimestep %.17g\nthermo 1000\n", x->e->clock.dt);
@@ -140,7 +140,8 @@ static void start_write(FILE *to, const struct exported *x, const struct lammps_
     fputs("fix motion all nve\n", to);
 }
 
-/* Writes the comparison with check.csv, which works on a machine without Cleave. */
+/* Writes, as a comment of the script, the command that compares the results of LAMMPS after `steps` steps with
+ * check.csv. It works on a machine without Cleave. */
 static void test_write(FILE *to, int64_t steps)
 {
     fprintf(to,
@@ -154,7 +155,7 @@ static void test_write(FILE *to, int64_t steps)
             (long long)steps, (long long)steps);
 }
 
-/* Returns the number of steps between frames if it is constant, else 0. */
+/* Returns the number of time steps between frames if it is the same for all, else 0. frames: number of frames. */
 static int64_t frame_distance(const struct run *e, int64_t frames)
 {
     const int64_t first = report_step_of_frame(e->scene, &e->clock, 1);
@@ -163,7 +164,8 @@ static int64_t frame_distance(const struct run *e, int64_t frames)
     return first;
 }
 
-/* Writes the dump at exactly the steps of Cleave's frames: a variable returns the step of the next frame. */
+/* Writes the command `dump` at exactly the steps of Cleave's frames. If their distance varies, a variable returns the
+ * step of the next frame; with more than FRAMES_MOST such frames, the dump has a constant distance. */
 static void frames_write(FILE *to, const struct exported *x)
 {
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"

@@ -5,14 +5,14 @@
 
 enum { CLASSES_MOST = 1000 };
 
-/* Classes of particles with the same material and loads, and the same mass if types have masses. any[n]: one particle
- * of each class. Where bonds are cut, colours divide a class into several types. */
+/* Classes of particles with the same material and loads and, for bond styles, the same mass. any[n]: index of one
+ * particle of each class. At cut bonds, colours divide a class into several types. */
 struct classes {
     int n;
     int32_t *any;
 };
 
-/* Returns true if two particles have the same material and loads, and for bond styles the same mass. */
+/* Returns true if the particles i and j have the same material and loads, and for bond styles the same mass. */
 static bool class_alike(const struct exported *x, int64_t i, int64_t j)
 {
     const struct particles *p = &x->e->part;
@@ -20,7 +20,7 @@ static bool class_alike(const struct exported *x, int64_t i, int64_t j)
            (!x->bond_style || bits_equal(p->mass[i], p->mass[j]));
 }
 
-/* Returns the class of particle i, a new one if necessary; -1: there are too many. */
+/* Returns the class of particle i, which is added if there is none yet; -1 if there would be more than CLASSES_MOST. */
 static int class_of(struct classes *c, const struct exported *x, int64_t i)
 {
     for (int k = c->n; k-- > 0;)
@@ -31,8 +31,8 @@ static int class_of(struct classes *c, const struct exported *x, int64_t i)
     return c->n++;
 }
 
-/* Numbers the types from 1 such that the types of one material are consecutive. any[n]: a particle of each future
- * type. Stores the number of each in number[n], and allocates t->material and t->any. */
+/* Numbers the n future types from 1, such that the types of one material are consecutive. any[n]: index of a particle
+ * of each type. Stores the number of each type in number[n], and allocates and fills t->material and t->any. */
 static void types_number(struct lammps_types *t, const struct exported *x, int32_t *number, const int32_t *any, int n)
 {
     t->material = NEW("types.material", n + 1, int32_t);
@@ -45,8 +45,8 @@ static void types_number(struct lammps_types *t, const struct exported *x, int32
             }
 }
 
-/* Lists in t->pair the pairs of types between which LAMMPS must not create bonds. pair[colours][colours]: kind of
- * each pair of colours; number[]: type of each colour. */
+/* Lists in t->pair the pairs of types between which LAMMPS must not create bonds: those of colours with cut bonds.
+ * pair[colours][colours]: kind of each pair of colours; number[colours]: type of each colour. */
 static void types_exclude(struct lammps_types *t, const int32_t *number, const uint8_t *pair, int colours)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -61,7 +61,7 @@ static void types_exclude(struct lammps_types *t, const int32_t *number, const u
     }
 }
 
-/* Finds the classes of all particles and stores them in t->of. */
+/* Finds the class of every particle and stores it in t->of. REFUSED if there are more than CLASSES_MOST classes. */
 static status classes_find(struct classes *c, struct lammps_types *t, const struct exported *x)
 {
     t->of = NEW("types.of", x->e->part.n, int32_t);
@@ -74,8 +74,9 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
     return OK;
 }
 
-/* Sets the type t->of[i] of every particle, from its class or, at cut bonds, its colour, and lists the excluded pairs
- * of types. pair[colours][colours]: kind of each pair of colours. FAILED or REFUSED if there are too many classes. */
+/* Sets the type t->of[i] of every particle from its class or, at cut bonds, its colour, and lists the excluded pairs of
+ * types. colour[touched->n]: colour of each touched particle; pair[colours][colours]: kind of each pair of colours,
+ * NULL: no cut bonds. REFUSED if there are too many classes. */
 static status types_give(struct lammps_types *t, struct exported *x, const struct touched *touched,
                          const int32_t *colour, int colours, const uint8_t *pair)
 {

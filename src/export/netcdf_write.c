@@ -40,7 +40,7 @@ static bool is_over_records(const struct netcdf_writer *w, const struct netcdf_a
     return w->dimension[a->dimension[0]].length == 0;
 }
 
-/* Returns the bytes of an array, of one record of an array over records, filled up to a multiple of four. */
+/* Returns the size of an array [byte], or of one record of an array over records, rounded up to a multiple of four. */
 static int64_t array_size(const struct netcdf_writer *w, const struct netcdf_array *a)
 {
     int64_t size = type_size(a->type);
@@ -63,7 +63,7 @@ static void put_number(struct netcdf_writer *w, uint64_t value, int bytes)
     put_bytes(w, text, bytes);
 }
 
-/* Appends the length of a text and the text, filled up with zeros to a multiple of four bytes. */
+/* Appends to the header the length of a text and the text, filled up with zeros to a multiple of four bytes. */
 static void put_text(struct netcdf_writer *w, const char *text)
 {
     static const char zeros[3];
@@ -73,7 +73,7 @@ static void put_text(struct netcdf_writer *w, const char *text)
     put_bytes(w, zeros, (4 - n % 4) % 4);
 }
 
-/* Appends the tag and the length of a list; an empty one has two zeros. */
+/* Appends to the header the tag and the length n of a list; an empty list has two zeros. */
 static void put_list_head(struct netcdf_writer *w, int tag, int n)
 {
     put_number(w, n > 0 ? (uint64_t)tag : 0, 4);
@@ -95,7 +95,7 @@ static void put_attribute(struct netcdf_writer *w, const struct netcdf_attribute
     put_number(w, bits, 4);
 }
 
-/* Builds the header for arrays of which the first begins at byte `first` of the file. */
+/* Builds the header of the file. first: position of the first array, the length of the header [byte]. */
 static void header_build(struct netcdf_writer *w, int64_t first)
 {
     int64_t at[2] = {first, first}; /* position of the next array of one length; over records */
