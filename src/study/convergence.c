@@ -24,7 +24,8 @@ double student_quantile(int n)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Computes mean, scatter and mean spacing of the finite values of the runs of level k. level[n]: level of each run.
+/* Computes the mean, the scatter and the mean spacing of the runs of spacing level k, and stores them in *l.
+ * spacing[n], value[n], level[n]: spacing [m], value and level of each run; values that are not finite are left out.
  * The scatter is NAN for a single run. */
 static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
                        int k)
@@ -43,8 +44,9 @@ static void level_find(struct level_figures *l, const double *spacing, const dou
     l->deviation = l->runs > 1 ? sqrt(sum / (l->runs - 1)) : NAN;
 }
 
-/* Computes the 95 % error of the mean of each level from the scatter of its runs; for a level with a single run from
- * the pooled scatter of the other levels. resolution[levels]: added in quadrature; NULL: none. */
+/* Computes the error of the mean of each level, half of its 95 % interval, from the scatter of its runs (Student's t
+ * distribution). A level with a single run uses the pooled scatter of the other levels. resolution[levels]: further
+ * error of each level, added in quadrature; NULL: none. */
 static void errors_find(struct convergence *c, const double *resolution)
 {
     double sum = 0;
@@ -66,8 +68,8 @@ static void errors_find(struct convergence *c, const double *resolution)
 
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the ratio (m2 - m1)/(m1 - m0) that the means of the three finest levels (0 the finest) have if the error is
- * proportional to h^p. */
+/* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of the three finest levels l[3] (0 the finest) if the
+ * error is proportional to h^p, with the spacing h. */
 static double ratio_at(const struct level_figures *l, double p)
 {
     const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
@@ -75,8 +77,8 @@ static double ratio_at(const struct level_figures *l, double p)
     return (pow(h2, p) - pow(h1, p)) / (pow(h1, p) - 1);
 }
 
-/* Returns the order p at which the means of the three finest levels lie on a line over h^p, by bisection. ratio:
- * measured ratio of their differences. */
+/* Returns the order p for which the means of the three finest levels l[3] are linear in h^p, with the spacing h. Found
+ * by bisection between -10 and 20. ratio: measured (m2 - m1)/(m1 - m0). */
 static double order_find(const struct level_figures *l, double ratio)
 {
     double low = -10, high = 20;
@@ -90,14 +92,14 @@ static double order_find(const struct level_figures *l, double ratio)
     return 0.5 * (low + high);
 }
 
-/* Range of the orders that are consistent with the means and their errors, and the observed order `seen`, NAN if the
- * means oscillate. */
+/* Orders of convergence: the smallest and the largest one that are consistent with the means and their errors, and the
+ * observed order `seen`. The observed order is NAN if the means oscillate. */
 struct orders {
     double low, seen, high;
 };
 
-/* Computes the observed order of convergence of the three finest levels, and the range of orders that the errors of
- * their means allow. Returns false if the means oscillate by more than their errors. */
+/* Computes the observed order of convergence of the three finest levels l[3] (0 the finest), and the range of orders
+ * that the errors of their means allow. Returns false if the means oscillate by more than their errors. */
 static bool orders_find(struct orders *o, const struct level_figures *l)
 {
     const double sign =
@@ -112,8 +114,8 @@ static bool orders_find(struct orders *o, const struct level_figures *l)
     return true;
 }
 
-/* Sets verdict, observed order and grid convergence index of a figure from its three finest levels. Order and index
- * are NAN where they have no meaning. */
+/* Sets verdict, observed order and grid convergence index (Roache 1998) of a figure from its three finest levels. Order
+ * and index are NAN if they have no meaning. The figure is a number in summary.json of the runs. */
 static void convergence_judge(struct convergence *c)
 {
     const struct level_figures *l = c->level;

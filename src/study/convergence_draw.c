@@ -31,14 +31,14 @@ status scalar_results_check_replaceable(const char *folder)
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
 
-/* Returns the unit in which a figure is drawn. */
+/* Returns the unit in which a figure (a number in summary.json of the runs) is drawn. */
 static struct unit figure_unit(const struct scalar_result_study *f)
 {
     return unit_of_figure(f->unit, fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
 }
 
-/* Sends data blocks: $r: every run; $m: means with their errors; $e: extrapolated value with its interval, at spacing
- * 0. */
+/* Sends three data blocks for the figure f in panel number `panel`: $r, its value in every run over the spacing; $m,
+ * the means of the levels with their errors; $e, the extrapolated value with its interval, at spacing 0. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_find_result(&s->table, f->name);
@@ -79,7 +79,8 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 
-/* Returns a round distance of tics that places about five of them between 0 and `most`. */
+/* Returns a round distance of tics, 1, 2 or 5 times a power of ten, that places three to seven of them between 0 and
+ * `most`. */
 static double tics_apart(double most)
 {
     const double decade = pow(10, floor(log10(most / 3))), lead = most / 3 / decade;
@@ -109,8 +110,9 @@ static status draw_figures(const struct convergence_study *s, const struct scala
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Position of the longest crack tip at each sample at which it has grown. tip[k]: index among the tips that were the
- * longest in turn, reconstructed because the history does not identify them. */
+/* Positions x[n], y[n] [m] of the longest crack tip at each sample at which it has grown, and its growth grown[n] [m].
+ * tip[k]: index of the tip at sample k among the `tips` tips that were the longest in turn; it is reconstructed because
+ * the history does not identify tips. */
 struct longest {
     int64_t n;
     double *x, *y, *grown;
@@ -122,8 +124,9 @@ struct extent {
     double low[2], high[2];
 };
 
-/* Returns the index of the crack tip at sample i: the earlier tip nearest to its position, if it can have moved there
- * by the growth of its crack, else a new one. Tolerates fluctuations of a few spacings. */
+/* Returns the index of the crack tip at sample i: the index of the nearest earlier position from which the tip can have
+ * moved by the growth of its crack, else a new index. Tolerates fluctuations of FLICKER spacings. spacing: of the run
+ * [m]. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};
@@ -166,8 +169,8 @@ static void longest_free(struct longest *l)
     memory_free(l->tip);
 }
 
-/* Sends the paths of the longest tips of run k as data block $wK [mm], each as a separate line. Returns false if there
- * are none. */
+/* Sends the paths of the longest crack tips of run k as the data block $wK [mm], each path as a separate line, and
+ * extends the bounding box *e by them [m]. Returns false if the run has no path. */
 static bool send_path(FILE *to, const struct convergence_study *s, int k, struct extent *e)
 {
     struct history h;
@@ -192,7 +195,7 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k, struct
     return sent;
 }
 
-/* Adds a margin around the paths, nonzero also for a straight path. */
+/* Extends the bounding box of the paths by a margin, which is not 0 for a straight path either. */
 static void extent_widen(struct extent *e)
 {
     const double longer = fmax(e->high[0] - e->low[0], e->high[1] - e->low[1]);
@@ -213,14 +216,15 @@ static int paths_height(const struct extent *e)
     return isfinite(height) ? (int)fmin(height, PATHS_HIGH) : PATHS_HIGH / 2;
 }
 
-/* Plots of gnuplot's command for the paths of all runs. */
+/* Arguments of gnuplot's command `plot` for the paths of all runs. used: length of the text; drawn: number of paths. */
 struct path_plots {
     char text[16384];
     size_t used;
     int drawn;
 };
 
-/* Sends the paths of all runs to `to`, and appends their plots to *p. e: receives the extent of the paths. */
+/* Sends the paths of all runs of a study to `to`, and appends the arguments that plot them to *p. Extends the bounding
+ * box *e by the paths. */
 static void paths_send(FILE *to, const struct convergence_study *s, struct extent *e, struct path_plots *p)
 {
     bool named[LEVELS_MOST] = {false};
@@ -239,7 +243,8 @@ static void paths_send(FILE *to, const struct convergence_study *s, struct exten
     }
 }
 
-/* Draws the paths in a picture as high as they need: their data are composed first, since they determine its size. */
+/* Draws the crack paths of all runs in one picture. Their data are composed before the picture is opened, since their
+ * extent determines its height. FAILED without memory or if gnuplot fails. */
 static status draw_paths(const struct convergence_study *s)
 {
     const struct path picture = convergence_picture(s->study.folder, "path.png");

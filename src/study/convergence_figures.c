@@ -22,8 +22,9 @@ enum { PRINTED_MOST = 24 };
 
 /* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
 
-/* Returns the change of a figure if the time step is 10 % longer: the slope of a least-squares fit, over the runs of
- * all levels, of the deviation from the mean of the level. NAN if the runs do not vary the time step. */
+/* Returns the change of a figure (a number in summary.json) if the time step is 10 % longer. It follows from the slope
+ * of a least-squares fit, over the runs of all levels, of the deviation from the mean of the level over the logarithm
+ * of the step. value[k]: figure of run k. Returns NAN if the runs do not vary the time step. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -37,8 +38,8 @@ static double step_moves(const struct convergence_study *s, const struct converg
     return xx > 0 ? xy / xx * log(1.1) : NAN;
 }
 
-/* Returns the change of a figure if the horizon is longer, from the run at level -1; NAN if the study has no such
- * run. */
+/* Returns the change of a figure if the horizon is one spacing longer: the value in the run at level -1, minus the
+ * first run of level 1, which has its spacing. value[k]: figure of run k. Returns NAN if the study has no such run. */
 static double horizon_moves(const struct convergence_study *s, const double *value)
 {
     double longer = NAN, own = NAN;
@@ -52,8 +53,9 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes for each level half the step in which a figure can change: half a spacing for positions and crack lengths,
- * and the rotation of the crack by as much for angles. Returns false for figures that change continuously. */
+/* Computes half the step in which the figure called `name` is quantised at each level, resolution[levels]: half a
+ * spacing for positions and crack lengths, and for angles the rotation of the crack by half a spacing [degree]. Returns
+ * false for figures that change continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -72,8 +74,8 @@ static bool resolution_find(double *resolution, const struct convergence_study *
     return true;
 }
 
-/* Evaluates the convergence of figure number `at` of the table and its sensitivity to time step, spacing and horizon.
- * Returns false if there are too few values. */
+/* Evaluates the convergence of figure number `at` of the table s->table, and its sensitivity to time step, spacing and
+ * horizon. Returns false if a level has no value. */
 static bool figure_make(struct scalar_result_study *f, const struct convergence_study *s, int at)
 {
     double *spacing = NEW("study.spacing", s->study.n, double);
@@ -97,7 +99,7 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     return true;
 }
 
-/* Returns true if the figure differs between runs; energies that the scene does not have do not. */
+/* Returns true if a figure differs between runs. Energies of mechanisms that the scene does not have are constant. */
 static bool figure_moves(const struct scalar_result_study *f)
 {
     bool moves = false;
@@ -108,8 +110,8 @@ static bool figure_moves(const struct scalar_result_study *f)
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if a figure is reported by a study that requests none. Figures of single crack tips are not, as the
- * numbers of tips differ between runs; nor are angles in a line. */
+/* Returns true if a study that requests no figures reports the figure called `name`. It excludes technical figures,
+ * figures of single crack tips, since the numbers of tips differ between runs, and angles in 1D. */
 static bool is_of_interest(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -117,8 +119,8 @@ static bool is_of_interest(const struct convergence_study *s, const char *name)
     return !study_result_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
 }
 
-/* Returns true if the figure is a coordinate of an event that a run finds at several positions at once. Other runs
- * may report another of these positions. */
+/* Returns true if the figure called `name` is a coordinate of an event that a run of the study finds at several
+ * positions at once (its figure `tied` is above 1). Other runs may then report another of these positions. */
 static bool is_one_of_several(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -131,8 +133,7 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     return false;
 }
 
-/* Returns the position of a figure's group in the output: 0 for cracks, 1 for others such as probes, 2 for
- * energies. */
+/* Returns the rank of a figure in the output by its name: 0 for cracks, 1 for others such as probes, 2 for energies. */
 static int part_of(const char *name) { return !strncmp(name, "crack.", 6) ? 0 : !strncmp(name, "energy.", 7) ? 2 : 1; }
 
 static bool is_wanted(const struct convergence_study *s, const char *name, const char *const *wanted, int wanteds)
@@ -185,7 +186,7 @@ status scalar_results_find(const struct convergence_study *s, const char *const 
 
 /* ---- converge.csv ------------------------------------------------------------------------------------------------ */
 
-/* Writes a comma and a number; no number if it is not finite. */
+/* Writes a comma and a number as the next cell of a table; an empty cell if the number is not finite. */
 static void print_cell(FILE *to, double value)
 {
     if (isfinite(value))
@@ -235,8 +236,8 @@ status scalar_results_write(const struct convergence_study *s, const struct scal
 
 /* ---- printed summary --------------------------------------------------------------------------------------------- */
 
-/* Writes a value with the digits that its uncertainty justifies: two uncertain digits. text: capacity `capacity`
- * [byte]. */
+/* Writes `value` into text[capacity] with the digits that its uncertainty justifies, down to the second digit of the
+ * uncertainty. Uses 1e-4 |value| if the uncertainty is 0. */
 static void certain_digits(char *text, size_t capacity, double value, double uncertainty)
 {
     const double size = fabs(value);
@@ -250,8 +251,8 @@ static void certain_digits(char *text, size_t capacity, double value, double unc
         snprintf(text, capacity, "%.*f", uncertain > 0 ? 0 : uncertain < -9 ? 9 : -uncertain, value);
 }
 
-/* Names the parameter that changes the figure most: the time step (10 % longer), the spacing (factor sqrt(2)) or the
- * horizon (one spacing longer). */
+/* Returns the name of the parameter that changes a figure most: the time step (10 % longer), the spacing (by the factor
+ * sqrt(2)) or the horizon (one spacing longer); "nothing" if none changes it. */
 static const char *mover(const struct scalar_result_study *f)
 {
     const double step = fabs(f->step_moves), spacing = fabs(f->spacing_moves), horizon = fabs(f->horizon_moves);
@@ -259,7 +260,8 @@ static const char *mover(const struct scalar_result_study *f)
     return most == 0 ? "nothing" : most == spacing ? "spacing" : most == step ? "time step" : "horizon";
 }
 
-/* Returns true if the limit of a crack length or an energy is negative although its means are positive. */
+/* Returns true if the extrapolated limit of a crack length or an energy is negative although the means of all levels
+ * are positive. */
 static bool limit_is_impossible(const struct scalar_result_study *f)
 {
     const char *dot = strrchr(f->name, '.');
@@ -269,7 +271,8 @@ static bool limit_is_impossible(const struct scalar_result_study *f)
     return positive && least > 0 && f->c.extrapolated < 0;
 }
 
-/* Prints the orders of convergence and the limit of a figure, unless its means do not converge. */
+/* Prints the orders of convergence and the limit of a figure at spacing 0, as clauses. Prints nothing if its means
+ * oscillate or diverge. */
 static void order_print(const struct scalar_result_study *f)
 {
     const struct convergence *c = &f->c;

@@ -20,7 +20,8 @@ enum { ORDERS = 7, MISFITS = 10 };
 #define MISFIT_LEAST 1e-3 /* smallest t; sampled from here to 1 in equal steps of its logarithm */
 #define VAGUE 100.0       /* standard deviation of the prior of v over S */
 
-/* Mixture of normal distributions of (v - m_0)/S, with their weights. */
+/* Posterior of (v - m_0)/S as a mixture of normal distributions, one for each order and misfit: weight, mean, standard
+ * deviation, and order p. v: value at spacing 0; m_0: mean of the finest level; S: range of the means. */
 struct mixture {
     struct {
         double weight, centre, deviation, order;
@@ -29,7 +30,7 @@ struct mixture {
 
 /* ---- the mixture ------------------------------------------------------------------------------------------------- */
 
-/* Returns S: the range of the means including their errors. */
+/* Returns the scale S: the range of the means of all levels and half of their largest error, added in quadrature. */
 static double range_scale(const struct convergence *c)
 {
     double least = INFINITY, most = -INFINITY, error = 0;
@@ -40,8 +41,9 @@ static double range_scale(const struct convergence *c)
     return hypot(most - least, 0.5 * error);
 }
 
-/* Fits v and a by least squares for a given order p and misfit t. Stores mean and standard deviation of the posterior
- * of v, in units of `scale` relative to the finest mean. Returns the logarithm of the likelihood of the means. */
+/* Fits the value v at spacing 0 and the slope a of m_k = v + a (h_k/h_0)^p to the means of the levels by least squares.
+ * p: order; t: misfit, the standard deviation of the means over `scale`. Stores mean and standard deviation of the
+ * posterior of v, as (v - m_0)/scale. Returns the logarithm of the likelihood of the means. */
 static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
 {
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;
@@ -61,8 +63,8 @@ static double part_fit(const struct convergence *c, double scale, double p, doub
     return -0.5 * (misfit - v * value - a * slope + spread + log(determinant));
 }
 
-/* Computes the mixture of normal distributions of v over all orders and misfits, with normalised weights. Returns
- * false if scale is 0: all means are equal and have no error. */
+/* Computes the mixture of normal distributions of the value at spacing 0 over all orders and misfits, with weights of
+ * sum 1. scale: range of the means (range_scale). Returns false if it is 0: all means are equal and have no error. */
 static bool mixture_make(struct mixture *m, const struct convergence *c, double scale)
 {
     double most = -INFINITY, sum = 0;
@@ -88,7 +90,7 @@ static bool mixture_make(struct mixture *m, const struct convergence *c, double 
 /* Returns the probability that a standard normal variable is below z. */
 static double normal_below(double z) { return 0.5 * erfc(-z * 0.70710678118654752); }
 
-/* Returns the probability that v is within half_width of `about`. */
+/* Returns the probability that a variable with the mixture distribution is within half_width of `about`. */
 static double mixture_within(const struct mixture *m, double about, double half_width)
 {
     double sum = 0;
@@ -99,8 +101,8 @@ static double mixture_within(const struct mixture *m, double about, double half_
     return sum;
 }
 
-/* Returns the half-width of the interval around `about` that contains v with the probability `share`, by
- * bisection. */
+/* Returns the half-width of the interval around `about` that contains a variable with the mixture distribution with the
+ * probability `share`. Found by bisection. */
 static double mixture_half_width(const struct mixture *m, double about, double share)
 {
     double low = 0, high = 4 * VAGUE;
@@ -114,7 +116,8 @@ static double mixture_half_width(const struct mixture *m, double about, double s
     return high;
 }
 
-/* Returns the half-width that contains a share of a normal distribution whose 95 % interval has half-width 1. */
+/* Returns the half-width of the interval that contains the share `share` of a normal distribution of mean 0 whose 95 %
+ * interval has half-width 1. */
 static double normal_half_width(double share)
 {
     double low = 0, high = 10;

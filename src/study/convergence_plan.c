@@ -11,8 +11,8 @@
 #define FAR_WANTED 0.16  /* range if none there fits; levels remain apart [1] */
 #define NEAR_CHOSEN 0.07 /* range around the chosen spacing for further ones of the level [1] */
 
-/* Distances of faces and cracks from the lower corner of their body that are integer or half-integer multiples of the
- * scene's own spacing. */
+/* Distances [m] of faces and cracks from the lower corner of their body that are whole numbers of spacings, or of
+ * spacings plus one half (`half`), at the spacing of the scene. */
 struct places {
     int n;
     struct {
@@ -23,8 +23,8 @@ struct places {
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* Adds a distance if it is a whole number of spacings, or of spacings plus one half, at the scene's own spacing [m].
- * Ignores other distances, distances below one spacing and duplicates. */
+/* Appends a distance [m] to *p if it is a whole number of spacings, or of spacings plus one half, at the spacing of the
+ * scene [m]. Ignores other distances, distances below one spacing and duplicates. */
 static void place_add(struct places *p, double distance, double spacing)
 {
     const double at = fabs(distance) / spacing, off = fabs(at - round(at));
@@ -36,8 +36,8 @@ static void place_add(struct places *p, double distance, double spacing)
     p->place[p->n++].half = off > 0.5 - MEETS;
 }
 
-/* Collects the distances of faces and cracks from the lower corner of their body that are whole or half numbers of
- * spacings. */
+/* Appends to *p the distances of faces and cracks from the lower corner of their body that are whole or half numbers of
+ * spacings (place_add). */
 static void places_find(struct places *p, const struct scene *s)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -59,8 +59,8 @@ static void places_find(struct places *p, const struct scene *s)
     }
 }
 
-/* Returns the largest deviation of a position from the lattice, at a spacing, if it must be on a lattice plane or
- * midway between two [spacings]. */
+/* Returns the largest deviation from the lattice [spacings] that the distances p have at another spacing [m]. Each of
+ * them should be a whole number of spacings, or of spacings plus one half, as at the spacing of the scene. */
 static double misfit(const struct places *p, double spacing)
 {
     double worst = 0;
@@ -73,7 +73,7 @@ static double misfit(const struct places *p, double spacing)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the spacing within the relative range `reach` of `wanted` that fits the positions best; of equally good
+/* Returns the spacing [m] within wanted (1 +- reach) at which faces and cracks fit the lattice best; of equally good
  * ones the nearest to `wanted`. Excludes the spacings taken[n]. Returns 0 if there is none. */
 static double spacing_near(const struct places *p, double wanted, double reach, const double *taken, int n)
 {

@@ -19,8 +19,9 @@ enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the factor on the time step of run number `run` of `runs` at a level. Run 0 has the step of the scene; the
- * others alternate between shorter and longer steps, the most different first. Limited to stable steps. */
+/* Returns the factor on the time step for run number `run` of the `runs` runs of a level. Run 0 has the time step of
+ * the scene. The others alternate between shorter and longer steps, the most different ones first. Steps that would be
+ * unstable are excluded. */
 static double step_of(const struct convergence_study *s, int run, int runs)
 {
     const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
@@ -30,8 +31,8 @@ static double step_of(const struct convergence_study *s, int run, int runs)
     return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
 }
 
-/* Returns the spacing of a run of a level [m]: run 0 has the first spacing of the level, and further runs use its
- * spacings in turn. */
+/* Returns the spacing of run number `run` of a level [m]: run 0 has the first spacing of the level, and further runs
+ * use its spacings in turn. */
 static double spacing_in_turn(const struct convergence_study *s, int level, int run)
 {
     return s->spacings.at[level][run % s->spacings.n[level]];
@@ -39,15 +40,16 @@ static double spacing_in_turn(const struct convergence_study *s, int level, int 
 
 static bool has_bonds(const struct scene *s) { return s->method != METHOD_MPM; }
 
-/* Returns the horizon of runs at a spacing [spacings]: that of the scene; if the horizon is fixed, the length in
- * metres that it has at the coarsest level. */
+/* Returns the horizon of runs with the given spacing [m], as a number of spacings. It is the horizon of the scene, or
+ * if the horizon is fixed, the length that it has at the coarsest level. */
 static double horizon_at(const struct convergence_study *s, double spacing)
 {
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0];
     return s->scene.horizon * (s->fixed_horizon ? coarsest / spacing : 1);
 }
 
-/* Appends the override key = number to o[], with its text in value[*n], and increments *n. */
+/* Appends the override key = number to o[], with its text in value[*n], and increments *n. The override refers to both
+ * texts. */
 static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM], const char *key, double number)
 {
     snprintf(value[*n], VALUE_ROOM, "%.15g", number);
@@ -55,8 +57,8 @@ static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM]
     ++*n;
 }
 
-/* Adds a run to the study, with the overrides of the user followed by those for spacing, horizon, time step and
- * random numbers of this run. */
+/* Adds a run with the parameters p to the study. Its overrides are those of the user, followed by spacing, horizon,
+ * time step and seed of random numbers of this run. */
 static void point_add(struct convergence_study *s, struct study_point p)
 {
     char value[OVERRIDES_OWN][VALUE_ROOM], name[CASE_NAME_ROOM];
@@ -94,8 +96,8 @@ static void level_run_add(struct convergence_study *s, int level, int run, int r
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the predicted duration of a run at a spacing [s], from the first run: in proportion to the number of
- * particles and steps, and of bonds if the horizon in metres is fixed. */
+/* Returns the predicted duration of a run with the given spacing [s]. It is scaled from the first run: in proportion to
+ * the numbers of particles and steps, and to the number of bonds per particle if the horizon is fixed. */
 static double cost_beside(const struct convergence_study *s, double spacing)
 {
     const double first = s->point[s->first].spacing, finer = first / spacing;
@@ -103,7 +105,7 @@ static double cost_beside(const struct convergence_study *s, double spacing)
     return s->spent * pow(finer, s->scene.dim + 1) * longer;
 }
 
-/* Returns the predicted duration of all planned runs [s], with `jobs` of them at a time. */
+/* Returns the predicted duration of all planned runs of a study [s], if `jobs` of them run at a time. */
 static double cost_of_all(const struct convergence_study *s, int jobs)
 {
     double sum = 0, longest = 0;
@@ -115,8 +117,9 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
     return fmax(sum / jobs, longest);
 }
 
-/* Sets the number of runs of the finest level to `finest` and of the other levels to `runs`. Without random particles
- * or varied time steps it is at most the number of spacings of the level, since further runs would be equal. */
+/* Sets the number of runs of the finest level to `finest` and of the other levels to `runs`. If neither random
+ * particles nor varied time steps distinguish runs, a level has at most as many runs as spacings, since further runs
+ * would be equal. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
     const bool steps = scene_is_dynamic(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
@@ -127,9 +130,9 @@ static void runs_set(struct convergence_study *s, int runs, int finest)
     }
 }
 
-/* Chooses the largest number of runs per level, at most `runs`, that takes no longer than `left` [s] on `jobs`
- * parallel processes. If there is not enough time, tries one run at the finest level. Returns false if this takes too
- * long as well. */
+/* Chooses the largest number of runs per level, at most `runs`, with which the study takes no longer than `left` [s]
+ * with `jobs` runs at a time. If the time does not suffice, plans one run at the finest level. Returns false if this
+ * takes too long as well. Stores the predicted time in s->expected. */
 static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
 {
     for (int k = runs; k >= RUNS_LEAST; k--) {
@@ -142,7 +145,7 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reason why the scene cannot be studied; NULL if it can. */
+/* Returns the reason why the convergence of scene s cannot be studied as requested; NULL if it can. */
 static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -152,8 +155,9 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* Makes the first run, at the coarsest level, whose duration predicts those of the others. refused: set to true if the
- * scene is invalid at this spacing, for example if rings of probes are too narrow. */
+/* Makes the first run, at the coarsest level, and stores its duration in s->spent, from which those of the other runs
+ * are predicted. Sets *refused to true if the scene is invalid at this spacing, for example because rings of probes
+ * become too narrow. REFUSED if the run exceeds the budget, FAILED if it fails. */
 static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
     struct study_options options = w->options;
@@ -176,8 +180,8 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     return summary_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
-/* Warns about requested figures that the first run lacks, because their names may be wrong; cracks and tips may still
- * appear at finer spacings. */
+/* Prints a warning for each requested figure that the first run lacks, because its name may be wrong. It is no error,
+ * since cracks and tips may still appear at finer spacings. */
 static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
 {
     const struct path folder = study_case_folder(&s->study, &s->study.at[s->first]);
@@ -188,7 +192,8 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
                     printable_name(folder.text).text);
 }
 
-/* Makes the first run; while the scene is invalid at the coarsest level, all levels are refined. */
+/* Makes the first run of a study at the coarsest level. While the scene is invalid at that spacing, refines all levels
+ * and tries again, at most FINER_MOST times. Stores the largest refused spacing in s->refused. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;
@@ -204,8 +209,8 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     return done;
 }
 
-/* Plans levels of spacings from the scene's own spacing times 2^(shift/2) upwards, without those at which the scene
- * is invalid. Returns false if no valid plan results. */
+/* Plans the spacing levels of a study, the finest with the spacing of the scene times 2^(shift/2), without spacings at
+ * which the scene is invalid. Returns false if no valid plan results. */
 static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
@@ -218,7 +223,8 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
     return s->spacings.at[levels - 1][0] < 0.999 * s->refused;
 }
 
-/* Chooses levels and runs within the budget: while the finest level is too expensive, all levels are coarsened. */
+/* Chooses spacing levels and numbers of runs that fit into the budget: while the finest level is too expensive, all
+ * levels are coarsened. jobs: number of runs at a time. REFUSED if no plan fits. */
 static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
@@ -247,7 +253,8 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
                       s->budget, need + s->spent);
 }
 
-/* Adds all runs, one of each level first, so that there is a result even if the budget ends early. */
+/* Adds all planned runs to the study, first one run of each level, so that there are results even if the budget ends
+ * early. The last run, at level -1, has a longer horizon. */
 static void runs_add_all(struct convergence_study *s)
 {
     const int first = s->point[s->first].level;
@@ -275,7 +282,9 @@ static void plan_print(const struct convergence_study *s)
             1e3 * s->scene.spacing, 1e3 * s->spacings.at[0][0]);
 }
 
-/* Plans a convergence study within its budget, runs it and reads the figures of all runs into s->table. */
+/* Plans a convergence study within its budget, makes its runs and reads the figures of all runs into s->table. REFUSED
+ * or FAILED if the study cannot be planned, its first run fails, or a summary cannot be read. INTERRUPTED by a stop
+ * signal. */
 static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {
     struct study_options options = w->options;

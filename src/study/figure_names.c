@@ -10,14 +10,15 @@
 
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
-/* Returns true if runs of the scene have results on contact. */
+/* Returns true if the runs of a scene have figures on contact in summary.json. */
 static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_can_meet(s); }
 
-/* Returns true if runs of the scene have results on fragments. */
+/* Returns true if the runs of a scene have figures on fragments in summary.json. */
 static bool of_fragments(const struct scene *s) { return scene_is_dynamic(s) && scene_can_crack(s); }
 
-/* Figures of a group, separated by blanks; group "": of the whole run. `#` in a group stands for a number. had: returns
- * true if the scene can have the figures; NULL: always. needs: requirement on the scene, for messages. */
+/* Names of the figures of summary.json by group. group: name before the last point, in which # stands for a number, ""
+ * for figures of the whole run; leaves: names after the last point, separated by blanks. had: returns true if scene s
+ * can have the figures, NULL: always; needs: requirement on the scene, for messages. */
 static const struct figure_group {
     const char *group, *leaves;
     bool (*had)(const struct scene *s);
@@ -75,14 +76,15 @@ static const char *const probe_leaves[PROBES] = {
     [PROBE_RIGID] = "angle stress_max shear_max angular_momentum_error kinetic_energy_error",
 };
 
-/* Most similar name found so far. */
+/* Search for the name most similar to the name `to`: the most similar name found so far, and its edit distance. */
 struct nearest {
     const char *to;
     char name[NAME_ROOM];
     int distance;
 };
 
-/* Replaces the most similar name found so far by group.leaf, if this is more similar to the wanted name. */
+/* Offers the name group.leaf to a search for the most similar name. It replaces the name found so far if it is more
+ * similar to n->to. */
 static void nearest_offer(struct nearest *n, const char *group, const char *leaf)
 {
     char name[NAME_ROOM];
@@ -91,8 +93,8 @@ static void nearest_offer(struct nearest *n, const char *group, const char *leaf
     if (distance < n->distance) n->distance = distance, snprintf(n->name, sizeof n->name, "%s", name);
 }
 
-/* Returns true if `leaf` is in the list `leaves`, separated by blanks. Each name of the list, joined to `group`, is
- * also compared with the wanted name, to find the most similar one. */
+/* Returns true if `leaf` is in the list `leaves`, whose names are separated by blanks. Also offers each name of the
+ * list, joined to `group`, to the search n for the most similar name. */
 static bool leaf_is_known(const char *leaves, const char *group, const char *leaf, struct nearest *n)
 {
     bool known = false;
@@ -105,7 +107,8 @@ static bool leaf_is_known(const char *leaves, const char *group, const char *lea
     return known;
 }
 
-/* Copies a name with `#` in place of whole numbers between points. to: capacity `capacity` [byte]. */
+/* Copies a name to to[capacity] with # in place of each whole number between points, for example rigid.#.x for
+ * rigid.0.x. */
 static void numbers_hidden(char *to, size_t capacity, const char *name)
 {
     size_t n = 0;
@@ -118,8 +121,8 @@ static void numbers_hidden(char *to, size_t capacity, const char *name)
     to[n] = '\0';
 }
 
-/* Returns true if `group` is a probe of the scene (probes.NAME) and its kind has the figure `leaf`. Compares all
- * names with the wanted one, to find the most similar one. */
+/* Returns true if `group` is a probe of the scene (probes.NAME) whose kind has the figure `leaf`. Also offers the names
+ * of the figures of all probes to the search n for the most similar name. */
 static bool probe_has(const struct scene *s, const char *group, const char *leaf, struct nearest *n)
 {
     char own[NAME_ROOM];
@@ -132,8 +135,8 @@ static bool probe_has(const struct scene *s, const char *group, const char *leaf
     return known;
 }
 
-/* Returns the kind of space that a figure needs because of the axes in its name, such as velocity_y or stress_zx_max,
- * and that the scene does not have, as a phrase for a message; NULL if none is missing. */
+/* Returns the kind of space that a figure needs and the scene does not have, as a phrase for a message; NULL if the
+ * scene has it. It follows from axes at the end of the figure's name, such as velocity_y or stress_zx_max. */
 static const char *axes_lack(const struct scene *s, const char *leaf)
 {
     char axes[LEAF_ROOM];
@@ -149,8 +152,9 @@ static const char *axes_lack(const struct scene *s, const char *leaf)
     return strchr(own, 'z') && s->dim < 3 && !across ? "a solid" : NULL;
 }
 
-/* Returns the solver that a figure of this name needs and the scene does not have, as a phrase for a message: times
- * and speeds of cracks need a run in time, numbers of steps need load steps. NULL if none is missing. */
+/* Returns the solver that a figure needs and the scene does not have, as a phrase for a message; NULL if the scene
+ * has it. leaf: end of the figure's name. Times and speeds of cracks need a run in time, numbers of steps need load
+ * steps. */
 static const char *clock_lacks(const struct scene *s, const char *leaf)
 {
     const char *end = strrchr(leaf, '_');
@@ -159,8 +163,9 @@ static const char *clock_lacks(const struct scene *s, const char *leaf)
     return (time || speed) && scene_has_load_steps(s) ? "a solver in time: load steps have no speed" : NULL;
 }
 
-/* Returns what the scene does not have but a figure of a known name needs, as a phrase for a message; NULL if the
- * figure exists. */
+/* Returns what a figure with a known name needs and the scene does not have, as a phrase for a message; NULL if runs of
+ * the scene have the figure. name: name of the figure; group: the part before its last point, with # for numbers; leaf:
+ * the part after it. */
 static const char *figure_lacks(const struct scene *s, const char *group, const char *name, const char *leaf)
 {
     const bool crack = strncmp(group, "crack", 5) == 0, probe = strncmp(group, "probes.", 7) == 0;

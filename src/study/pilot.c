@@ -21,7 +21,7 @@ enum { REFUSED_MOST = 4 };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-/* Appends a key and its value to the choices in *to, and increments *n. */
+/* Appends a key and its value, which are copied, to the chosen keys of *to, and increments *n. */
 static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
 {
     INVARIANT(*n < CHOSEN_MOST);
@@ -30,7 +30,8 @@ static void chosen_put(struct pilot *to, int *n, const char *key, const char *va
     ++*n;
 }
 
-/* Writes the keys of a candidate at a spacing after the overrides of the user. */
+/* Sets to->override to the overrides of the user followed by the keys of a candidate method: method, model, solver and
+ * the given spacing [m]. */
 static void candidate_write(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *c,
                             double spacing)
 {
@@ -80,10 +81,11 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Returns the time of the budget that is left [s]. */
+/* Returns the time of the budget of pilot runs that is left [s], at least 0. */
 static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (wall_clock() - p->begun), 0); }
 
-/* Returns the candidate with the cheapest predicted run; NULL if none has a prediction. */
+/* Returns the candidate method whose run at its required spacing has the shortest predicted duration; NULL if none has
+ * a prediction. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)
 {
     struct pilot_candidate *best = NULL;
@@ -92,8 +94,9 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
     return best;
 }
 
-/* Studies every method once, each with an equal share of a part of the time. Spacings at which the scene is invalid
- * are refined and tried again. */
+/* Studies every candidate method once, with equal shares of the part PILOT_FIRST_SHARE of the time. If the scene is
+ * invalid at the spacing, the study is repeated at finer spacings. Returns INTERRUPTED after a stop signal, or the
+ * error if runs lack the requested figure. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -113,9 +116,9 @@ static status search_first(struct pilot_search *p)
     return OK;
 }
 
-/* Repeats the study of a method at finer spacings, as fine as its prediction requires and the remaining time allows,
- * and replaces *c by the result. Returns false if there is no time left, the study yields nothing new, or it is
- * interrupted (*done is INTERRUPTED then). */
+/* Repeats the study of the method *c at finer spacings, as fine as its prediction requires and the remaining time
+ * allows, and replaces *c by its outcome. Returns false if there is no time left or the study yields nothing new, or if
+ * it is interrupted, in which case *done is INTERRUPTED. */
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;
@@ -135,7 +138,8 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
     return true;
 }
 
-/* Refines the method with the cheapest prediction, until one is accurate enough in a run. */
+/* Studies the method with the cheapest prediction at finer spacings, until a run of the then cheapest method is
+ * accurate enough or no refinement is possible. Returns INTERRUPTED after a stop signal. */
 static status search_finer(struct pilot_search *p)
 {
     status done = OK;
@@ -144,7 +148,7 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a method whose result differs from that of c by more than the uncertainties of both and the requested
+/* Returns a method whose value differs from the one of c by more than the uncertainties of both and the requested
  * accuracy, so that one of the two must be wrong; NULL if all methods agree. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
@@ -157,7 +161,7 @@ static const struct pilot_candidate *contradiction(const struct pilot_search *p,
     return NULL;
 }
 
-/* Returns REFUSED with a message that gives the accuracy that each method has reached. */
+/* Returns REFUSED with a message that lists the accuracy that each method has reached, or why it failed. */
 static status search_failed(const struct pilot_search *p)
 {
     char text[900] = "";
@@ -181,8 +185,8 @@ static status search_failed(const struct pilot_search *p)
                       p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }
 
-/* Writes the chosen method and spacing to *to and prints them. REFUSED if no method is accurate enough within the
- * budget, or if two methods converge to different values. */
+/* Writes the overrides for the chosen method *best and its spacing to *to, and prints both. best: NULL if there is
+ * none. REFUSED if it is not accurate enough within the budget, or if two methods converge to different values. */
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)
@@ -225,7 +229,8 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     return pilot_store(to, p, best);
 }
 
-/* Chooses the overrides of a scene with `method: auto`: reads a stored choice, or makes pilot runs. */
+/* Chooses the overrides of a scene with `method: auto`: reads a stored choice for the same scene, or makes pilot runs
+ * in a folder beside `folder`, the folder of the run (NULL: default). REFUSED if no method is suitable. */
 static status pilot_choose(struct pilot *to, struct pilot_search *p, const char *folder)
 {
     char run[NAME_MAX_LENGTH + sizeof "results/"];

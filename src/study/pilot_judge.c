@@ -9,8 +9,9 @@
 
 /* ---- the figure -------------------------------------------------------------------------------------------------- */
 
-/* Returns the figure that decides if the scene requests none: the first figure of a probe that is larger than its
- * uncertainty, else the start time of cracks, else the largest energy; NULL if there is none. */
+/* Returns the figure (number in summary.json) by which pilot runs are judged if the scene names none: the first figure
+ * of a probe that is larger than its uncertainty, else the start time of cracks, else the largest energy. Returns NULL
+ * if there is none of these. */
 static const struct scalar_result_study *figure_usual(const struct scalar_result_study *figure, int figures)
 {
     const struct scalar_result_study *start = NULL, *energy = NULL;
@@ -28,8 +29,8 @@ static const struct scalar_result_study *figure_usual(const struct scalar_result
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the run of a level that has the parameters of a final run, the first one of the level; -1 if
- * there is none. */
+/* Returns the index of the first run of a level, which has the parameters of a run outside a study; -1 if there is
+ * none. */
 static int level_run(const struct convergence_study *s, int level)
 {
     for (int k = 0; k < s->study.n; k++)
@@ -43,9 +44,9 @@ static double pilot_run_figure(const struct convergence_study *s, const char *na
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
-/* Finds the coarsest level whose run is accurate enough and stores its spacing, accuracy and duration in c. If there
- * is none, extrapolates the required spacing from the finest level, with the smallest order of convergence that the
- * means allow. */
+/* Finds the coarsest level whose run is accurate enough for the figure f and stores its spacing, accuracy and duration
+ * in *c. If there is none, extrapolates the required spacing from the finest level, with the smallest order of
+ * convergence that the means allow. c->spacing remains 0 if neither is possible. */
 static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s,
                          const struct scalar_result_study *f)
 {

@@ -30,8 +30,8 @@ void pilot_free(struct pilot *to)
 
 /* ---- the question ------------------------------------------------------------------------------------------------ */
 
-/* Returns the text of the request, which is the scene file with the overrides as comments; free it with free. NULL if
- * the scene cannot be read. */
+/* Returns the text by which a stored choice is recognised: the scene file, and the overrides of the user as comments.
+ * NULL if the scene cannot be read. Release it with free. */
 static char *question_text(const struct pilot_search *p)
 {
     char *scene, *text = NULL;
@@ -49,7 +49,7 @@ static char *question_text(const struct pilot_search *p)
 
 /* ---- the answer -------------------------------------------------------------------------------------------------- */
 
-/* Copies the file `from` of the folder to the file `name` in it. */
+/* Copies the file `from` in a folder to the file `name` in the same folder. FAILED if it cannot be read or written. */
 static status file_copy(const char *folder, const char *from, const char *name)
 {
     char *text;
@@ -60,8 +60,8 @@ static status file_copy(const char *folder, const char *from, const char *name)
     return put;
 }
 
-/* Stores the scene with the chosen overrides and the error bars of the chosen method's study in the folder of the
- * pilot runs. */
+/* Stores the scene with the chosen overrides, and the table with the error bars of the method *best, in the folder of
+ * the pilot runs. FAILED if a file cannot be read or written. */
 static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     struct scene s;
@@ -93,7 +93,8 @@ status pilot_store(const struct pilot *to, const struct pilot_search *p, const s
     return put;
 }
 
-/* Reads lines key=value of a stored choice into to->key and to->value, and returns their number. Changes text. */
+/* Reads lines key=value of a stored choice into to->key and to->value, at most CHOSEN_MOST. Returns their number.
+ * Changes `text`. */
 static int answer_read(struct pilot *to, char *text)
 {
     int n = 0;

@@ -7,8 +7,8 @@
 
 /* ---- methods ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if bond-based peridynamics is applicable to the scene: Poisson's ratio of all materials is the one of
- * that model, or the space is a line. */
+/* Returns true if bond-based peridynamics is applicable to the scene: Poisson's ratios of all materials are the one of
+ * this model, or the scene is 1D. */
 static bool bonds_fit(const struct scene *s)
 {
     bool fit = true;
@@ -29,11 +29,11 @@ static void candidate_add(struct pilot_search *p, const char *name, const char *
     p->at[p->n++] = (struct pilot_candidate){.name = name, .method = method, .model = points ? NULL : model};
 }
 
-/* Returns true if bonds of the scene may break or its cracks grow. */
+/* Returns true if bonds of the scene may break or its cracks may grow. */
 static bool may_crack(const struct scene *s) { return scene_bonds_break(s) || s->growths > 0; }
 
-/* Lists the methods that are applicable to the scene: material points if no bond is needed, bonds or state-based
- * families, and adaptive runs if bonds can break. */
+/* Lists in p->at the methods that are applicable to the scene: material points unless bonds are needed, peridynamics
+ * with bonds or state-based families, and adaptive runs if bonds can break or the scene has a peridynamic region. */
 static void candidates_find(struct pilot_search *p)
 {
     const struct scene *s = &p->wish.provisional;
@@ -47,7 +47,7 @@ static void candidates_find(struct pilot_search *p)
         candidate_add(p, bond ? "adaptive bonds" : "adaptive states", "adaptive", bond ? "bond" : "mospd");
 }
 
-/* Returns true if a boundary drives, loads or turns particles: a support alone does not. */
+/* Returns true if boundary b drives, loads or turns particles. A support that only holds them does not act. */
 static bool boundary_acts(const struct boundary *b, int dim)
 {
     bool acts = b->rotates || b->time_unit;
@@ -56,7 +56,7 @@ static bool boundary_acts(const struct boundary *b, int dim)
 }
 
 /* Returns true if something moves or loads the bodies of a scene: loads, driven supports, gravity, initial states,
- * rigid bodies with a velocity or force. */
+ * growing cracks, or bodies with a velocity or force. */
 static bool scene_acts(const struct scene *s)
 {
     bool acts = s->initials > 0 || s->growths > 0;
@@ -69,7 +69,8 @@ static bool scene_acts(const struct scene *s)
 
 /* ---- the plan ---------------------------------------------------------------------------------------------------- */
 
-/* Lists the methods that are applicable to the scene. REFUSED if there is none, or if pilot runs are not possible. */
+/* Lists the methods that are applicable to the scene in p->at. REFUSED if there is none, or if pilot runs are not
+ * possible: particles from a list, no length to choose a spacing from, nothing that moves or loads the bodies. */
 status pilot_plan(struct pilot_search *p)
 {
     const struct scene *s = &p->wish.provisional;

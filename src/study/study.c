@@ -15,13 +15,15 @@
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Writes the path of the default folder of a study, results/NAME_KIND. to: capacity `capacity` [byte]. */
+/* Writes the path of the default folder of a study, results/NAME_KIND with the name of the scene and KIND = kind, into
+ * to[capacity]. */
 void study_folder_default(char *to, size_t capacity, const struct scene *scene, const char *kind)
 {
     snprintf(to, capacity, "results/%s_%s", scene->name, kind);
 }
 
-/* Determines the folder results/NAME_KIND from the file of a scene. to: capacity `capacity` [byte]. */
+/* Reads the scene file `path` and writes the default folder of a study of it, results/NAME_KIND, into to[capacity].
+ * Returns REFUSED or FAILED if the scene cannot be read. */
 static status place_read(char *to, size_t capacity, const char *path, const char *kind)
 {
     struct scene scene;
@@ -47,8 +49,8 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
 
 /* ---- scene of the study ------------------------------------------------------------------------------------------ */
 
-/* Composes the text of a study whose scene cannot be read without the varied keys: the file, and the overrides as
- * comments. The caller releases *text with memory_free. */
+/* Composes the text that identifies a study whose scene cannot be read without the varied keys: the scene file `path`,
+ * and the overrides as comments. The caller releases *text with memory_free. FAILED if the file cannot be read. */
 static status scene_unread(char **text, const char *path, const struct scene_override *override, int overrides)
 {
     size_t length, room;
@@ -95,12 +97,12 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
     return done;
 }
 
-/* First line of STUDY_SCENE. */
+/* First line of the file STUDY_SCENE, by which Cleave recognises it. */
 static const char study_mark[] = "# study by cleave: the scene without what varies\n";
 
-/* Reads the scene of a study without its first line. Studies of an earlier format have a scene without that line, which
- * begins as every scene that Cleave writes. Returns NULL if there is no such file or it begins otherwise. The caller
- * releases the text with memory_free. */
+/* Returns the text of the scene in the file `path` of a study, without its first line. Studies of an earlier format
+ * have no such line; their scene begins as every scene that Cleave writes. Returns NULL if there is no such file or it
+ * begins otherwise. The caller releases the text with memory_free. */
 static char *study_scene_read(const char *path)
 {
     char *text;
@@ -143,8 +145,8 @@ status study_write_scene(const char *folder, const char *text)
     return put;
 }
 
-/* Returns true if a subfolder of a study holds a run or another study. Runs may have been started individually, with
- * the commands of `--list`. */
+/* Returns true if the subfolder `name` of the folder of a study holds a run or another study. Runs may have been
+ * started individually, with the commands of `--list`. */
 static bool is_run_or_study(const char *folder, const char *name)
 {
     const struct path inner = path_join(folder, name);
@@ -213,7 +215,7 @@ struct path study_case_folder(const struct study *s, const struct study_case *c)
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */
 
-/* Returns a copy of an override; key and value share one allocation, which is released through the key. */
+/* Returns a copy of the override o. Key and value share one allocation, which is released through the key. */
 static struct scene_override override_copy(struct scene_override o)
 {
     const size_t key = strlen(o.key) + 1, value = strlen(o.value) + 1;
@@ -260,8 +262,8 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 
 /* ---- finished runs ----------------------------------------------------------------------------------------------- */
 
-/* Reads how the run in a folder ended, such as "done" or "failed", from its summary into ended[capacity]. Stores "" if
- * there is no finished run or it has another scene. */
+/* Reads from the summary of the run in `folder` how it ended, such as "done" or "failed", into ended[capacity]. Stores
+ * "" if there is no finished run, or if the run has another scene than scene_text. */
 static void ended_as(char *ended, size_t capacity, const char *folder, const char *scene_text)
 {
     if (!path_is_file(path_join(folder, "summary.json").text) ||
@@ -270,13 +272,15 @@ static void ended_as(char *ended, size_t capacity, const char *folder, const cha
         ended[0] = '\0';
 }
 
-/* Hash table of the scenes of runs: index of the run + 1; 0: empty slot. */
+/* Hash table of the scenes of runs with `room` slots. number[room]: index of the run + 1, 0 for an empty slot;
+ * hash[room]: hash of its scene. */
 struct scenes_seen {
     int *number, room;
     uint64_t *hash;
 };
 
-/* Determines whether the run `other` has the scene `text`, by comparing the texts: equal hashes are not sufficient. */
+/* Sets *same to true if the run `other` has the scene `text`, by comparing the texts, since equal hashes do not
+ * suffice. REFUSED or FAILED if the scene of the run cannot be read. */
 static status case_same(bool *same, const struct study *s, const struct study_case *other, const char *text)
 {
     struct scene scene;
@@ -286,8 +290,8 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
     return OK;
 }
 
-/* Looks up the scene of run `number` in a hash table of scenes. If an earlier run has the same scene, marks this run
- * as equal to it; otherwise enters it into the table. text: the scene as run. */
+/* Looks up the scene of run `number` in the hash table of scenes. If an earlier run has the same scene, sets the state
+ * of this run to CASE_SAME; otherwise enters the scene into the table. text: the scene of the run. */
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];
@@ -307,9 +311,9 @@ static status scene_seen(struct scenes_seen *seen, struct study *s, int number, 
     return OK;
 }
 
-/* Reads the scene of run `number`, which must be valid, and sets the state of the run if it is equal to an earlier
- * one or if its folder has the result already. collect: runs that have failed before are marked as failed; otherwise
- * they are run again. */
+/* Reads the scene of run `number`, and sets the state of the run if it is equal to an earlier run or if its folder has
+ * its results already. collect: runs that have failed before are marked as failed; otherwise they are run again.
+ * Returns REFUSED if the scene is invalid. */
 static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
 {
     struct study_case *c = &s->at[number];

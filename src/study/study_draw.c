@@ -46,7 +46,7 @@ struct study_picture {
 
 /* ---- selection --------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a figure differs between the runs of a study. */
+/* Returns true if figure f (a number in summary.json) of the table differs between the runs of a study. */
 static bool figure_varies(const struct study_table *t, int f)
 {
     double least = INFINITY, most = -INFINITY;
@@ -67,7 +67,8 @@ static void panel_add(struct study_picture *p, int f)
     p->figure[p->panels++] = f;
 }
 
-/* Chooses the figures of the panels in order of interest: crack, probes, energies, duration. */
+/* Chooses the figures of the panels: figures of cracks, then probes, energies and the duration, each only if it
+ * varies. */
 static void panels_choose(struct study_picture *p)
 {
     static const char *const first[] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
@@ -82,7 +83,7 @@ static void panels_choose(struct study_picture *p)
     panel_add(p, study_find_result(t, "loop_seconds"));
 }
 
-/* Chooses the figures that were asked for. REFUSED if there is no such figure. */
+/* Chooses the figures with the names of[asked] for the panels. REFUSED if a name is not in the table. */
 static status panels_of(struct study_picture *p, const char *const *of, int asked)
 {
     const struct study_table *t = p->table;
@@ -97,15 +98,15 @@ static status panels_of(struct study_picture *p, const char *const *of, int aske
     return OK;
 }
 
-/* Returns true for keys without physical meaning, such as a random seed; runs that differ in them are combined to one
- * point with a bar. */
+/* Returns true for a key without physical meaning, such as a random seed. Runs that differ only in such keys are
+ * combined to one point with a bar. */
 static bool key_is_chance(const char *key)
 {
     return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-/* Fills value_at[keys][runs] with the index of the value that each key has in each run; -1 if the run has another
- * value. The caller frees each value_at[k]. */
+/* Fills value_at[keys][runs] with the index of the value that each key has in each run; -1 for another value. The
+ * caller frees each value_at[k]. */
 static void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys)
 {
     for (int k = 0; k < keys; k++) {
@@ -123,8 +124,8 @@ static void values_find(int **value_at, const struct study *s, const struct vari
     }
 }
 
-/* Assigns a role to each key. Keys with several values distinguish lines, in their order, while there are at most
- * lines_most lines; for the others only their first value is shown. Sets the number of lines. */
+/* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, in their order,
+ * while there are at most lines_most lines. Of further keys only the first value is shown. */
 static void roles_choose(struct study_picture *p, int lines_most)
 {
     p->lines = 1;
@@ -143,8 +144,8 @@ static void roles_choose(struct study_picture *p, int lines_most)
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the line to which a run belongs, from its values of the ROLE_LINES keys; -1 if the run is not
- * in the picture. */
+/* Returns the index of the line to which a run belongs, by its values of the ROLE_LINES keys; -1 if the run is not in
+ * the picture. */
 static int line_of(const struct study_picture *p, int run)
 {
     int line = 0;
@@ -156,8 +157,8 @@ static int line_of(const struct study_picture *p, int run)
     return line;
 }
 
-/* Computes the points of a figure, allocated [lines][values along the axis]; the caller releases them with
- * memory_free. */
+/* Returns the points of a figure, an allocated array [lines][values of the key along the axis]. The caller releases it
+ * with memory_free. figure: its index in the table. */
 static struct point_of *means_find(const struct study_picture *p, int figure)
 {
     const double *value = p->table->value[figure];
@@ -185,7 +186,7 @@ static struct point_of *means_find(const struct study_picture *p, int figure)
 
 /* ---- text around the panels -------------------------------------------------------------------------------------- */
 
-/* Composes the title of a line from the values of its keys: `60GPa, 1mm`. text: capacity `capacity` [byte]. */
+/* Writes the title of a line, composed of the values of its keys, as `60GPa, 1mm`, into text[capacity]. */
 static void line_title(char *text, size_t capacity, const struct study_picture *p, int line)
 {
     size_t used = 0;
@@ -201,8 +202,8 @@ static void line_title(char *text, size_t capacity, const struct study_picture *
     }
 }
 
-/* Lists the keys with a role: `material.young, load`. text: capacity `capacity` [byte]. with_value: append the held
- * value. */
+/* Writes the names of the keys with the given role, as `material.young, load`, into text[capacity]. with_value: adds
+ * the first value of each key. */
 static void keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value)
 {
     size_t used = 0;
@@ -224,8 +225,8 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* Composes the notes below the panels: which values are held, and what points and bars mean. map: for maps instead of
- * lines. */
+/* Composes the notes below the panels: which keys are held at one value, and what points and bars mean. map: notes for
+ * maps instead of lines. */
 static void notes_find(struct study_picture *p, bool map)
 {
     char keys[NOTE_ROOM - 64];
@@ -238,7 +239,8 @@ static void notes_find(struct study_picture *p, bool map)
                  map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
 }
 
-/* Sends the positions of values along the axis as tics if they are words; only some of them if there are many. */
+/* Sends the labels of a key's values as tics of the axis "x" or "y", at the positions 0, 1, ..; not all of them if
+ * there are many. rotated: labels are slanted. */
 static void send_tics(FILE *to, const char *axis, const struct varied_key *key, bool rotated)
 {
     const int each = (key->values + TICS_MOST - 1) / TICS_MOST;
@@ -255,7 +257,7 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
 
 static int tics_shown(const struct varied_key *key) { return key->values < TICS_MOST ? key->values : TICS_MOST; }
 
-/* Returns true if the values of a key, written along an axis, would overlap. */
+/* Returns true if the labels of a key's values, written along the horizontal axis of a panel, would overlap. */
 static bool words_touch(const struct varied_key *key)
 {
     return tics_shown(key) * (study_longest_label(key) + 2) * CHARACTER > WIDE;
@@ -263,12 +265,12 @@ static bool words_touch(const struct varied_key *key)
 
 /* ---- layout ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of columns of panels. */
+/* Returns the number of columns in which the panels are arranged. */
 static int panel_columns(const struct study_picture *p) { return p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST; }
 static int panel_rows(const struct study_picture *p) { return (p->panels + COLUMNS_MOST - 1) / COLUMNS_MOST; }
 
-/* Computes the margins of the panels, the width of the legend and the height of the picture from the lengths of the
- * texts. up: key along the vertical axis of a map; NULL: lines. */
+/* Computes the margins of the panels, the width of the legend and the height of the picture from the lengths of their
+ * texts. up: key along the vertical axis of a map; NULL for lines. */
 static void room_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
@@ -314,7 +316,7 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
     return OK;
 }
 
-/* Returns the unit in which the figure of a panel is drawn. */
+/* Returns the unit in which the figure of panel number `panel` is drawn. */
 static struct unit panel_unit(const struct study_picture *p, int panel)
 {
     const double *value = p->table->value[p->figure[panel]];
@@ -326,7 +328,7 @@ static struct unit panel_unit(const struct study_picture *p, int panel)
     return unit_of_figure(unit, largest);
 }
 
-/* Sets margins, title and axis labels of a panel. up: label of the vertical axis, NULL for numbers. */
+/* Sends margins, title and axis labels of panel number `panel`. up: label of the vertical axis, NULL for numbers. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
     const int column = panel % COLUMNS_MOST, row = panel / COLUMNS_MOST;
@@ -351,7 +353,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 
 /* ---- lines with bars --------------------------------------------------------------------------------------------- */
 
-/* Sends the points of each line of a panel as a data block: position along the axis, mean and scatter. */
+/* Sends the points of each line of panel number `panel` as a data block: position along the axis, mean and scatter. */
 static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across];
@@ -435,7 +437,7 @@ static status draw_lines(struct study_picture *p)
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Draws every figure as a map over the two keys p->across and `up`. */
+/* Draws every figure as a map over the two keys p->across and `up`, the index of the key along the vertical axis. */
 static status draw_study_map(struct study_picture *p, int up)
 {
     const struct varied_key *across = &p->key[p->across], *key_up = &p->key[up];
@@ -467,8 +469,8 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Finds the two keys of a map: the varied keys without chance, or all varied keys. Returns false if they are not
- * exactly two. */
+/* Finds the two keys of a map: the varied keys with a physical meaning or, if they are not two, all varied keys.
+ * Returns false if these are not two either. */
 static bool map_keys(const struct study_picture *p, int *up, int *across)
 {
     for (int all = 0; all < 2; all++) {

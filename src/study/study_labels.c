@@ -7,8 +7,8 @@
 
 enum { VALUE_SHOWN = LABEL_ROOM - 8, CUT_SHOWN = 20, LEFT_OUT_LEAST = 4 };
 
-/* Computes the number of characters that all values of a key have in common at their beginning and at their end. Both
- * are cut at separators, so that no number is divided, and are 0 if they are too short to be worth omitting. */
+/* Computes the numbers of characters that all values of a key have in common at their beginning and at their end, which
+ * labels may omit. Both are cut at separators, so that no number is divided, and are 0 if less than LEFT_OUT_LEAST. */
 static void values_common(const struct varied_key *key, size_t *begin, size_t *end)
 {
     const char *first = key->value[0];
@@ -28,8 +28,8 @@ static void values_common(const struct varied_key *key, size_t *begin, size_t *e
     if (*end < LEFT_OUT_LEAST) *end = 0;
 }
 
-/* Reduces the numbers of omitted characters *begin and *end as far as labels of the values still fit into
- * VALUE_SHOWN. longest: length of the longest value. */
+/* Reduces the numbers of characters that labels omit, *begin and *end, as far as the labels still fit into VALUE_SHOWN
+ * characters. longest: length of the longest value. */
 static void common_keep(size_t *begin, size_t *end, size_t longest)
 {
     const size_t wanted = longest - *begin - *end + 4;

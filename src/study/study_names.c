@@ -11,7 +11,8 @@
 
 /* ---- hashes ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the hash of a sequence of texts from the hash of the preceding ones and the last text. */
+/* Returns the hash of a sequence of texts that ends with `text`. hash: hash of the texts before it (FNV-1a, Fowler,
+ * Noll and Vo, with a final mixing step). */
 uint64_t study_hash(uint64_t hash, const char *text)
 {
     for (; *text; text++) hash = (hash ^ (unsigned char)*text) * 0x100000001b3u; /* Fowler, Noll and Vo (FNV-1a) */
@@ -19,7 +20,7 @@ uint64_t study_hash(uint64_t hash, const char *text)
     return hash ^ hash >> 29;
 }
 
-/* Returns a hash of the overrides that is independent of their order. */
+/* Returns a hash of the overrides o[n] that does not depend on their order. */
 static uint64_t overrides_hash(const struct scene_override *o, int n)
 {
     uint64_t sum = 0;
@@ -27,7 +28,7 @@ static uint64_t overrides_hash(const struct scene_override *o, int n)
     return sum;
 }
 
-/* Returns the slot of the hash table that contains a name, or else the empty slot where it has to be entered. */
+/* Returns the slot of the hash table of names that contains `name`, or the empty slot where it has to be entered. */
 static int name_slot(const struct study *s, const char *name)
 {
     int at = (int)(study_hash(STUDY_HASH_START, name) % (uint64_t)s->slots);
@@ -50,7 +51,8 @@ void study_grow_name_table(struct study *s)
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* Appends a text without blanks and brackets and without characters that file systems or shells treat specially. */
+/* Appends a text to name[CASE_NAME_ROOM]. Leaves out blanks, brackets and quotes, and replaces characters that file
+ * systems or shells treat specially by _. */
 static void name_append(char *name, const char *text)
 {
     size_t n = strlen(name);
@@ -74,14 +76,14 @@ void study_name_choose(const struct study *s, char *name, const char *wanted, co
 
 /* ---- names of combinations --------------------------------------------------------------------------------------- */
 
-/* Returns the last part of a key, behind its last point. */
+/* Returns the last part of a key, after its last point. */
 static const char *key_last(const char *key)
 {
     const char *dot = strrchr(key, '.');
     return dot ? dot + 1 : key;
 }
 
-/* Returns the last part of key k, or the whole key if another key with several values has the same last part. */
+/* Returns the last part of key[k], or the whole key if another varied key of key[keys] has the same last part. */
 static const char *key_label(const struct varied_key *key, int keys, int k)
 {
     const char *own = key_last(key[k].key);

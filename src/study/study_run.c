@@ -33,8 +33,9 @@ struct runner {
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Returns the words of the `cleave run` command of a case, ended by NULL. *pairs receives the texts key=value to
- * which the words point. The caller frees both. mode and threads may be NULL. */
+/* Returns the words of the `cleave run` command for run c of a study, an array ended by NULL. Stores in *pairs the
+ * texts key=value to which the words refer. The caller releases both with memory_free. threads: number as text, or
+ * NULL; mode: --resume, --overwrite or NULL. */
 static char **command_words(const char *scene, const struct study_case *c, char *threads, char *folder, char *mode,
                             char **pairs)
 {
@@ -54,8 +55,8 @@ static char **command_words(const char *scene, const struct study_case *c, char 
     return word;
 }
 
-/* Prints a character within quotes. harmful: a terminal would interpret it and the output stream would replace it; then
- * its number is printed, which the shell passes to printf. */
+/* Prints a character of a word in single quotes. harmful: a terminal would interpret the character and the output
+ * stream would replace it; its number is printed instead, which the shell passes to printf. */
 static void print_quoted(FILE *out, char c, bool harmful)
 {
     if (harmful)
@@ -66,7 +67,7 @@ static void print_quoted(FILE *out, char c, bool harmful)
         putc(c, out);
 }
 
-/* Prints a word as a shell reads it: in quotes if it contains characters that a shell interprets. */
+/* Prints a word for a shell, in quotes if it contains characters that a shell interprets. */
 static void print_word(FILE *out, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
@@ -85,7 +86,7 @@ static void print_word(FILE *out, const char *word)
     memory_free(shown);
 }
 
-/* Returns an absolute path. Links are kept: a scene is named after the link through which it is reached. */
+/* Returns an absolute path. Links in it are kept, as a scene is named after the link through which it is reached. */
 static struct path path_whole(const char *path)
 {
     char here[PATH_ROOM];
@@ -118,7 +119,7 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
 
 /* ---- processes --------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of the log of a run, in the folder `logs` of the study. */
+/* Returns the path of the log of run c, logs/NAME.txt in the folder of the study. */
 static struct path log_path(const struct study *s, const struct study_case *c)
 {
     char name[CASE_NAME_ROOM + 8];
@@ -126,11 +127,11 @@ static struct path log_path(const struct study *s, const struct study_case *c)
     return path_join(path_join(s->folder, "logs").text, name);
 }
 
-/* First line of a log. */
+/* First line of the log of a run, by which Cleave recognises it. */
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
-/* Checks where a run of a study would write. REFUSED if its folder is outside the folder of the study, or if its log
- * would replace a file that Cleave did not write. */
+/* Checks that run c of a study may be written. REFUSED if its folder is a link, which may lead out of the folder of the
+ * study, or if its log would replace a file that Cleave did not write. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
@@ -142,8 +143,9 @@ static status case_guard(const struct study *s, const struct study_case *c)
     return file_check_beginning(log.text, begin, COUNT_OF(begin));
 }
 
-/* Runs in the child process: executes the run in its own process group, so that an interrupt from the terminal reaches
- * only the study, which passes it on once. The child is killed if the study is killed. */
+/* Runs in the child process: executes the command word[] with its output in the descriptor `log`. The process has its
+ * own process group, so that an interrupt from the terminal reaches only the study, which passes it on once. It is
+ * ended if the study is killed. Does not return. */
 static _Noreturn void become_run(char **word, int log)
 {
     setpgid(0, 0);
@@ -160,8 +162,8 @@ static _Noreturn void become_run(char **word, int log)
     _exit(FAILED);
 }
 
-/* Starts the process of a run in a slot, with its output in a log. A run with results in its folder is resumed, or
- * replaced with --overwrite. */
+/* Starts the process of run c on the cores of the given slot, with its output in a log. A run with results in its
+ * folder is resumed, or replaced with --overwrite. REFUSED or FAILED if it cannot be started. */
 static status case_start(struct runner *r, struct study_case *c, int slot)
 {
     char threads[16], *pairs;
@@ -195,7 +197,7 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     return OK;
 }
 
-/* Reads the last line that a run has printed. line: capacity `capacity` [byte]. */
+/* Reads the last line of the log `path` of a run into line[capacity]. Stores "it gave no reason" if there is none. */
 static void last_line(const char *path, char *line, size_t capacity)
 {
     char *text;
@@ -209,8 +211,8 @@ static void last_line(const char *path, char *line, size_t capacity)
     memory_free(text);
 }
 
-/* Records the exit of a run: its state and duration. Prints a line about it, on failure with the last line of its
- * log, and removes a log without content. ended: status from waitpid. */
+/* Records the end of a run: its state and duration. Prints a line about it, which after a failure contains the last
+ * line of its log, and removes an empty log. ended: status of the process from waitpid. */
 static void case_end(struct runner *r, struct study_case *c, int ended)
 {
     const struct path log = log_path(r->study, c);
@@ -234,7 +236,7 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     if (stat(log.text, &info) == 0 && info.st_size < (off_t)sizeof log_mark) unlink(log.text);
 }
 
-/* Records the results of the runs that have ended. */
+/* Records the ends of those running processes of a study that have ended. */
 static void cases_take(struct runner *r)
 {
     for (int k = 0; k < r->study->n; k++) {
@@ -244,7 +246,7 @@ static void cases_take(struct runner *r)
     }
 }
 
-/* Returns a slot without a running process. */
+/* Returns the smallest slot (share of the cores) that no running process of the study uses. */
 static int slot_free(const struct runner *r)
 {
     for (int slot = 0;; slot++) {
@@ -255,7 +257,7 @@ static int slot_free(const struct runner *r)
     }
 }
 
-/* Sends the stop signal to all running processes once; a second signal would end them without a checkpoint. */
+/* Sends SIGTERM to all running processes of a study once. A second signal would end them without a checkpoint. */
 static void cases_stop(struct runner *r)
 {
     for (int k = 0; k < r->study->n && !r->stopped; k++)
@@ -264,7 +266,8 @@ static void cases_stop(struct runner *r)
     r->stopped = true;
 }
 
-/* Kills processes that have not stopped after the budget, for example during a long set-up. */
+/* Kills the processes of a study that have not ended PATIENCE seconds after cases_stop, for example during a long
+ * set-up. */
 static void cases_kill(struct runner *r)
 {
     if (!r->stopped || wall_clock() < r->since + PATIENCE) return;
@@ -272,8 +275,9 @@ static void cases_kill(struct runner *r)
         if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGKILL);
 }
 
-/* Runs all waiting cases, as many at a time as requested. After a fault, a stop signal or the end of the budget
- * starts no more and stops the running ones. */
+/* Runs all waiting runs of a study, as many at a time as requested. After an error, a stop signal or the end of the
+ * budget it starts no more runs and stops the running ones. FAILED or REFUSED if a process cannot be started,
+ * INTERRUPTED after a stop signal. */
 static status cases_run(struct runner *r)
 {
     const struct timespec pause = {.tv_nsec = 5 * 1000 * 1000};
@@ -300,7 +304,8 @@ static status cases_run(struct runner *r)
 
 /* ---- whole study ------------------------------------------------------------------------------------------------- */
 
-/* Fills in the options that are 0: as many parallel runs as there are cores, each with an equal share of threads. */
+/* Returns the options `how` with values for those that are 0: as many runs at a time as there are cores or waiting
+ * runs, each with an equal share of threads. */
 static struct study_options options_filled(struct study_options how, const struct study *s)
 {
     const int cores = machine_cores();
@@ -314,7 +319,7 @@ static struct study_options options_filled(struct study_options how, const struc
 }
 
 /* Claims the folder of a study and writes the scene of the study into it. REFUSED if the folder holds other files or,
- * without `overwrite`, the study of another scene. */
+ * without `overwrite`, the study of another scene. FAILED if it cannot be written. */
 static status scene_put(const struct study *s, bool overwrite)
 {
     TRY(study_folder_claim(s->folder));

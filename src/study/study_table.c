@@ -13,8 +13,8 @@
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Position in the table while it is filled. row: current run. next: index of the figure that is expected next,
- * because runs have their figures in the same order. */
+/* Position in the table of a study while it is filled. row: index of the current run; next: index of the figure that is
+ * expected next, because most runs have their figures in the same order. */
 struct filled {
     struct study_table *table;
     int row, next;
@@ -33,7 +33,8 @@ static int figure_add(struct study_table *t, const char *name)
     return t->figures++;
 }
 
-/* Stores one number of a summary in the current row of the table; a new figure gets a new column. */
+/* Stores one number of a summary in the row of the current run. A figure that is new gets a new column. context: struct
+ * filled; key: name of the figure. Called for each number of a summary. */
 static void number_take(void *context, const char *key, double value)
 {
     struct filled *f = context;
@@ -97,7 +98,7 @@ bool study_result_is_technical(const char *name)
 
 /* ---- sweep.csv --------------------------------------------------------------------------------------------------- */
 
-/* Prints a cell of a table, in quotes if it contains a separator. */
+/* Prints a text as a cell of a CSV table, in quotes if it contains a comma, a quote or a line break. */
 static void cell_print(FILE *to, const char *text)
 {
     if (!strpbrk(text, ",\"\n")) {
@@ -155,7 +156,8 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 
 /* ---- guard ------------------------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED if the table or a picture of the study would replace a file that Cleave did not write. */
+/* Returns REFUSED if the table sweep.csv or a picture of the study would replace a file that Cleave did not write.
+ * key[keys]: keys of the study. Returns OK for folders that are no study, which study_lock_folder reports. */
 status study_check_output_files(const struct study *s, const struct varied_key *key, int keys)
 {
     static const char *const begin[] = {"run,state"};

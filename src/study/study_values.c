@@ -25,7 +25,7 @@ double value_read_number(const char *value, const char **unit)
 
 /* ---- pieces of a list -------------------------------------------------------------------------------------------- */
 
-/* Returns the first `mark` outside brackets and quotes, or the end of the text. */
+/* Returns the first character `mark` in the text `at` outside brackets and quotes, or the end of the text. */
 static const char *value_end(const char *at, char mark)
 {
     int depth = 0;
@@ -45,7 +45,7 @@ static const char *value_end(const char *at, char mark)
     return at;
 }
 
-/* Returns an allocated copy of [from, to) without blanks at its ends. */
+/* Returns a copy of the characters from..to-1 without blanks at both ends. Release it with memory_free. */
 static char *trimmed(const char *from, const char *to)
 {
     while (from < to && isspace((unsigned char)*from)) from++;
@@ -81,8 +81,9 @@ struct row {
     char unit[32];
 };
 
-/* Reads a range from:to:step, such as 10:30:5 mm. Returns false if the text is not of this form. Sets *s to REFUSED
- * if it is, but the units differ or the step does not lead from the first number to the last. */
+/* Reads a range from:to:step, such as 10:30:5 mm, into *r. Returns false if the text has another form. Sets *s to
+ * REFUSED if the text is a range but its units differ, or its step does not lead from the first number to the last. k:
+ * key, for messages. */
 static bool row_read(struct row *r, const struct varied_key *k, const char *text, status *s)
 {
     *r = (struct row){.unit = ""};
@@ -124,7 +125,8 @@ static status values_add_row(struct varied_key *k, const struct row *r)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Reads a list of values and ranges, separated by commas, into k. */
+/* Reads a list of values and ranges, separated by commas, and appends them to k->value. REFUSED if a value is missing
+ * or given twice, or a range is faulty. */
 static status values_read(struct varied_key *k, const char *text)
 {
     for (const char *at = text;;) {
@@ -143,7 +145,7 @@ static status values_read(struct varied_key *k, const char *text)
     }
 }
 
-/* Rewrites `a[1].b` as `a.1.b`, the same key. */
+/* Rewrites a key in place such that list indices follow a point: `a[1].b` becomes `a.1.b`. */
 static void key_unify(char *key)
 {
     char *to = key;

@@ -10,13 +10,14 @@
 
 enum { WARNING_ROOM = 1024, KINDS_MOST = 64, SHOWN_LONGEST = 240 };
 
-/* A warning, irrespective of the numbers in it, because runs with different spacings print different numbers. */
+/* A kind of warning: texts that differ only in their numbers, because runs with different spacings print different
+ * numbers. */
 struct warning_kind {
     char text[WARNING_ROOM];
     int runs, last; /* number of runs that have it; index of the last one */
 };
 
-/* Returns true if two texts differ only in numbers. */
+/* Returns true if two texts differ only in their numbers. */
 static bool is_alike(const char *a, const char *b)
 {
     static const char number[] = "0123456789.+-e";
@@ -29,8 +30,8 @@ static bool is_alike(const char *a, const char *b)
     return *a == *b;
 }
 
-/* Counts a warning of a run in the list of kinds; warnings that differ only in numbers are one kind and count once
- * per run. */
+/* Counts a warning of run number `run` in the list kind[*kinds]. Warnings that differ only in numbers are one kind,
+ * which counts once per run. Ignores new kinds after KINDS_MOST. */
 static void warning_book(struct warning_kind *kind, int *kinds, const char *text, int run)
 {
     int k = 0;

@@ -15,7 +15,7 @@
 /* Largest relative difference between the spacings of a level's runs and that of the scene [1]. */
 #define SAME_LEVEL 0.05
 
-/* Returns the folder NAME_converge beside the folder of a run. */
+/* Returns the path of the folder NAME_converge, NAME being `name`, beside the folder of a run. */
 static struct path study_beside(const char *folder, const char *name)
 {
     char place[PATH_NAME_ROOM];
@@ -35,7 +35,8 @@ struct path pilot_folder(const char *folder)
     return to;
 }
 
-/* Cuts the next cell off a line. Returns NULL at its end. */
+/* Returns the next cell of a line of a table, and advances *line behind it. Returns NULL at the end of the line.
+ * Changes the line. */
 static char *cell_next(char **line)
 {
     char *cell = *line;
@@ -51,7 +52,7 @@ struct bar_columns {
     int spacing[16], half_width[16], levels;
 };
 
-/* Finds the columns of spacing and uncertainty of each level in the header of converge.csv. Changes header. */
+/* Finds the columns of spacing and uncertainty of each level in the header line of converge.csv. Changes `header`. */
 static void columns_find(struct bar_columns *c, char *header)
 {
     int column = 0, level;
@@ -65,8 +66,8 @@ static void columns_find(struct bar_columns *c, char *header)
     }
 }
 
-/* Reads a line of converge.csv: the name of the figure, and the half-width of its error bar at the level whose
- * spacing is nearest to `spacing` [m]. Returns false if no level is near enough. */
+/* Reads a line of converge.csv: the name of a figure, and the half-width of its error bar at the level whose spacing is
+ * nearest to `spacing` [m]. Returns false if no spacing is within SAME_LEVEL of it. Changes `line`. */
 static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *line, double spacing)
 {
     enum { CELLS_MOST = 256 };
