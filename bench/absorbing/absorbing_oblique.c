@@ -12,17 +12,17 @@
 #include "step/report.h"
 #include "mesh/mesh_part.h"
 
-/* Parameters of the strip: distance of the mirrors `across` and position of the face `along` [spacings]; centre `from`
- * and radius of the wave packet, position `station` of the observation [m]; wavenumber k along y, frequency [1/s], end
- * time `until` [s]. */
+/* A strip with an oblique wave packet. shear: S wave, else P wave; across: distance of the mirrors, along: position of
+ * the absorbing face [spacings]; k: wavenumber along y, wave: along x [1/m]; from: centre, radius: of the packet,
+ * station: position of the observation along x [m]; frequency [1/s]; until: end time [s]. */
 struct oblique {
     bool shear;
     int across, along;
     double k, wave, from, radius, station, frequency, until;
 };
 
-/* Computes the initial velocity v at X of a wave packet g(x): for a P wave the gradient of g(x) cos(k y), for an S
- * wave the curl of g(x) sin(k y). */
+/* Computes the initial velocity v[2] at X[2] [m] of the wave packet g(x): for a P wave the gradient of g(x) cos(k y),
+ * for an S wave the curl of g(x) sin(k y). context: struct oblique. */
 static void packet(const void *context, const real *X, real *v)
 {
     const struct oblique *o = context;
@@ -34,8 +34,8 @@ static void packet(const void *context, const real *X, real *v)
     v[1] = scale * (o->shear ? -slope : -o->k * g) * sin(o->k * X[1]);
 }
 
-/* Returns the strip and the wave packet for an angle of incidence and an approximate wavelength [spacings]. The
- * distance of the mirrors is rounded to whole spacings, and the wavelength follows from it. */
+/* Returns the strip and the wave packet for an angle of incidence [rad] and an approximate wavelength [spacings].
+ * shear: S wave. The distance of the mirrors is rounded to whole spacings, and the exact wavelength follows from it. */
 static struct oblique oblique_of(bool shear, double angle, double wavelength)
 {
     const double h = ABSORBING_SPACING, speed = shear ? ABSORBING_SPEED / sqrt(3) : ABSORBING_SPEED;
@@ -53,8 +53,9 @@ static struct oblique oblique_of(bool shear, double angle, double wavelength)
     return o;
 }
 
-/* Runs a strip that is `along` spacings long and computes the Fourier amplitudes of the displacement at the station,
- * at the frequency of the wave: sum[0] of the component across the face, sum[1] of the one along it [m]. */
+/* Runs a strip that is `along` spacings long. Computes the Fourier amplitudes of the displacement at the station, at
+ * the frequency of the wave: sum[0] of the component across the face, sum[1] of the component along it [m]. FAILED if a
+ * step fails. */
 static status oblique_run(const struct oblique *o, const struct absorbing_method *m, int along, double complex *sum)
 {
     struct run e;

@@ -10,8 +10,9 @@ struct plane_wave {
     double complex s, a[2];
 };
 
-/* Computes the residuals of the two boundary conditions of dashpots at x = 0 for a plane wave, divided by i w: to[0]
- * of stress_xx + rho c_p v_x, to[1] of stress_xy + rho c_s v_y, with density 1, c_p = 1 and mu = c_s^2. */
+/* Computes the residuals of the two boundary conditions of dashpots (Lysmer & Kuhlemeyer 1969) at x = 0 for a plane
+ * wave, divided by i w: to[0] of stress_xx + rho c_p v_x, to[1] of stress_xy + rho c_s v_y. p: slowness along y; mu =
+ * c_s^2; density 1 and c_p = 1. */
 static void conditions(const struct plane_wave *w, double p, double mu, double complex *to)
 {
     to[0] = w->s * w->a[0] + (1 - 2 * mu) * p * w->a[1] - w->a[0];

@@ -36,7 +36,8 @@ static void normal_row(const struct absorbing_method *m, int dim, struct bench_t
 
 /* ---- oblique incidence ------------------------------------------------------------------------------------------- */
 
-/* Measures the reflection of one wave, prints it with the theory, and adds a row to the table. */
+/* Measures the reflection of one plane wave by an absorbing face, prints it beside the theory, and adds a row to the
+ * table. shear: S wave, else P wave; degrees: angle of incidence; wavelength [spacings]. */
 static void oblique_row(const struct absorbing_method *m, bool shear, int degrees, double wavelength,
                         struct bench_table *rows)
 {

@@ -33,12 +33,13 @@ static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accur
     if (p->at == PULSE) bench_override(&s->set, "pd.surface", "none");
 }
 
-/* Returns the root mean square over 1.6 m of amplitude * exp(-(x/r)^2), r = 0.1 m; used for velocity and stress. */
+/* Returns the root mean square of amplitude * exp(-(x/r)^2) over the bar of 1.6 m, r = 0.1 m. The pulse has this form
+ * in velocity and stress. */
 static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0.5 * M_PI) / 1.6); }
 
-/* Computes the relative errors of stress (part[0]) and velocity (part[1]), and their mean *error. The smooth pulse
- * uses root mean squares, the step mean absolute errors, because the mean square does not converge with a fixed order
- * at a front. */
+/* Computes the relative errors of stress (part[0]) and velocity (part[1]) of a bar, and their mean *error. The smooth
+ * pulse uses root mean squares. The step uses mean absolute errors, because the mean square does not converge with a
+ * fixed order at a front. */
 static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const double impedance = 100; /* rho c [Pa s/m] */
@@ -54,8 +55,8 @@ static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e
     return OK;
 }
 
-/* Returns false for `uniform` methods: on a line there is one bond per distance, so that uniform weights change
- * nothing. */
+/* Returns false for methods with uniform weights of bonds: on a line there is one bond per distance, so that uniform
+ * weights change nothing. */
 static bool accuracy_bar_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "uniform"); }
 
 const struct accuracy_problem accuracy_bar = {

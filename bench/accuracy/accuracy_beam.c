@@ -10,8 +10,8 @@
 #include "probes/probes.h"
 #include "step/step.h"
 
-/* A term of component `axis` of a mode: coefficient `of` times a product of Legendre polynomials on [-1, 1] over the
- * body. */
+/* A term of an eigenmode: it adds `of` times a product of Legendre polynomials of degree[d] along each axis d, on [-1,
+ * 1] over the body, to the component `axis` of the velocity. */
 struct term {
     int axis, degree[DIM_MAX];
     double of;
@@ -64,7 +64,7 @@ static void accuracy_beam_make_scene(const struct accuracy_point *p, struct accu
              p->problem->dim == 2 ? "" : ", 1", p->resolution);
 }
 
-/* Returns the Legendre polynomial of a degree at x. */
+/* Returns the value at x of the Legendre polynomial P_n, n = degree. */
 static double legendre(int degree, double x)
 {
     double before = 1, now = x;
@@ -76,7 +76,8 @@ static double legendre(int degree, double x)
     return now;
 }
 
-/* Computes the velocity v of the mode at position X, as a sum of products of Legendre polynomials. */
+/* Computes the velocity v[DIM_MAX] of an eigenmode at X [m], as a sum of products of Legendre polynomials. context:
+ * struct mode. */
 static void mode_at(const void *context, const real *X, real *v)
 {
     const struct mode *m = context;
@@ -89,7 +90,7 @@ static void mode_at(const void *context, const real *X, real *v)
     }
 }
 
-/* Returns the projection of the momentum on the mode. */
+/* Returns the projection of the momentum of all particles on an eigenmode m: the sum of mass times v . v_mode. */
 static double part_in_mode(const struct mode *m, const struct run *e)
 {
     const struct particles *p = observed_run_of(e).part;
@@ -103,8 +104,9 @@ static double part_in_mode(const struct mode *m, const struct run *e)
     return sum;
 }
 
-/* Runs in pieces of 1/300 of the duration until the motion in the mode is zero for the second time, which is at three
- * quarters of a period; this time is interpolated linearly. Stores the frequency in `measured`. */
+/* Runs the scene of point p in pieces of 1/300 of its duration until the motion in the eigenmode is zero for the second
+ * time, which happens at three quarters of a period. This time is interpolated linearly between pieces. Stores the
+ * angular frequency of the mode in `measured`, NAN if the zero is not reached. */
 static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
 {
     const struct mode *m = mode_of(p);

@@ -55,7 +55,7 @@ static void chart_make(struct chart *c, const struct accuracy_plan *plan, const 
     memory_free(of);
 }
 
-/* Returns the height of the picture [pixel]. */
+/* Returns the height of the picture of all charts [pixel]. */
 static int charts_height(const struct charts *p) { return p->rows * HEIGHT + HEADING + FOOT; }
 
 static void charts_free(struct charts *p)
@@ -66,7 +66,8 @@ static void charts_free(struct charts *p)
     }
 }
 
-/* Returns the class that reaches an error in the least time; -1 if none does. */
+/* Returns the class of methods that reaches an error [1] in the least time on the problem of a chart; -1 if none
+ * does. */
 static int winner_of(const struct chart *c, double error)
 {
     int best = -1;
@@ -78,7 +79,8 @@ static int winner_of(const struct chart *c, double error)
     return best;
 }
 
-/* Sends all runs of a chart, and the front of each class, as data blocks. gnuplot refuses empty blocks. */
+/* Sends the runs of chart number `number` as data blocks: all runs, then the Pareto front of each class of methods.
+ * Each block ends with a point without position, since gnuplot refuses empty blocks. */
 static void chart_send(FILE *to, const struct chart *c, int number)
 {
     int *front = NEW("bench.front", c->n + 1, int);
@@ -96,7 +98,7 @@ static void chart_send(FILE *to, const struct chart *c, int number)
     memory_free(front);
 }
 
-/* Writes the question and its answers as the title of the picture. */
+/* Writes the title of the picture: on how many problems each class of methods is the cheapest for 5 % and 1 % error. */
 static void heading_write(FILE *to, const struct charts *p)
 {
     char text[256];
@@ -138,7 +140,7 @@ static void chart_plot(FILE *to, const struct charts *p, int number)
     fputs("\nunset label 1\n", to);
 }
 
-/* Plots the legend in the first empty place, as a panel without axes. */
+/* Plots the legend in the first empty position among the charts, as a panel without axes. */
 static void legend_plot(FILE *to, const struct charts *p)
 {
     const double width = COLUMNS * WIDTH, height = charts_height(p);

@@ -15,8 +15,9 @@
 
 enum { EDGE, INCLINED };
 
-/* Exact factors over sigma (pi a)^0.5. Edge crack: a/W = 0.5, H = W, by boundary collocation: 3.0070, 3.0084, 3.0087
- * with 60, 90, 130 terms, 3.009 as in handbooks. Inclined crack: 45 degrees, as in inputs/inclined_crack.yaml. */
+/* Exact K_I and K_II over sigma (pi a)^(1/2), and the crack lengths a [m]. Edge crack: a/W = 0.5, H = W, by boundary
+ * collocation: 3.0070, 3.0084, 3.0087 with 60, 90, 130 terms, 3.009 in handbooks. Inclined crack: 45 degrees, as in
+ * inputs/inclined_crack.yaml. */
 static const double exact[2][2] = {{3.009, 0}, {0.6612, 0.5674}}, length[2] = {5e-3, 3e-3};
 static const double pull = 1e6;
 
@@ -70,8 +71,8 @@ static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct ac
         bench_override(&s->set, "pd.normalisation", "local");
 }
 
-/* Computes the errors of K_I and K_II, both relative to the magnitude of the exact pair, in part[0] and part[1];
- * *error is the magnitude of these two. */
+/* Computes the errors of K_I (part[0]) and K_II (part[1]) in the run e of point p, both relative to the magnitude of
+ * the exact pair. *error is the root of the sum of their squares. */
 static status accuracy_cracks_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     static const char *const factor[2] = {"K_I", "K_II"};

@@ -13,8 +13,8 @@
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the label of a point: method, resolution, and horizon and time step unless they are usual. text: capacity
- * `size` [byte]. */
+/* Writes the label of a point (a run of the cost-accuracy table) into text[size]: method and resolution, and horizon
+ * and time step unless they are the usual ones. */
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size)
 {
     char more[48] = "", *end = more;
@@ -29,16 +29,17 @@ static bool same_but_case(const struct accuracy_point *a, const struct accuracy_
            a->horizon == b->horizon && a->step == b->step;
 }
 
-/* Returns the dot at which a result is drawn: its time on one thread and its error, or one part of it. A part that is
- * exactly 0 becomes 1e-9, for the logarithmic axis. */
+/* Returns the dot of a result in a picture: its time on one thread, and its error or, for part >= 0, the magnitude of
+ * this part of the error. An unstable run has the error NAN. A part that is exactly 0 becomes 1e-9, for the logarithmic
+ * axis. */
 static struct accuracy_dot dot_of(const struct accuracy_result *r, int part)
 {
     const double error = part < 0 ? r->error : fmax(fabs(r->part[part]), 1e-9);
     return (struct accuracy_dot){r->seconds[0], r->stable ? error : NAN};
 }
 
-/* Computes the largest error and the longest time of a method over all cases of a problem. Returns false if a case
- * has not been run or does not apply to the method. */
+/* Computes the largest error and the longest time of the method of point p over all cases of its problem. part: as for
+ * dot_of. Returns false if a case has not been run or does not apply to the method. */
 static bool worst_dot(const struct accuracy_plan *plan, const struct accuracy_point *p, int part,
                       struct accuracy_dot *worst)
 {
@@ -107,8 +108,8 @@ static void panel_free(struct panel *q) { memory_free(q->dot), memory_free(q->fr
 
 /* ---- families ---------------------------------------------------------------------------------------------------- */
 
-/* Families of methods with their colours: dark enough for letters and distinguishable with any colour vision (Okabe &
- * Ito 2008; Tol 2021). */
+/* Families of methods with the colours of their dots. The colours are dark enough for letters and distinguishable with
+ * any colour vision (Okabe & Ito 2008; Tol 2021). */
 enum { BOND, STATE, CURRENT_FRAME, REFERENCE_FRAME, COARSE, COUPLED_HERE, ADAPTIVE_MESH, ADAPTIVE_GRID, GROUPS };
 static const struct {
     const char *name, *colour;
@@ -134,7 +135,7 @@ static int group_of(const struct accuracy_point *p)
     return family == ACCURACY_REFERENCE ? REFERENCE_FRAME : CURRENT_FRAME;
 }
 
-/* Returns true if a point of family g is on the front of a panel. */
+/* Returns true if a run of family g is on the Pareto front of a panel. */
 static bool has_group(const struct panel *q, int g)
 {
     for (int k = 0; k < q->front_n; k++)
@@ -144,8 +145,8 @@ static bool has_group(const struct panel *q, int g)
 
 /* ---- content of a panel ------------------------------------------------------------------------------------------ */
 
-/* Sends the runs that are not on the Pareto front as a data block, and unstable runs at the upper edge as another
- * one. gnuplot refuses empty blocks, so each ends with a point without position. */
+/* Sends two data blocks of a panel: the runs that are not on its Pareto front, and the unstable runs, at the upper
+ * edge. Each block ends with a point without position, since gnuplot refuses empty blocks. */
 static void put_others(FILE *to, const struct panel *q)
 {
     for (int unstable = 0; unstable < 2; unstable++) {
@@ -158,8 +159,8 @@ static void put_others(FILE *to, const struct panel *q)
     }
 }
 
-/* Sends the Pareto front of a panel: as a line, and by families as points with labels. Points get labels from the
- * most accurate one upwards, as far as these do not overlap. */
+/* Sends the Pareto front of a panel as data blocks: as a line, and by families as points with labels. Points get labels
+ * from the most accurate one upwards, as far as these do not overlap. */
 static void put_front(FILE *to, const struct panel *q)
 {
     const double line = 0.052 * log(q->most / q->least);
@@ -207,7 +208,8 @@ static void accuracy_draw_panel(FILE *to, const struct panel *q)
     putc('\n', to);
 }
 
-/* Plots the key as a panel without axes. left, above: position in units of the screen. */
+/* Plots the key of a page of panels as a panel without axes. panel[panels]: panels whose families are listed; left,
+ * above: position in units of the screen. */
 static void plot_key(FILE *to, const struct panel *panel, int panels, double left, double above)
 {
     fprintf(to,
@@ -241,7 +243,8 @@ struct page {
     char title[PANELS_MAX][128];
 };
 
-/* Returns true if the key fills an empty panel; else it is to the right of all panels. */
+/* Returns true if the last row of panels has an empty position for the key; else the key is to the right of all
+ * panels. */
 static bool key_inside(const struct page *p) { return p->panels % p->columns != 0; }
 static int page_width(const struct page *p) { return p->columns * PANEL_WIDTH + (key_inside(p) ? 0 : KEY_PIXELS); }
 static int page_height(const struct page *p) { return p->rows * PANEL_HEIGHT; }

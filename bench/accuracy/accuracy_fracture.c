@@ -12,8 +12,9 @@
 
 enum { KALTHOFF, PULLED };
 
-/* Observed crack growth: growth at which a crack counts as started, growth up to which its speed is measured; radii and
- * width of rings around the end of the pre-crack in which its path is measured [m]. */
+/* Crack growth that is observed on the two plates [m]. start: growth at which a crack counts as started; until: growth
+ * up to which its speed is measured; ring, width: radii and half-width of the rings around the end of the pre-crack in
+ * which the angle of its path is measured. */
 static const struct {
     double start, until, ring[FRACTURE_RINGS], width;
 } watched[2] = {[KALTHOFF] = {5e-3, 20e-3, {7.5e-3, 12.5e-3, 17.5e-3, 22.5e-3}, 2.5e-3},
@@ -22,8 +23,9 @@ enum { SAMPLES = 200 };
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the scene: both plates are `resolution` particles per 100 mm height or 50 mm width. Loads drive three layers
- * of particles, or a layer as thick as in the files. Edges, notches and crack ends are midway between particles. */
+/* Writes the scene of a point: Kalthoff's plate of 100 mm height with `resolution` particles, or a plate of 50 mm width
+ * under tension. Loads drive three layers of particles, or a layer as thick as in the files of inputs/ if it is
+ * thicker. Edges, notches and crack ends are midway between particles. */
 static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double h = (p->at == KALTHOFF ? 100.0 : 50.0) / p->resolution;
@@ -61,8 +63,8 @@ static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct 
 
 /* ---- observed cracks --------------------------------------------------------------------------------------------- */
 
-/* Returns the time at which the cracks have grown by `length` [m], interpolated between the samples at which their mean
- * growth increased; NAN: never. */
+/* Returns the time at which the mean growth of all pre-cracks has reached `length` [m], interpolated between samples at
+ * which it increased [s]; NAN if it never does. */
 static double time_of(const struct crack_tips *t, double length)
 {
     double time[2] = {NAN, NAN}, growth[2] = {0, 0};
@@ -81,9 +83,9 @@ static double time_of(const struct crack_tips *t, double length)
     return NAN;
 }
 
-/* Returns the angle of the crack path, positive away from the middle plane of the plate [rad], from the damaged
- * particles of both cracks at a distance radius +- width from the ends of the pre-cracks [m]; NAN if there are
- * none. */
+/* Returns the angle of the crack path, positive away from the middle plane of the plate [rad]. It is the direction to
+ * the damaged particles of both cracks at a distance radius +- width from the ends of the pre-cracks [m], weighted by
+ * their damage. Returns NAN if there are none. */
 static double angle_at(const struct run *e, double radius, double width)
 {
     const struct crack_tips *t = &e->fracture->tips;
@@ -117,11 +119,12 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the relative error of a value; -1 (100 %) if the crack did not grow so far. */
+/* Returns the relative error of a value that should be `wanted`; -1 (100 %) if the value is NAN because the crack did
+ * not grow so far. */
 static double accuracy_fracture_off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
 
-/* Computes the errors relative to the reference: part[0] of path and length, part[1] of the start time, part[2] of
- * the speed; *error is their root mean square. */
+/* Computes the relative errors of the cracks in the run e against the reference: part[0] of path and length, part[1] of
+ * the start time, part[2] of the speed. *error is their root mean square. */
 static status accuracy_fracture_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
@@ -135,8 +138,8 @@ static status accuracy_fracture_measure(const struct accuracy_point *p, struct r
     return OK;
 }
 
-/* Returns false for resolutions that a method is not run at: methods that do not converge to the reference, or take
- * the longest, run at coarse ones only. */
+/* Returns false for resolutions at which a method is not run. Methods that do not converge to the reference, and those
+ * that take longest, are run at coarse resolutions only. */
 static bool accuracy_fracture_applies(const struct accuracy_point *p)
 {
     if (p->resolution <= 100) return true;
@@ -187,7 +190,8 @@ const struct accuracy_problem accuracy_fracture = {
 
 /* ---- the reference ----------------------------------------------------------------------------------------------- */
 
-/* Runs a point and prints its results as an entry of the table of references. */
+/* Runs point p and prints its start time, speed, length and angles as an entry of the table in accuracy_reference.h.
+ * FAILED if the run fails. */
 static status print_reference(const struct accuracy_point *p)
 {
     struct accuracy_scene from;

@@ -36,8 +36,9 @@ static const double potential[POWERS][2] = {
     {-0.0033372314, -0.00298985703},    {0.000620108693, -0.00403252779},  {-0.000282598929, 0.00225840748},
 };
 
-/* Computes displacement and stress at X in a plate with a hole under tension (Muskhelishvili 1953): 2 G (u + i v) =
- * kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi', syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'). */
+/* Computes displacement u[2] [m] and stress xx, yy, xy [Pa] at X[2] [m] in a plate with a hole under tension along y
+ * (Muskhelishvili 1953): 2 G (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi', syy - sxx + 2 i
+ * sxy = 2 (conj(z) phi'' + psi'). */
 void accuracy_hole_exact(const double X[2], double u[2], double stress[3])
 {
     const double kappa = (3 - poisson) / (1 + poisson), shear = young / (2 * (1 + poisson));
@@ -81,8 +82,8 @@ static void accuracy_hole_make_scene(const struct accuracy_point *p, struct accu
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the error of the displacements in a ring around the hole (part[0]), and of the mean strain beside the
- * hole, from differences of u_y/y (part[1]); *error is their root mean square. */
+/* Computes two relative errors of the run e of point p: part[0] of the displacements in a ring around the hole, part[1]
+ * of the mean strain u_y/y beside the hole. *error is their root mean square. */
 static status accuracy_hole_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct particles *q = &e->part;
@@ -103,8 +104,8 @@ static status accuracy_hole_measure(const struct accuracy_point *p, struct run *
     return OK;
 }
 
-/* Returns false for methods that are left out: relaxation with transfers for which it converges too slowly, or at
- * fine resolutions, where it takes minutes per point, and bond-based models with short horizons. */
+/* Returns false for methods that are left out of the problem: relaxation with transfers for which it converges too
+ * slowly or at fine resolutions, where it takes minutes per run, and bond-based models with short horizons. */
 static bool accuracy_hole_applies(const struct accuracy_point *p)
 {
     if (accuracy_is_reference(p)) return true;

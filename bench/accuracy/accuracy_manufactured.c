@@ -19,8 +19,8 @@ static const struct manufactured *accuracy_manufactured_motion_of(const struct a
     return p->problem->dim == 2 ? &square_motion : &cube_motion;
 }
 
-/* Writes the scene with the body force of the manufactured solution. The run ends at 0.4 of the period T, when
- * displacement, velocity and strain are all large. */
+/* Writes the scene of point p with the body force of its manufactured solution. The run ends at 0.4 of the period T,
+ * when displacement, velocity and strain are all large. */
 static void accuracy_manufactured_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     static const char plane[] =
@@ -44,7 +44,8 @@ static void accuracy_manufactured_make_scene(const struct accuracy_point *p, str
 }
 
 /* Adds the squared difference between the stress of particle i and stiffness times strain to *off, and the square of
- * the latter to *all. Shear components count twice, as in the sum over a tensor. */
+ * the latter, the exact stress, to *all. Shear components count twice, as in the sum over a tensor. stiffness[n][n],
+ * strain[n]: n = 3 or 6 symmetric components. */
 static void add_stress(const struct particles *p, int64_t i, const real *stiffness, const real *strain, double *off,
                        double *all)
 {

@@ -89,8 +89,8 @@ const char *accuracy_solver(const struct accuracy_point *p)
     return accuracy_is_reference(p) ? "explicit" : p->method->family & ACCURACY_PD ? "cg" : "relaxation";
 }
 
-/* Returns true if a method can be used with relaxation. With the transfer flip it converges too slowly, and couplings
- * pm and pmg have linear shapes, for which there is no apic. */
+/* Returns true if the method of point p can be used with relaxation. With the transfer flip relaxation converges too
+ * slowly, and the couplings pm and pmg have linear shapes, for which there is no apic. */
 bool accuracy_relaxes(const struct accuracy_point *p)
 {
     return !sets(p->method, "mpm.transfer", "flip") && !sets(p->method, "coupling", "pm") &&

@@ -13,8 +13,8 @@ static const double wanted[] = {0.05, 0.01, 0.003};
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-/* Writes a cell: method, resolution, time and error of the cheapest run with at most `error`; a dash if there is
- * none. */
+/* Writes a cell of a table: method, resolution, time and error of the cheapest run with at most `error` [1]; a dash if
+ * there is none. dot[n], of[n]: time and error of the runs, and their entries. */
 static void put_cheapest(FILE *to, const struct accuracy_dot *dot, const struct accuracy_entry *const *of, int n,
                          double error)
 {
@@ -56,7 +56,7 @@ static void accuracy_page_put_table(FILE *to, const struct accuracy_plan *plan)
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a result of the problem is known. */
+/* Returns true if a result of the problem q is known. */
 static bool has_points(const struct accuracy_plan *plan, const struct accuracy_problem *q)
 {
     for (int k = 0; k < plan->n; k++)

@@ -20,7 +20,8 @@ int accuracy_cases(const struct accuracy_problem *problem)
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
-/* Composes the scene of a point: that of the problem, with the keys of the method, the horizon and the time step. */
+/* Composes the scene of a point (a run of the cost-accuracy table): the scene of its problem, with the keys of its
+ * method, its horizon and its time step. */
 void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     memset(s, 0, sizeof *s);
@@ -35,8 +36,8 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
     bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
 
-/* Adds a text to an FNV-1a hash. The hash of a point covers the scene with all defaults and the name of the machine,
- * and thus everything that changes a result. */
+/* Adds a text to an FNV-1a hash. The hash of a point covers its scene with all defaults and the name of the machine,
+ * and thus everything that changes its result. */
 static void add_to_hash(uint64_t *hash, const char *text)
 {
     for (; *text; text++) *hash = (*hash ^ (unsigned char)*text) * 1099511628211u;
@@ -60,7 +61,8 @@ static status read_settings(struct accuracy_entry *entry, const char *machine)
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Adds a point to the plan, unless the problem does not apply to it. quick: it is run with --quick, too. */
+/* Adds a point to the plan, unless its problem excludes it. quick: it is also run with --quick. REFUSED or FAILED if
+ * its scene cannot be read. */
 static status add_point(struct accuracy_plan *plan, struct accuracy_point p, bool quick)
 {
     if (p.problem->applies && !p.problem->applies(&p)) return OK;
@@ -69,8 +71,9 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
     return read_settings(&plan->entry[plan->n++], plan->machine.model);
 }
 
-/* Adds points with other horizons and other time steps than point p. all: adds every variation, else only the first
- * horizon and the time steps of the problem. */
+/* Adds points to the plan that differ from p in the horizon or the time step. all: adds every variation of the problem,
+ * else only its first horizon and, if it has `steps`, its first time step. quick: points of the first time step are
+ * also run with --quick. */
 static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all, bool quick)
 {
     const struct accuracy_problem *q = p.problem;
@@ -106,7 +109,7 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
     return OK;
 }
 
-/* Returns false if the scene files of a problem are missing; the problem is then left out. */
+/* Returns false if the scene file of problem q is missing. The problem is then left out. */
 static bool is_here(const struct accuracy_problem *q)
 {
     const struct accuracy_point any = {
@@ -116,7 +119,9 @@ static bool is_here(const struct accuracy_problem *q)
     return !s.path[0] || bench_scene_exists(s.path);
 }
 
-/* Lists the points from coarse to fine, so that an interrupted table has every case and method. */
+/* Creates the list of all points (runs) of the cost-accuracy table, from coarse to fine resolution, so that an
+ * interrupted table has every case and method. REFUSED or FAILED if a scene cannot be read. Release with
+ * accuracy_plan_free. */
 status accuracy_plan_make(struct accuracy_plan *plan)
 {
     *plan = (struct accuracy_plan){.machine = machine_properties()};

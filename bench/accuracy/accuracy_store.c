@@ -14,7 +14,8 @@
     "problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,particles,"   \
     "steps,stable,version,settings"
 
-/* Writes the columns that identify a point. text: capacity `size` [byte]. */
+/* Writes the columns that identify point p in the file of results into text[size]: problem, case, method, resolution,
+ * horizon and time step. */
 static void put_key(const struct accuracy_point *p, char *text, size_t size)
 {
     snprintf(text, size, "%s,%s,%s,%d,%.9g,%.9g,", p->problem->name, p->problem->cases[p->at], p->method->name,
@@ -23,7 +24,7 @@ static void put_key(const struct accuracy_point *p, char *text, size_t size)
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Reads the next column of a line: a number, or NAN if it is empty. */
+/* Returns the number in the next column of a line, or NAN if the column is empty, and advances *at behind it. */
 static double next_number(const char **at)
 {
     char *end;
@@ -40,8 +41,8 @@ static bool line_ends_with(const char *line, const char *tail)
     return line[length] == '\n' && length >= wanted && strncmp(line + length - wanted, tail, wanted) == 0;
 }
 
-/* Reads the result in a line. Lines of other program versions or settings and incomplete lines are ignored. key: length
- * of the identifying columns. */
+/* Reads the result of a point from a line of the file of results into *r. Incomplete lines and lines of other program
+ * versions or settings are ignored. key: length of the columns that identify the point. */
 static void take_line(struct accuracy_result *r, const char *line, size_t key)
 {
     char tail[64];
@@ -58,7 +59,7 @@ static void take_line(struct accuracy_result *r, const char *line, size_t key)
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes a comma and a number; no number if it is not finite. */
+/* Writes a number and a comma; the comma alone if the number is not finite. */
 static void accuracy_store_put_number(FILE *to, double value)
 {
     if (isfinite(value)) fprintf(to, "%.9g", value);
@@ -131,8 +132,8 @@ status accuracy_store_write(const struct accuracy_plan *plan)
     return s;
 }
 
-/* Reads the known results of all points of the plan from the file, and writes the file again with the lines that
- * belong to a point only. */
+/* Reads the known results of all points of the plan from the file of results, and writes the file again with only the
+ * lines that belong to a point of the plan. FAILED if the file cannot be read or written. */
 status accuracy_store_read(struct accuracy_plan *plan)
 {
     char *text, key[256];

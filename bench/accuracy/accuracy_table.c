@@ -12,7 +12,7 @@
 
 /* ---- selection of lines ------------------------------------------------------------------------------------------ */
 
-/* Returns true if a point has a known, stable result with error and time. */
+/* Returns true if a point of the table has a known result of a stable run with finite error and time. */
 static bool is_usable(const struct accuracy_entry *e)
 {
     return e->result.known && e->result.stable && isfinite(e->result.error) && isfinite(e->result.seconds[0]);
@@ -25,7 +25,8 @@ static bool accuracy_table_same_line(const struct accuracy_point *a, const struc
 
 #define WORST 0.2 /* points with larger errors are ignored for the front */
 
-/* Marks the points on the front of one family in one case. */
+/* Sets kept[k] to true for each point k of the plan that is on the Pareto front of a family of methods in case `at` of
+ * problem q, unless its error exceeds WORST. family: bit set of families. */
 static void mark_front(const struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int family,
                        bool *kept)
 {
@@ -59,7 +60,7 @@ static bool *kept_points(const struct accuracy_plan *plan)
 
 /* ---- lines of the file ------------------------------------------------------------------------------------------- */
 
-/* Returns true for keys that have columns of their own or do not describe the method. */
+/* Returns true for scene keys that have columns of their own in the table or do not describe the method. */
 static bool accuracy_table_is_apart(const char *key)
 {
     return strncmp(key, "particles.", 10) == 0 || strncmp(key, "time.", 5) == 0 || strncmp(key, "output.", 7) == 0;

@@ -11,7 +11,7 @@
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
-/* Returns a quantity of a probe after a run; NAN if there is none. */
+/* Returns the quantity called `quantity` of the probe called `probe` after a run; NAN if there is none. */
 double accuracy_figure(const struct run *e, const char *probe, const char *quantity)
 {
     struct bench_figure figure = {probe, quantity, NAN};
@@ -24,7 +24,7 @@ double accuracy_figure(const struct run *e, const char *probe, const char *quant
 enum { RUNS_MOST = 3 };
 #define RUNS_SECONDS 0.3 /* total time within which short runs are repeated to measure their duration [s] */
 
-/* Returns the processor time of this thread [s], which excludes time taken by other programs. */
+/* Returns the processor time of this thread [s]. It excludes the time taken by other programs. */
 static double processor_seconds(void)
 {
     struct timespec t;
@@ -32,8 +32,9 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Runs a point on team + 1 threads and keeps the shortest loop time of all its runs. Measures the error if it is not
- * known yet. A run that stops as unstable is a result, too. */
+/* Runs a point of the cost-accuracy table on team + 1 threads and keeps the shortest time of the time loop of all its
+ * runs so far. Measures the error if it is not known yet. A run that stops as unstable is a result, too. REFUSED or
+ * FAILED if the scene is invalid. */
 static status accuracy_run_once(struct accuracy_entry *entry, int team)
 {
     struct run e;
@@ -56,8 +57,9 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     return ran == FAILED ? OK : ran;
 }
 
-/* Runs a point on one thread and, unless it is a bar, on two threads, as often as its duration allows. The error is
- * measured once, since it does not depend on the number of threads. */
+/* Runs a point of the cost-accuracy table on one thread and, unless it is 1D, on two threads, as often as its duration
+ * allows, and appends the result to the file of results. The error is measured once, since it does not depend on the
+ * number of threads. */
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
@@ -77,8 +79,8 @@ static status run_point(struct accuracy_entry *entry)
 
 /* ---- all points -------------------------------------------------------------------------------------------------- */
 
-/* Returns the predicted time of a point, relative to other points of its problem, about in seconds: 100 ns per
- * particle and step, more for long horizons, plus set-up, times the number of repetitions. */
+/* Returns the predicted time of a point, to be compared with other points of its problem, approximately in seconds: 100
+ * ns per particle and step, more for long horizons, plus set-up, times the number of repetitions. */
 static double work_of(const struct accuracy_point *p)
 {
     const int dim = p->problem->dim;
@@ -99,8 +101,8 @@ static int accuracy_number_of(const struct accuracy_problem *q)
     return k;
 }
 
-/* Returns the predicted time of the remaining points [s], from the measured rate for problems with results and from
- * tabulated durations for others. */
+/* Returns the predicted time of the remaining points [s]: from the measured rate for problems with results, and from
+ * tabulated durations for others. quick: durations with --quick. */
 static double seconds_left(const struct progress *g, bool quick)
 {
     double left = 0;
@@ -152,7 +154,7 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
     return OK;
 }
 
-/* Writes tables, charts and page from the known results, without runs. */
+/* Writes tables, charts and overview page of the cost-accuracy table from the results that are known, without runs. */
 static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));

@@ -44,8 +44,8 @@ static const struct {
     const char *old, *name;
 } renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
 
-/* Prefixes of partial benches. `accuracy=NAME`: a single problem, or another argument of bench_accuracy_of;
- * `stability=lasting`, or a part of the name of a case: only its long map. */
+/* Prefixes of arguments that select a part of a bench. `accuracy=NAME`: a single problem, or another argument of
+ * bench_accuracy_of; `stability=lasting`, or a part of the name of a case: only the long map of that bench. */
 static const char accuracy_of[] = "accuracy=", stability_of[] = "stability=";
 
 static status bench_mark(const char *word, bool *asked)
@@ -67,8 +67,8 @@ static status bench_mark(const char *word, bool *asked)
                       word);
 }
 
-/* Runs one bench. With `readme` its output and tables are also written to bench/results. FAILED or REFUSED if the
- * bench is. */
+/* Runs one bench. quick: smaller cases; readme: its output and tables are also written to bench/results. FAILED or
+ * REFUSED if the bench is, or if files cannot be written. */
 static status bench_call(const struct bench *b, bool quick, bool readme)
 {
     struct bench_results r;

@@ -20,7 +20,8 @@ const struct bench_block bench_blocks[BENCH_BLOCKS] = {
     {"adaptive reference", 3, "adaptive", "reference"},
 };
 
-/* Writes the peridynamic region of an adaptive block, a tenth of its volume, half of which contains a crack. */
+/* Writes the crack of a block through half of it and, for the adaptive method, a peridynamic region around it, a tenth
+ * of the volume. Writes nothing for the method mpm. edge: of the block [m]. */
 static void block_parts(FILE *to, const struct bench_block *b, double edge)
 {
     const double low = 0.45 * edge, high = 0.55 * edge, middle = 0.5 * edge;
@@ -37,16 +38,17 @@ static void block_parts(FILE *to, const struct bench_block *b, double edge)
         fprintf(to, "pd: {region: {box: {from: [%.9g, 0, 0], to: [%.9g, %.9g, %.9g]}}}\n", low, high, edge, edge);
 }
 
-/* Returns the number of particles along the edge of a block. */
+/* Returns the number of particles along the edge of a block of about `particles` particles, at least 12. */
 static int64_t edge_of_block(const struct bench_block *b, double particles)
 {
     const int64_t n = (int64_t)round(pow(particles, 1.0 / b->dim));
     return n > 12 ? n : 12;
 }
 
-/* Writes the scene. Every particle moves, because particles at rest may be skipped; displacements stay small: 1 m/s at
- * the farthest corner. Cells of the reference frame have two spacings everywhere: with levels of coarse cells, a run
- * ends only at steps at which all levels have one time, and parts of it could not be timed. */
+/* Writes the scene of a block for timing. particles: approximate number; steps, frames: numbers of time steps and of
+ * frames. Every particle moves, because particles at rest may be skipped; displacements stay small, with 1 m/s at the
+ * farthest corner. Cells of the reference frame have two spacings everywhere: with levels of coarse cells a run ends
+ * only at steps at which all levels have one time, and parts of it could not be timed. */
 static void block_text(FILE *to, const struct bench_block *b, double particles, int64_t steps, int frames)
 {
     const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)edge_of_block(b, particles), rate = 1 / edge;

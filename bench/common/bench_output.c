@@ -15,7 +15,8 @@
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Initialises an empty table with the columns in `header`. */
+/* Initialises an empty table of results. name: "" for the main table of a bench; header: names of its columns,
+ * separated by commas. Both are kept by reference. */
 void bench_table_make(struct bench_table *t, const char *name, const char *header)
 {
     *t = (struct bench_table){.name = name, .header = header, .columns = 1};
@@ -44,7 +45,7 @@ void bench_table_free(struct bench_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes a text without characters that would end a cell. */
+/* Writes a text as a cell of a CSV table, with ; in place of commas and quotes. */
 static void output_put_text(FILE *to, const char *text)
 {
     for (; *text; text++) fputc(*text == ',' || *text == '"' ? ';' : *text, to);
@@ -63,7 +64,7 @@ static void put_csv(FILE *to, const struct bench_table *t)
     }
 }
 
-/* Copies the name of column k from the header. name: capacity `size` [byte]. */
+/* Copies the name of column k from the header of a table into name[size]. */
 static void output_column_name(const struct bench_table *t, int64_t k, char *name, size_t size)
 {
     const char *from = t->header;
@@ -106,8 +107,8 @@ static void put_json(FILE *to, const char *name, const struct bench_table *table
     fputs("\n}\n", to);
 }
 
-/* Checks that neither results nor results/bench is a link, through which files would be written elsewhere. REFUSED if
- * one is. */
+/* Checks that neither results nor results/bench is a symbolic link, through which files would be written elsewhere.
+ * REFUSED if one is. */
 static status bench_folder_guard(void)
 {
     static const char *const folder[] = {"results", BENCH_FOLDER};
@@ -126,7 +127,7 @@ status bench_folder_make(void)
     return OK;
 }
 
-/* Composes the first bytes of NAME.json, by which the files of a bench are recognised. text: capacity `room` [byte]. */
+/* Composes the first bytes of the file NAME.json, by which the files of a bench are recognised, in text[room]. */
 static void json_begin(char *text, size_t room, const char *name)
 {
     snprintf(text, room, "{\n  \"name\": \"%s\",\n  \"version\"", name);
@@ -152,7 +153,8 @@ status bench_guard(const char *name)
     return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave bench; move or remove it", path);
 }
 
-/* Writes one file, composed in memory: JSON of all tables (`json` is the bench's name) or CSV of one (`json` NULL). */
+/* Writes a file of results: the JSON of all tables table[tables] if `json`, the name of the bench, is not NULL, else
+ * the CSV of one table. FAILED if it cannot be written. */
 static status write_file(const char *path, const char *json, const struct bench_table *table, int tables)
 {
     char *text = NULL;
@@ -194,7 +196,8 @@ status bench_write(const char *name, const struct bench_table *table, int tables
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
-/* Draws results/bench/NAME.png and .svg with the commands that `draw` sends to gnuplot. */
+/* Draws results/bench/NAME.png and NAME.svg with the commands that draw(to, context) sends to gnuplot. width, height:
+ * size [pixel]. FAILED if gnuplot fails. */
 status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context)
 {

@@ -20,7 +20,8 @@ enum { LINES_MAX = 250 };
 
 /* ---- head -------------------------------------------------------------------------------------------------------- */
 
-/* Asks git for the commit of the working folder, with `-dirty` if files differ from it; "unknown" without git. */
+/* Writes the commit of the working folder, according to git, into name[size], with `-dirty` if files differ from it;
+ * "unknown" without git. */
 static void commit_name(char *name, size_t size)
 {
     FILE *git = popen("git describe --always --dirty --abbrev=10 --exclude='*' 2>/dev/null", "r");
@@ -29,7 +30,8 @@ static void commit_name(char *name, size_t size)
     name[strcspn(name, "\n")] = '\0';
 }
 
-/* Composes the lines that precede results: command, date, commit, processor, compiler, kernels. */
+/* Composes the lines that precede the results of the bench `name` in head[size]: command, date, commit, processor,
+ * compiler, kernels. quick: the bench runs with --quick. */
 static void results_head(char *head, size_t size, const char *name, bool quick)
 {
     const struct machine m = machine_properties();
@@ -48,8 +50,8 @@ static void results_head(char *head, size_t size, const char *name, bool quick)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Reads all bytes of an open file from its start and ends them by 0. Returns NULL if the file cannot be read; free the
- * text with free. */
+/* Returns all bytes of an open file from its start as a text. Returns NULL if the file cannot be read. Release it with
+ * free. */
 static char *text_of(FILE *from)
 {
     if (fseek(from, 0, SEEK_END) != 0) return NULL;
@@ -61,7 +63,8 @@ static char *text_of(FILE *from)
     return text;
 }
 
-/* Writes bench/results/FILE: head and text. The file is written aside and renamed. */
+/* Writes the file bench/results/FILE, which consists of `head` and `text`, under a temporary name and renames it.
+ * FAILED if it cannot be written. */
 static status results_put(const char *file, const char *head, const char *text)
 {
     char path[256], *whole = NULL;
@@ -76,7 +79,8 @@ static status results_put(const char *file, const char *head, const char *text)
     return s;
 }
 
-/* Writes the printed text to bench/results/NAME.txt; an equals sign in the name becomes an underscore. */
+/* Writes the output that a bench has printed to bench/results/NAME.txt. An equals sign in the name becomes an
+ * underscore. FAILED if it cannot be written. */
 static status printed_put(const struct bench_results *r, const char *name, const char *printed)
 {
     char file[64], *equals;
@@ -101,7 +105,8 @@ status bench_results_table(const char *file, const char *text)
 
 /* ---- standard output --------------------------------------------------------------------------------------------- */
 
-/* Starts to collect what is printed and the tables that are written. REFUSED outside a source tree. */
+/* Begins to collect what the bench `name` prints and the tables that it writes. quick: the bench runs with --quick.
+ * REFUSED outside a source tree, FAILED if no temporary file can be created. */
 status bench_results_begin(struct bench_results *r, const char *name, bool quick)
 {
     if (!path_exists("bench"))

@@ -96,7 +96,7 @@ void bench_engine_start(struct run *e, bench_field *field, const void *context)
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
-/* Appends an override, whose value is composed as by printf. */
+/* Appends an override to *o. key: kept by reference; value: format of printf for the value. */
 void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
 {
     va_list more;
@@ -146,7 +146,8 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
 
 /* ---- separate processes ------------------------------------------------------------------------------------------ */
 
-/* Starts a child process with posix_spawn: after fork() only one thread of the team would exist in the child. */
+/* Starts a child process with the arguments argv by posix_spawn, since after fork() only one thread of the team would
+ * exist in the child. Stores its process id in *child, 0 after a failure. FAILED if it cannot be started. */
 static status spawn(char **argv, pid_t *child)
 {
     posix_spawn_file_actions_t actions;

@@ -5,38 +5,39 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Returns f(x) of a compact-tension specimen, x = a/W, from ASTM E399-20, A4.5: K = P f/(B W^1/2). */
+/* Returns the factor f(x) of a compact-tension specimen, K = P f/(B W^(1/2)), from ASTM E399-20, A4.5. x = a/W: crack
+ * length over width. */
 static double compact_tension(double x)
 {
     return (2 + x) * (0.886 + 4.64 * x - 13.32 * x * x + 14.72 * x * x * x - 5.6 * x * x * x * x) / pow(1 - x, 1.5);
 }
 
-/* Returns f(x) of a three-point bend specimen with span S = 4 W, x = a/W, from ASTM E399-20, A3.5: K = P S f/(B
- * W^3/2). */
+/* Returns the factor f(x) of a three-point bend specimen with span S = 4 W, K = P S f/(B W^(3/2)), from ASTM E399-20,
+ * A3.5. x = a/W: crack length over width. */
 static double three_point_bend(double x)
 {
     return 3 * sqrt(x) * (1.99 - x * (1 - x) * (2.15 - 3.93 * x + 2.7 * x * x)) / (2 * (1 + 2 * x) * pow(1 - x, 1.5));
 }
 
-/* Returns F(x) of an edge crack in tension, x = a/W: K = stress (pi a)^1/2 F, accurate to 0.5 % (Tada, Paris & Irwin
- * 2000, 2.10). */
+/* Returns the factor F(x) of an edge crack in tension, K = stress (pi a)^(1/2) F, accurate to 0.5 % (Tada, Paris &
+ * Irwin 2000, 2.10). x = a/W: crack length over width. */
 static double edge_tension(double x)
 {
     const double t = 0.5 * pi * x;
     return sqrt(tan(t) / t) * (0.752 + 2.02 * x + 0.37 * pow(1 - sin(t), 3)) / cos(t);
 }
 
-/* Returns F(x) of an edge crack in pure bending, x = a/W: K = stress (pi a)^1/2 F (Tada, Paris & Irwin 2000,
- * 2.13). */
+/* Returns the factor F(x) of an edge crack in pure bending, K = stress (pi a)^(1/2) F (Tada, Paris & Irwin 2000, 2.13).
+ * x = a/W: crack length over width. */
 static double edge_bending(double x)
 {
     const double t = 0.5 * pi * x;
     return sqrt(tan(t) / t) * (0.923 + 0.199 * pow(1 - sin(t), 4)) / cos(t);
 }
 
-/* Returns F(x) of an edge crack between grips that do not rotate, x = a/W: K = force/(B W) (pi a)^1/2 F. The grips
- * exert a moment that cancels the rotation caused by the crack; both rotations follow from the energy of the crack
- * (Castigliano). slenderness: H/W. */
+/* Returns the factor F(x) of an edge crack between grips that do not rotate, K = force/(B W) (pi a)^(1/2) F. x = a/W:
+ * crack length over width; slenderness: H/W. The grips exert a moment that cancels the rotation caused by the crack;
+ * both rotations follow from the energy of the crack (Castigliano). */
 static double edge_in_grips(double x, double slenderness)
 {
     enum { PARTS = 400 };

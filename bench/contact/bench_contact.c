@@ -47,7 +47,8 @@ bool contact_case_holds(const struct contact_case *c, const double *figure)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Prints the figures of a case, and whether they are in the required range. */
+/* Prints the measured values figure[CONTACT_FIGURES] of a case, and a remark if they are outside its required
+ * ranges. */
 static void contact_print(const struct contact_case *c, const double *figure)
 {
     const bool holds = contact_case_holds(c, figure);

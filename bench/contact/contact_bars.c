@@ -24,8 +24,8 @@ static status bars_make(struct run *e, struct scene *s, const struct contact_cas
                           gap + c->given[1] * D, c->given[3] * CONTACT_WAVE, c->law);
 }
 
-/* Course of a contact: first and last time at which the first body is pushed [s], largest force [N], largest energy
- * error. */
+/* Course of a contact: first time `from` and last time `until` at which a contact force acts on the first body [s],
+ * largest force [N], largest error of the energy balance [1]. */
 struct contact_course {
     double from, until, force, error;
 };
@@ -48,9 +48,9 @@ static status bars_run(struct run *e, struct contact_course *seen)
     return report_end(e);
 }
 
-/* Runs two equal bars with opposite velocities that collide. Returns in figure[0..3]: their relative velocity
- * afterwards, the duration of contact and the largest force, each over the exact value, and the largest energy
- * error. */
+/* Runs two equal bars with opposite velocities that collide. given[] of the case: length [spacings], length, speed
+ * [wave speeds]. figure[0..2]: relative velocity afterwards, duration of contact and largest force, each over the exact
+ * value; figure[3]: largest energy error. FAILED if a step fails. */
 status contact_bars(const struct contact_case *c, double *figure)
 {
     struct run e;
@@ -69,8 +69,9 @@ status contact_bars(const struct contact_case *c, double *figure)
     return ran;
 }
 
-/* Runs a bar that hits a bar of twice its length at rest. Returns in figure[0..2]: the velocities of both bars
- * afterwards over the initial velocity, and the largest energy error. */
+/* Runs a bar that hits a bar of twice its length at rest. given[] of the case: lengths [spacings], speed [wave speeds].
+ * figure[0], figure[1]: velocities of the two bars afterwards over the initial velocity, exactly 0 and 1/2; figure[2]:
+ * largest energy error. FAILED if a step fails. */
 status contact_striker(const struct contact_case *c, double *figure)
 {
     struct run e;
@@ -88,8 +89,9 @@ status contact_striker(const struct contact_case *c, double *figure)
     return ran;
 }
 
-/* Runs a plane bar that bounces between two fixed walls, given[1] times, with gaps of 5 spacings in all. The bar has
- * given[0] x given[0]/5 particles. Returns the largest energy and momentum errors in figure[0] and figure[1]. */
+/* Runs a plane bar that bounces given[1] times between two fixed walls, with gaps of 5 spacings in all. The bar has
+ * given[0] x given[0]/5 particles and the speed given[2] [wave speeds]. figure[0], figure[1]: largest errors of energy
+ * and of momentum [1]. FAILED if a step fails. */
 status contact_bounces(const struct contact_case *c, double *figure)
 {
     struct run e;

@@ -6,7 +6,9 @@
 #define BOTH(...)                                                                                                      \
     {.law = "surface", __VA_ARGS__}, { .law = "pair", __VA_ARGS__ }
 
-/* Restitution grows with the number of particles: 200 particles with softer contact do not reach 0.99. */
+/* Cases of two equal bars of n particles at v wave speeds, one for each contact law. least: required restitution;
+ * longest: duration over 2 L/c; short_: known to miss them. The restitution grows with the number of particles: bars of
+ * 200 particles with softer contact do not reach 0.99. */
 #define BARS(n, v, least, longest, short_)                                                                             \
     BOTH(.name = "equal bars, " #n " particles, " #v " c", .measure = contact_bars, .given = {n, n, v, -v},            \
          .falls_short = short_,                                                                                        \
@@ -16,8 +18,10 @@
          .given = {n, 2 * n, 1e-3, 0},                                                                                 \
          .asked = {{"striker", -off, off}, {"struck", 0.5 - off, 0.5 + off}, {"energy", 0, 1e-3}})
 
-/* A block cut through and sheared: the tangential force is 0.7 % of the pressure, seven times the shear force of the
- * intact block. An opened cut: the limits allow the residual vibrations in the mean over time. */
+/* Case of a block that is cut through, compressed by `strain` and sheared by `shear` spacings. least, most: required
+ * normal force over that of the intact block; along: largest tangential force over the same. The tangential force is
+ * 0.7 % of the pressure, seven times the shear force of the intact block. For an opened cut the limits allow the
+ * residual vibrations in the mean over time. */
 #define BLOCK(what, n, strain, shear, least, most, along)                                                              \
     {                                                                                                                  \
         .name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear},                \
@@ -45,8 +49,10 @@
         }                                                                                                              \
     }
 
-/* Discs that stick roll on each other: 2/3 of the tangential velocity remain, and a spin of the same size. Elastic
- * discs separate while the tangential spring oscillates, and differ by up to 0.08. */
+/* Case of two discs of radius 20 spacings that stick, with an impact parameter of b radii and a lattice rotated by
+ * `turn` [rad]. Discs that stick roll on each other: 2/3 of the tangential velocity remains, and a spin of the same
+ * size. Elastic discs separate while the tangential spring oscillates, and differ by up to 0.08. sine: exact spin over
+ * 2/3. */
 #define STICKING(b, sine, turn)                                                                                        \
     {                                                                                                                  \
         .name = "discs, R 20, 0.01 c, b " #b " R, turn " #turn ", friction 10", .law = "surface, friction: 10",        \
@@ -58,9 +64,10 @@
         }                                                                                                              \
     }
 
-/* Acceleration within 10 % of g sin; a block at rest moves by less than 0.2 spacings. The energy balance of a block
- * that sticks to a rigid floor scatters with slope and kernels: 0.0067 +- 0.0021, at most 0.0103, on slopes of 0.6 to
- * 0.8 with two kernel sets; the limit allows four standard deviations. */
+/* Case of a block on a slope with the tangent `tan` and the coefficient of friction mu. Required: acceleration within
+ * 0.1 g sin of the exact one; a block at rest moves by less than 0.2 spacings. The energy balance of a block that
+ * sticks to a rigid floor scatters with slope and kernels: 0.0067 +- 0.0021, at most 0.0103, on slopes of 0.6 to 0.8
+ * with two kernel sets; its limit allows four standard deviations. */
 #define SLOPE(tan, mu, rigid, on)                                                                                      \
     {                                                                                                                  \
         .name = "block on a " on ", tan " #tan ", friction " #mu, .law = "surface", .measure = contact_slope,          \
@@ -74,8 +81,9 @@
     SLOPE(0.2, 0, rigid, on), SLOPE(0.4, 0, rigid, on), SLOPE(0.7, 0, rigid, on), SLOPE(0.2, 0.3, rigid, on),          \
         SLOPE(0.4, 0.3, rigid, on), SLOPE(0.7, 0.3, rigid, on), SLOPE(0.7, 10, rigid, on)
 
-/* Discs with velocities along the lattice (turn 0), or with the line of centres rotated such that velocities are along
- * it. */
+/* Case of two discs of radius R spacings and v wave speeds that collide without friction, with an impact parameter of b
+ * radii. turn: rotation of the lattice against the line of centres [rad]; 0: velocities are along the lattice. short_:
+ * known to miss the required ranges. */
 #define DISCS(law_, R, v, b, turn, short_)                                                                             \
     {                                                                                                                  \
         .name = "discs, R " #R ", " #v " c, b " #b " R, turn " #turn, .law = law_, .measure = contact_discs,           \

@@ -8,8 +8,8 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-/* Runs the collision of two discs to the end. normal[2]: direction between their centres when they are nearest to
- * each other, since it rotates during contact. */
+/* Runs the collision of two discs to the end. Stores in normal[2] the direction between their centres when they are
+ * nearest to each other, since this direction rotates during contact. FAILED if a step fails. */
 static status discs_run(struct run *e, double *normal)
 {
     double least = INFINITY;

@@ -8,7 +8,8 @@
 #include "probes/diagnostics.h"
 #include "step/report.h"
 
-/* Mean force on the upper end over the second half of the run, while the ends are at rest [N]. */
+/* Mean forces on the upper end of a block over the second half of the run, while the ends are at rest: normal and along
+ * the end [N]; overlap of the faces of the cut. */
 struct block_force {
     double normal, along, overlap;
 };
@@ -46,8 +47,8 @@ static status block_run(const struct contact_case *c, bool cut, struct block_for
     return ran;
 }
 
-/* Compares a cut block in compression with the intact one. Returns in figure[0] and figure[1] the ratios of their
- * normal and tangential forces, in figure[2] the overlap of the faces. */
+/* Compares a cut block in compression with the intact one. figure[0], figure[1]: normal and tangential force of the cut
+ * block over those of the intact block; figure[2]: overlap of its faces. FAILED if a run fails. */
 status contact_block(const struct contact_case *c, double *figure)
 {
     struct block_force whole, cut;
@@ -61,9 +62,10 @@ status contact_block(const struct contact_case *c, double *figure)
 
 /* ---- Hertz ------------------------------------------------------------------------------------------------------- */
 
-/* Runs a ball of radius given[0] spacings that hits a fixed plane at given[1] wave speeds. Returns in figure[0..3]:
- * the exponent of the force over the approach, fitted from a tenth of the largest force on; the duration over that of
- * Hertz, 2.87 (m^2/(R E*^2 v))^0.2 with E* = E/(1 - nu^2); the velocity afterwards over v; the energy error. */
+/* Runs a ball of radius given[0] spacings that hits a fixed plane at given[1] wave speeds. figure[0]: exponent of the
+ * force over the approach (Hertz: 3/2), fitted above a tenth of the largest force; figure[1]: duration over that of
+ * Hertz, 2.87 (m^2/(R E*^2 v))^(1/5) with E* = E/(1 - nu^2); figure[2]: speed afterwards over v; figure[3]: energy
+ * error. FAILED if a step fails. */
 status contact_hertz_space(const struct contact_case *c, double *figure)
 {
     struct run e;

@@ -38,7 +38,7 @@ struct pulse_result {
 /* One run of the bar. */
 struct bar_run {
     int variant;
-    double width; /* size of the grid cells [spacings] */
+    double width; /* width of the pulse [spacings] */
     int cell;     /* size of the grid cells [spacings] */
     double place; /* distance of the interface from the next grid node [cells] */
     const char *transfer;
@@ -57,7 +57,7 @@ struct bar_table {
  * all positions of the grid. */
 struct patch_row {
     const char *shape, *load, *coupling, *weights;
-    int cell; /* width of the pulse [spacings] */
+    int cell; /* size of the grid cells [spacings] */
     double on_node, largest;
 };
 

@@ -26,7 +26,7 @@ static const char *const variant_title[VARIANTS] = {
     [VARIANT_PGG] = "pgg",
 };
 
-/* Starts one of four panels, with its key on the right. */
+/* Begins one of four panels of the picture, at column and row 0 or 1, with its key on the right. */
 static void coupling_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.055 + 0.5 * column, above = 0.945 - 0.5 * row;
@@ -46,7 +46,7 @@ static void set_logarithmic(FILE *to)
 
 /* ---- the bar ----------------------------------------------------------------------------------------------------- */
 
-/* Draws the reflection in the bar over the width of the pulse, a line for each coupling. */
+/* Draws the amplitude that the interface in the bar reflects over the width of the pulse, a line for each coupling. */
 static void draw_pulses(FILE *to, const struct bar_table *t)
 {
     for (int variant = 0; variant < VARIANTS; variant++) {
@@ -113,8 +113,8 @@ static void draw_plane(FILE *to, const struct plane_table *t)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Sends the data of bar number `member` of `members` in a group: its position, its height `largest`, and the height
- * of a line across it, `on_node`. */
+/* Sends a line of data for bar number `member` of the `members` bars of a group: its position, its height `largest`,
+ * and the height `on_node` of a line across it. */
 static void put_bar(FILE *to, int group, int member, int members, double on_node, double largest)
 {
     fprintf(to, "%.4f %.6g %.6g\n", group + 0.8 * (member - 0.5 * (members - 1)) / members, largest, on_node);
@@ -133,7 +133,8 @@ static void plot_bars(FILE *to, const char *block, int members, const char *cons
     fputs("NaN notitle\n", to);
 }
 
-/* Draws the reflection over positions of the interface in its cell. */
+/* Draws bars of the reflected amplitude for three couplings and each width of the pulse: the largest one over all
+ * positions of the interface in its cell, with a line for the interface on a node. */
 static void draw_places(FILE *to, const struct bar_table *t)
 {
     static const int variant[] = {VARIANT_HANDSHAKE, VARIANT_DAMPED, VARIANT_UNDAMPED};
@@ -164,8 +165,8 @@ static void draw_places(FILE *to, const struct bar_table *t)
     plot_bars(to, "place", 3, colour, title);
 }
 
-/* Draws bars of the largest nodal force of the patch test, for each shape of the interface and each coupling, over
- * all loads. */
+/* Draws bars of the largest nodal force in the patch test, for each shape of the interface and each coupling. A bar is
+ * the maximum over all loads and positions of the grid, with a line for the interface on a node. */
 static void draw_patch(FILE *to, const struct patch_table *t)
 {
     static const char *const shape[] = {"flat", "45 degrees", "circle, r = 8 D", "square, 6 x 6 D"};

@@ -114,14 +114,14 @@ status patch_measure(struct patch_table *t, bool quick)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if two rows belong to one printed line: they differ in their load only. */
+/* Returns true if two rows of the patch test are printed in one line: they differ only in their load. */
 static bool coupling_patch_same_line(const struct patch_row *a, const struct patch_row *b)
 {
     return !strcmp(a->shape, b->shape) && !strcmp(a->coupling, b->coupling) && !strcmp(a->weights, b->weights) &&
            a->cell == b->cell;
 }
 
-/* Prints one line for all loads of an interface. */
+/* Prints the results of the patch test, one line for all loads of an interface and coupling. */
 void patch_print(const struct patch_table *t)
 {
     printf(

@@ -23,9 +23,10 @@ struct strip {
 static const char *const interface_name[] = {"flat", "45 degrees"};
 enum { FLAT, OBLIQUE, INTERFACES };
 
-/* Returns the geometry of the strip. Flat: distances as in the bar, so that results are comparable. Inclined: high
- * enough for the reflected wave to become plane (for a pulse of 32 spacings, heights of 3 to 6 widths change `wave` by
- * at most 1/7); the interface is half a spacing from the particles. */
+/* Returns the geometry of the strip for a pulse of `width` spacings. interface FLAT: distances as in the bar, so that
+ * results are comparable. OBLIQUE: the strip is high enough for the reflected wave to become plane (for a pulse of 32
+ * spacings, heights of 3 to 6 widths change the measured `wave` by at most 1/7), and the interface is half a spacing
+ * from the particles. */
 static struct strip strip_of(int interface, double width)
 {
     if (interface == FLAT) return (struct strip){1024, 4, 256, 512, {1, 0}, 512, 0.2};
@@ -34,8 +35,8 @@ static struct strip strip_of(int interface, double width)
                           at - 2.75 * width,      0.4};
 }
 
-/* Creates the run of a strip with the settings of a row. A negative row->variant means material points only, without
- * interface. */
+/* Creates the run e of the strip s with the settings of a row of results. A negative row->variant means material points
+ * only, without interface. */
 static status strip_make(struct run *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
 {
     struct bench_overrides o = {0};
@@ -63,8 +64,9 @@ struct plain {
     real *v[2], energy_change;
 };
 
-/* Runs the strip without interface and stores its final velocities and energy change in b. All runs number the
- * particles alike, so that they can be compared one by one. Release b with plain_free. */
+/* Runs the strip s without interface and stores its final velocities and energy change in b. All runs number the
+ * particles alike, so that they can be compared one by one. row: settings of the run. FAILED if a step fails. Release b
+ * with plain_free. */
 static status plain_make(struct plain *b, const struct strip *s, struct plane_row row)
 {
     struct run e;
@@ -88,15 +90,15 @@ static void plain_free(struct plain *b)
 
 /* ---- effect of the interface ------------------------------------------------------------------------------------- */
 
-/* Returns the distance of particle i beyond the interface [spacings]. */
+/* Returns the signed distance of particle i from the interface [spacings], positive beyond it. */
 static double beyond(const struct strip *s, const struct particles *p, int64_t i)
 {
     return (1e3 * p->X[0][i] - s->at) * s->normal[0] + 1e3 * p->X[1][i] * s->normal[1];
 }
 
-/* Returns the largest mean velocity difference from the run without interface, over square blocks of particles away
- * from the interface [m/s]. A mean over two cells can travel as a wave, while the grid does not resolve single
- * particles. */
+/* Returns the largest mean difference of velocity from the run b without interface, over square blocks of BLOCK x BLOCK
+ * particles away from the interface [m/s]. A mean over two cells can travel as a wave, whereas the grid does not
+ * resolve single particles. */
 static double largest_block(const struct strip *s, const struct particles *p, const struct plain *b)
 {
     const int64_t columns = (int64_t)s->length / BLOCK + 1, n = columns * ((int64_t)s->height / BLOCK + 1);
@@ -114,9 +116,9 @@ static double largest_block(const struct strip *s, const struct particles *p, co
     return largest;
 }
 
-/* Computes the reflected and transmitted velocity and the energy change of a run from its difference to the run
- * without interface. Near the interface only particles behind the pulse count, because inside the pulse the two sides
- * differ by their dispersion. */
+/* Computes reflected and transmitted velocity and energy change of the run e, from its difference from the run b
+ * without interface, and stores them in r. Near the interface only particles behind the pulse count, because inside the
+ * pulse the two sides differ by their dispersion. */
 static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct run *e,
                                    const struct plain *b)
 {
@@ -147,7 +149,8 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
     return ran;
 }
 
-/* Runs all couplings and weights, after one run without interface. */
+/* Runs the strip with all couplings and weights of bonds, after one run without interface, and adds the results to the
+ * table. width: of the pulse [spacings]; transfer: flip or apic. */
 static status group_measure(struct plane_table *t, int interface, double width, const char *transfer)
 {
     static const char *const weights[WEIGHTS] = {"uniform", "isotropic"};
@@ -181,7 +184,7 @@ status plane_measure(struct plane_table *t, bool quick)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints one line for both weights, which are consecutive. */
+/* Prints one line for the rows r[0] and r[1] of a coupling, with uniform and with isotropic weights. */
 static void print_pair(const struct plane_row *r)
 {
     printf("  %-11s %4.0f D %5s  %-24s", r->interface, r->width, r->transfer, coupling_variant[r->variant].name);

@@ -33,8 +33,8 @@ static status pulse_bar_make(struct run *e, struct scene *s, int variant)
     return bench_engine_make(e, s, COUPLING_BAR, NULL, bench_overrides_ready(&o), o.n);
 }
 
-/* Stores positions, velocities and velocity differences from the bar without interface in a snapshot, in mm. Both
- * bars number their particles alike. */
+/* Stores positions, velocities and velocity differences from the bar without interface in *shot, in mm. p, plain:
+ * particles of the two bars, which are numbered alike. */
 static void coupling_pulse_take(struct snapshot *shot, const struct particles *p, const struct particles *plain)
 {
     shot->x = NEW("bench.snapshot", p->n, double);
@@ -69,7 +69,8 @@ static status column_run(struct pulse_picture *picture, int column)
 
 /* ---- drawing ----------------------------------------------------------------------------------------------------- */
 
-/* Sends a snapshot as a data block: position, velocity and velocity difference. */
+/* Sends snapshot k of a coupling (column of the picture) as a data block: position, velocity and velocity difference of
+ * each particle. */
 static void put_shot(FILE *to, const struct pulse_picture *picture, int column, int k)
 {
     const struct snapshot *shot = &picture->shot[column][k];

@@ -61,10 +61,10 @@ static status make(struct run *e, struct scene *s, const struct result *x, int v
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the share of peridynamic particles. */
+/* Returns the share of peridynamic particles in a run [1]. */
 static double pd_share(const struct run *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
 
-/* Runs the loop in SAMPLES pieces and records the time and the share of peridynamic particles after each of them. */
+/* Runs a scene in SAMPLES pieces and stores in r the time and the share of peridynamic particles after each of them. */
 static status run_pieces(struct run_times *r, struct run *e)
 {
     r->share[0] = pd_share(e);
@@ -75,8 +75,8 @@ static status run_pieces(struct run_times *r, struct run *e)
     return OK;
 }
 
-/* Stores the time spent on bonds, material points, conversion and samples in one repetition, from the timers of the
- * sections of a step. */
+/* Stores in r the times spent on bonds, material points, conversion and samples in run number `repetition`. spent:
+ * times of the sections of a step, summed over the run [s]. */
 static void parts_keep(struct run_times *r, const double *spent, int repetition)
 {
     r->part[PART_BONDS][repetition] = spent[TIMER_BONDS];
@@ -113,8 +113,9 @@ static status run_shares(struct result *x, int variant)
 
 /* ---- results of a scene ------------------------------------------------------------------------------------------ */
 
-/* Compares the end of the longest crack of full peridynamics with the nearest corresponding crack of an adaptive run:
- * stores the differences of start time, position and angle; NAN without a crack. */
+/* Compares the end of the longest crack of full peridynamics with the corresponding crack of an adaptive run. variant:
+ * index of the adaptive run. Stores in x the differences of start time, position and angle; the latter two are NAN
+ * without a crack. */
 static void compare_tips(struct result *x, int variant, int dim)
 {
     const struct crack_ends *pd = &x->run[0].ends, *adaptive = &x->run[variant].ends;
@@ -129,7 +130,8 @@ static void compare_tips(struct result *x, int variant, int dim)
     x->angle_difference[variant] = fabs(x->angle[0] - x->angle[variant]);
 }
 
-/* Returns the median loop time without one part [s]: without samples, or without conversion. */
+/* Returns the median of the loop times without the time of one part, such as samples or conversion, over the
+ * repetitions of a run [s]. */
 static double median_without(const struct run_times *r, enum loop_part part, int repetitions)
 {
     double t[REPETITIONS];
@@ -137,7 +139,8 @@ static double median_without(const struct run_times *r, enum loop_part part, int
     return median_of(t, repetitions);
 }
 
-/* Returns the median share of the loop time spent neither on bonds nor on material points [1]. */
+/* Returns the median over repetitions of the share of the loop time that is spent neither on bonds nor on material
+ * points [1]. */
 static double median_rest(const struct run_times *r, int repetitions)
 {
     double t[REPETITIONS];
@@ -174,7 +177,7 @@ static status scene_measure(struct result *x, int repetitions)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints the header of the printed table. */
+/* Prints the header of the table of results. repetitions: number of runs of each variant. */
 static void efficiency_print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
@@ -184,8 +187,8 @@ static void efficiency_print_header(int repetitions)
            "angles", "starts", "PD share", "rest_share", "aim", "in the way");
 }
 
-/* Describes the part of the loop that takes most time in an adaptive run, with its time over that of peridynamics.
- * Returns text, or "" if the run meets its aim. text: capacity `room` [byte]. */
+/* Writes into text[room] the part of the loop that takes most time in an adaptive run, with its time over t_PD, and
+ * returns text. Returns "" if the run saves as much time as required. variant: index of the adaptive run. */
 static const char *variant_obstacle(const struct result *x, int variant, char *text, size_t room)
 {
     int most = 0;
@@ -212,7 +215,7 @@ static void print_variant(const struct result *x, int variant)
     fflush(stdout);
 }
 
-/* Returns the share of peridynamic particles in the sample nearest to time t [s]. */
+/* Returns the share of peridynamic particles in the sample of a run that is nearest to time t [s]. */
 static double share_at(const struct run_times *r, double t)
 {
     int best = 0;
@@ -237,7 +240,8 @@ static void print_marks(const struct efficiency *all)
         "searches and samples;\n  in the way, of rows below their aim: the largest part of the loop, over t_PD\n");
 }
 
-/* Adds the rows of an adaptive run to the tables of results, shares and runs. */
+/* Adds the rows of an adaptive run to the three tables of results, shares and runs. variant: index of the adaptive
+ * run. */
 static void add_variant(struct bench_table *table, const struct result *x, int variant)
 {
     const double main[] = {x->t[variant],
@@ -343,8 +347,8 @@ static void draw_bars(FILE *to, const struct efficiency *all)
     fputs("set yrange [*:*]\n", to);
 }
 
-/* Returns the number of panels. Bond-based scenes come first and are the only ones in the paper: each has a panel of
- * shares. */
+/* Returns the number of panels with shares of peridynamic particles. Bond-based scenes at their own spacing come first
+ * in the list and are the only ones in the paper: each of them has a panel. */
 static int panels(const struct efficiency *all)
 {
     int n = 0;
@@ -388,7 +392,8 @@ static void efficiency_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures all scenes that exist and prints a line for each adaptive variant. */
+/* Measures all scenes that exist, prints a line for each adaptive variant, and writes tables and picture. REFUSED if no
+ * scene exists, FAILED if a run or a file fails. quick: only short scenes, once each. */
 static status efficiency_measure_all(struct efficiency *all, bool quick)
 {
     const int repetitions = quick ? 1 : REPETITIONS;

@@ -16,13 +16,15 @@ enum { STEPS = 9, STEPS_QUICK = 3, METHODS = 2 };
 #define STEP_RANGE 0.1
 static const int variant_of[METHODS] = {VARIANT_PD, VARIANT_FRAME};
 
-/* Final state of the observed crack of a run. */
+/* State of the observed crack at the end of a run: time step dt and start time [s], angle [degree], position of the tip
+ * [m]. */
 struct end {
     double dt, start, angle;
     real place[DIM_MAX];
 };
 
-/* Means over the runs, and root-mean-square deviations from them. */
+/* Means over runs that differ in the time step, and root-mean-square deviations from them: start time [s], angle
+ * [degree], position of the crack tip [m]. */
 struct spread {
     double start, start_scatter, angle, angle_scatter, place_scatter;
     real place[DIM_MAX];
@@ -41,14 +43,15 @@ struct all_scatters {
     struct scatter *at;
 };
 
-/* Returns false for the finer 3D scenes, which take minutes per run. */
+/* Returns false for 3D scenes at a finer spacing than their own, which take minutes per run. */
 static bool is_short(const struct scene_case *c, int dim) { return !(c->spacing && dim == 3); }
 
 static double factor_of(int run, int runs) { return 1 + STEP_RANGE * (2.0 * run / (runs - 1) - 1); }
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs a scene with one method and time step dt [s] and stores the ends of its cracks. */
+/* Runs a scene with one method and the time step dt [s], and stores the ends of its cracks in *ends. FAILED if a step
+ * fails. method: index of the method. */
 static status sensitivity_run_once(struct scatter *x, int method, double dt, struct crack_ends *ends)
 {
     struct scene s;
@@ -61,8 +64,8 @@ static status sensitivity_run_once(struct scatter *x, int method, double dt, str
     return ran;
 }
 
-/* Runs both methods with all time steps and stores start, position and angle of one crack per run: the one that
- * starts nearest to the start of the longest crack of the first run. dt: mean time step [s]. */
+/* Runs the scene of x with both methods and all time steps around dt [s]. Stores start, position and angle of one crack
+ * per run: the crack that ends nearest to the longest crack of the first run. FAILED if a step fails. */
 static status sensitivity_run_all(struct scatter *x, double dt)
 {
     struct crack_ends *ends = NEW("bench.ends", 2, struct crack_ends);
@@ -87,7 +90,8 @@ static status sensitivity_run_all(struct scatter *x, double dt)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the means of start, angle and position over n runs, and the root-mean-square deviations from them. */
+/* Computes the means of start, angle and position over the runs end[n], and the root-mean-square deviations from
+ * them. */
 static void spread_find(struct spread *s, const struct end *end, int n)
 {
     double start = 0, angle = 0, place = 0;
@@ -155,8 +159,8 @@ static status sensitivity_write_tables(const struct all_scatters *all)
 
 /* ---- picture ----------------------------------------------------------------------------------------------------- */
 
-/* Draws a column for each scene with the methods side by side: distance of every run from the mean of full
- * peridynamics. */
+/* Draws a column for each scene with the two methods side by side: the distance of the crack end of every run from the
+ * mean of full peridynamics. context: struct all_scatters. */
 static void sensitivity_draw(FILE *to, const void *context)
 {
     const struct all_scatters *all = context;
@@ -188,7 +192,8 @@ static void sensitivity_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Runs a scene with all time steps and both methods and evaluates the scatter. */
+/* Runs a scene with all time steps and both methods, and computes the scatter of its crack ends. quick: fewer time
+ * steps. */
 static status sensitivity_measure(struct scatter *x, bool quick)
 {
     double dt;

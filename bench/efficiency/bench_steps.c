@@ -35,7 +35,8 @@ enum figure { START, LENGTH, ANGLE, FRACTURE, BALANCE, FIGURES };
 static const char *const key_of[FIGURES] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
                                             "energy.fracture", "energy.balance_error"};
 
-/* Means over the runs around one time step, and root-mean-square deviations. */
+/* Means over the runs around one time step, and root-mean-square deviations from them, of each figure. runs: number of
+ * runs. */
 struct stepped {
     double mean[FIGURES], scatter[FIGURES];
     int runs;
@@ -69,8 +70,8 @@ static status stepped_take(struct bench_child *child, double *figure)
     return s;
 }
 
-/* Runs one method with several time steps around a share of the critical one, as many runs in parallel as there are
- * cores, and stores means and deviations of their results. */
+/* Runs the method w with `runs` time steps around a share of the critical one, as many runs in parallel as there are
+ * cores, and stores means and deviations of their figures in *to. FAILED if a run fails. */
 static status stepped_run(const struct breaking_method *w, double share, int runs, struct stepped *to)
 {
     double figure[RUNS_MOST][FIGURES];
@@ -96,8 +97,8 @@ static status stepped_run(const struct breaking_method *w, double share, int run
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Prints the change relative to the smallest time step: start [%], length [spacings], angle [degrees], fracture energy
- * [%]. */
+/* Prints the changes of the figures from the smallest time step to the default and to the largest one: start [%],
+ * length [spacings], angle [degrees], fracture energy [%]. x[SHARES]: figures at all time steps; spacing [m]. */
 static void print_change(const struct stepped *x, double spacing)
 {
     const struct stepped *to = &x[SMALLEST];
@@ -152,7 +153,8 @@ static status stepped_method(struct bench_table *t, const struct breaking_method
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Runs all scenes, models, methods and rules, and adds their results to the table. */
+/* Runs all scenes, models, methods and rules for the last force of a bond, and adds their figures to the table. REFUSED
+ * if no scene exists, FAILED if a run fails. quick: short scenes and one model only. */
 static status stepped_all(struct bench_table *t, bool quick)
 {
     int done = 0;

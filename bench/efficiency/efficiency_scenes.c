@@ -105,7 +105,7 @@ void efficiency_tic(FILE *to, const struct scene_case *scene)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the crack tips of a run and the start of its first crack. */
+/* Stores in *c the crack tips of a run, the index of the longest crack, and the time of its first broken bond. */
 void crack_ends_keep(struct crack_ends *c, const struct run *e)
 {
     const struct crack_tip *longest = tips_longest(&e->fracture->tips);

@@ -14,7 +14,7 @@
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a range is required for the result. */
+/* Returns true if an experiment or another code requires a range for the result r. */
 static bool experiment_is_asked(const struct experiment_row *r) { return !isnan(r->low); }
 
 static bool experiment_is_held(const struct experiment_row *r) { return r->value >= r->low && r->value <= r->high; }
@@ -75,7 +75,8 @@ void experiment_curve_add(struct experiment_curve *c, double x, double y, double
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the results and the curves as tables. */
+/* Writes the results and the curves of the bench as the tables experiments.csv and experiments_curves.csv. FAILED if a
+ * file cannot be written. */
 static status experiments_write(const struct experiments *x)
 {
     struct bench_table t[2];
@@ -108,7 +109,7 @@ static status experiments_write(const struct experiments *x)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Releases all results, curves and paths. */
+/* Releases all results, curves and paths of the bench, and removes its folder. */
 static void experiments_free(struct experiments *x)
 {
     for (int k = 0; k < x->paths; k++)
@@ -119,7 +120,7 @@ static void experiments_free(struct experiments *x)
     memory_free(x);
 }
 
-/* Prints the results, those outside the required range first. */
+/* Prints how many results are outside their required ranges, and these results. */
 static void experiments_summary(const struct experiments *x)
 {
     int asked = 0, held = 0;

@@ -16,8 +16,9 @@
 #define NOTCH_END 19.0  /* [mm] */
 enum { BEAM_BISECTIONS = 6, BEAM_STEPS = 3 };
 
-/* Runs the notched beam and sets *middle to true if a crack grows from its lower side near the middle. gamma:
- * position of the notch; safety: fraction of the critical time step; spacing: [mm]. */
+/* Runs the notched beam of John & Shah (1990) and sets *middle to true if a crack grows from its lower side near the
+ * middle. gamma: distance of the notch from the middle over half the span; safety: fraction of the critical time step;
+ * spacing [mm]. FAILED if the run fails. */
 static status beam_middle(double gamma, double safety, double spacing, bool *middle)
 {
     struct run e;
@@ -39,8 +40,9 @@ static status beam_middle(double gamma, double safety, double spacing, bool *mid
     return ran;
 }
 
-/* Determines by bisection the gamma above which the beam breaks in its middle; NAN if it is not between 0.6 and
- * 0.98. */
+/* Determines by bisection the position gamma of the notch above which the beam of John & Shah (1990) breaks in its
+ * middle; NAN if it is not between 0.6 and 0.98. safety: fraction of the critical time step; spacing [mm]. FAILED if a
+ * run fails. */
 static status beam_change(double safety, double spacing, double *gamma)
 {
     double low = 0.6, high = 0.98;
@@ -100,8 +102,9 @@ status experiments_beam(struct experiments *x)
 #define DISC_TOUGHNESS 20.0 /* energy release rate G_c [J/m^2] */
 #define DISC_CLOSED "2 P/(pi D t)"
 
-/* Returns the horizontal stress in the middle of the disc over 2 P/(pi D t), with load P, diameter D and thickness t:
- * mean from 0.7 of the time of the first break to that time. NAN if the results cannot be read. */
+/* Returns the horizontal stress in the middle of a compressed disc over 2 P/(pi D t), with load P, diameter D and
+ * thickness t, averaged from 0.7 of the time of the first break to that time. folder: of the run. NAN if the results
+ * cannot be read. */
 static double disc_stress(const char *folder, double spacing)
 {
     struct history h;
@@ -120,8 +123,8 @@ static double disc_stress(const char *folder, double spacing)
     return n > 0 ? sum / n : NAN;
 }
 
-/* Returns the largest load over pi D t/2 times the strength E s_c of bonds, with s_c = sqrt(4 pi G_c/(9 E delta)).
- * NAN if the results cannot be read. */
+/* Returns the largest load on a compressed disc over (pi D t/2) E s_c, the load at the strength E s_c of bonds, with
+ * s_c = sqrt(4 pi G_c/(9 E delta)). folder: of the run; spacing [m]. NAN if the results cannot be read. */
 static double disc_strength(const char *folder, double spacing)
 {
     struct history h;

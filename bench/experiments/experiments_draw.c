@@ -59,7 +59,7 @@ static void experiments_draw_curves(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* Adds the position of branching over the spacing for each study. */
+/* Adds a curve for each study of a crack that branches: position of the branching over the spacing. */
 static void experiments_curves(struct experiments *x)
 {
     for (int k = 0; k < x->n && x->curves < EXPERIMENT_CURVES_MOST; k++) {
@@ -76,7 +76,7 @@ enum { PATHS_WIDE = 4 }; /* panels in a row */
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Draws the crack paths of every study in a panel of its own, coloured by spacing. */
+/* Draws the crack paths of every study in a panel of its own, coloured by spacing. context: struct experiments. */
 static void experiments_draw_paths(FILE *to, const void *context)
 {
     const struct experiments *x = context;

@@ -67,7 +67,8 @@ static bool strip_window_open(struct strip_window *w, const char *folder, double
     return false;
 }
 
-/* Returns the slope of column y_name over column x_name in the window, by least squares. */
+/* Returns the slope of the column called y_name over the column called x_name in the window w of a history, by least
+ * squares. */
 static double strip_slope(const struct strip_window *w, const char *x_name, const char *y_name)
 {
     const int cx = history_find_column(&w->h, x_name), cy = history_find_column(&w->h, y_name);
@@ -79,7 +80,8 @@ static double strip_slope(const struct strip_window *w, const char *x_name, cons
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/* Returns the crack speed over c_R. */
+/* Returns the mean speed of the crack over the Rayleigh speed c_R while it is straight; NAN without such a time.
+ * folder: of the run; spacing [m]. */
 static double strip_speed(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -89,8 +91,8 @@ static double strip_speed(const char *folder, double spacing)
     return v / strip_medium().rayleigh;
 }
 
-/* Returns the energy of broken bonds per new crack area, over G_c, while the crack is straight; NAN without such a
- * time. */
+/* Returns the energy of broken bonds per new crack area over G_c while the crack is straight; NAN without such a time.
+ * folder: of the run; spacing [m]. */
 static double strip_taken(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -100,7 +102,8 @@ static double strip_taken(const char *folder, double spacing)
     return taken;
 }
 
-/* Returns the mean stress-intensity factor of the probe at the running tip over K_c = sqrt(G_c E). */
+/* Returns the mean stress-intensity factor at the running tip over K_c = sqrt(G_c E) while the crack is straight; NAN
+ * without such a time. folder: of the run; spacing [m]. */
 static double strip_factor(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -113,7 +116,8 @@ static double strip_factor(const char *folder, double spacing)
     return mean / sqrt(STRIP_TOUGHNESS * STRIP_YOUNG);
 }
 
-/* Returns the energy flux into the running tip, A_I K^2/E, over G_c. */
+/* Returns the energy flux into the running tip over G_c, A_I(v) K_I^2/(E G_c), while the crack is straight; NAN without
+ * such a time. folder: of the run; spacing [m]. */
 static double strip_flux(const char *folder, double spacing)
 {
     const struct crack_medium m = strip_medium();
@@ -123,7 +127,8 @@ static double strip_flux(const char *folder, double spacing)
 
 /* ---- all loads --------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of a figure of a variant and stores its deviation; NAN if there is none. */
+/* Returns the value of the result called `figure` for the strip of the given variant, and stores its deviation in
+ * *deviation. Returns NAN if there is none. */
 static double strip_value(const struct experiments *x, const char *variant, const char *figure, double *deviation)
 {
     for (int k = x->n; k-- > 0;)
@@ -134,7 +139,8 @@ static double strip_value(const struct experiments *x, const char *variant, cons
     return NAN;
 }
 
-/* Evaluates all loads together: the fastest straight crack, and the curves of the picture. */
+/* Evaluates all loads of the strip together: adds the largest speed of a straight crack as a result, and the curves of
+ * the picture. variant[STRIP_LOADS]: names of the variants by load. */
 static void strip_curves(struct experiments *x, const char (*variant)[16])
 {
     struct experiment_curve *speed = experiment_curve_begin(x, "speed", "strip");

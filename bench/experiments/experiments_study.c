@@ -31,7 +31,7 @@ int experiment_mean(const double *value, int n, double *mean, double *deviation,
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of a figure in run k of a study; NAN if the run has failed or does not have the figure. */
+/* Returns the value of the figure f in run k of a study; NAN if the run has failed or does not have the figure. */
 static double figure_of_run(const struct convergence_study *s, int k, const struct experiment_figure *f)
 {
     double value = NAN;
@@ -45,9 +45,9 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
     return f->scale * value;
 }
 
-/* Computes the mean and scatter of a figure at each level of spacing: of the finest level into the row, of the next
- * two into row->coarse. Runs without a value, such as the branching angle of a crack that does not branch, are left
- * out. */
+/* Computes the mean and scatter of a figure at each spacing level of a study: of the finest level into `row`, of the
+ * next two into row->coarse. value[k]: figure of run k. Runs with the value NAN are left out, such as the angle of
+ * branching of a crack that does not branch. */
 static void levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
 {
     double own[LEVELS_MOST * RUNS_MOST], mean, deviation, interval;
@@ -92,7 +92,8 @@ static void figure_take(struct experiments *x, const struct experiment_case *c, 
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Appends a point of a crack path [m] of a run at a level of spacing. */
+/* Appends the position (at_x, at_y) [m] of a damaged particle to the crack paths *p. level: spacing level of its
+ * run. */
 static void path_add(struct experiment_paths *p, double at_x, double at_y, int level)
 {
     GROW("bench.path", p->x, p->n + 1);
@@ -120,7 +121,8 @@ static void paths_take(struct experiments *x, const struct experiment_case *c, c
 
 /* ---- a study ----------------------------------------------------------------------------------------------------- */
 
-/* Makes the convergence study of a case and adds its results. */
+/* Makes the convergence study of a case and adds its results and crack paths to x. Does nothing for cases without scene
+ * file, or that are left out with --quick. REFUSED or FAILED if the study is. */
 status experiment_study(struct experiments *x, const struct experiment_case *c)
 {
     struct convergence_study s;

@@ -48,7 +48,8 @@ static void surf_text(FILE *to, double spacing)
     fprintf(to, "  - {fixed: all, region: {box: {from: [-inf, %.9g], to: [inf, inf]}}}\n", SURF_HEIGHT - edge);
 }
 
-/* Computes displacement u and velocity v of the field at the reference position of particle i and time t. */
+/* Computes the displacement u[2] [m] and velocity v[2] [m/s] of the moving field at the reference position of particle
+ * i and time t [s]. */
 static void surf_field(const struct surf *s, const struct particles *p, int64_t i, double t, double *u, double *v)
 {
     const real at[2] = {p->X[0][i] - s->tip - s->speed * t, p->X[1][i]};
@@ -60,7 +61,8 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
     }
 }
 
-/* Sets all particles to the displacement and velocity of the field, and lists those of the edge. */
+/* Sets all particles of e to the displacement and velocity of the moving field at t = 0, and lists the particles of the
+ * edge in s->particle. */
 static void surf_start(struct surf *s, struct run *e)
 {
     struct particles *p = &e->part;
@@ -96,7 +98,7 @@ static double surf_tip(const struct particles *p, double spacing)
 /* Only broken bonds are counted. The energy that enters at the edge differs, because the strain energy of the field in
  * the plate changes while the field moves, and waves leave the tip. */
 
-/* Sums of a least-squares line. */
+/* Sums for a least-squares line through points (x, y): their number, and the sums of x, y, x^2 and x y. */
 struct surf_line {
     double n, x, y, xx, xy;
 };

@@ -7,11 +7,11 @@
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the factor on the rotation at time t [1]: sin^2, from 0 to 1 over the period. */
+/* Returns the factor on the rotation at time t [s]: sin^2(pi t/(2 T)), from 0 to 1 over the period T. */
 static double vortex_growth(const struct vortex *v, double t) { return square(sin(M_PI * t / (2 * v->period))); }
 
-/* Returns the rotation angle alpha at position X and time t [rad], and stores its derivative along the radius R
- * divided by R in *slope. */
+/* Returns the rotation angle alpha of the vortex at X[2] [m] and time t [rad], and stores its derivative along the
+ * radius R, divided by R, in *slope. */
 static double vortex_angle(const struct vortex *v, const double *X, double t, double *slope)
 {
     const double rest = 1 - X[0] * X[0] - X[1] * X[1], grown = v->turn * vortex_growth(v, t);
@@ -38,8 +38,8 @@ void vortex_gradient(const struct vortex *v, const double *X, double t, double F
 
 /* ---- constitutive laws ------------------------------------------------------------------------------------------- */
 
-/* Fills the bonds of a lattice with uniform weights and a given reach [spacings], scaled to the bulk modulus of the
- * plane. */
+/* Fills v with the bonds of a square lattice with uniform weights and the given reach [spacings]. Their weights are
+ * scaled to the bulk modulus of the plane, c11 + c12. */
 void vortex_bonds(struct vortex *v, double reach)
 {
     double sum = 0;
@@ -90,8 +90,8 @@ void vortex_stress(const struct vortex *v, double F[2][2], double P[2][2])
 
 /* ---- force ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the derivative of the stress P_ab along axis b to sum[a] for both a, by fourth-order central differences at
- * X. */
+/* Adds the derivative of the stress P_ab along axis b at X[2] [m] and time t [s] to sum[a] for a = 0 and 1 [N/m^3], by
+ * fourth-order central differences. */
 static void divergence_add(const struct vortex *v, const double *X, double t, int b, double *sum)
 {
     static const double place[] = {-2, -1, 1, 2}, share[] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};

@@ -31,7 +31,9 @@ static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Creates a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks. */
+/* Creates a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks, and runs one step. method,
+ * model, mpm: values of these scene keys; more: further keys of the scene; yields: the material has a yield stress.
+ * FAILED if the step fails. Release with bench_engine_free. */
 static status kernels_body_make(struct run *e, struct scene *s, int dim, const char *method, const char *model,
                                 const char *mpm, const char *more, bool yields)
 {
@@ -57,7 +59,8 @@ static status kernels_body_make(struct run *e, struct scene *s, int dim, const c
     return bench_engine_run(e, 1, NULL); /* sorts the points and covers them with a grid */
 }
 
-/* Displaces one half of a cut body by 0.02 spacings against the other. */
+/* Displaces one half of a body with a cut by 0.02 spacings against the other half, so that their faces are in
+ * contact. */
 static void faces_press(struct run *e)
 {
     real low, high;
@@ -101,13 +104,14 @@ static void ground_free(struct ground *g)
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the run on whose bonds a kernel is timed. */
+/* Returns the run on whose bonds the kernel of job j is timed. */
 static struct run *bonds_of(const struct job *j, struct ground *g)
 {
     return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
 }
 
-/* Moves the points. yields: as they are of a material that yields, else of an elastic one. */
+/* Calls the kernel that moves the material points of run e. yields: their material yields; otherwise the kernel is
+ * called with an elastic material. */
 static void g2p_call(const struct job *j, struct run *e, bool yields)
 {
     struct elastic material = e->tables.elastic[0];
@@ -117,7 +121,7 @@ static void g2p_call(const struct job *j, struct run *e, bool yields)
     g2p_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &t);
 }
 
-/* Stresses all points beyond their yield stress: a call maps their stress back. */
+/* Sets the stresses of all points beyond their yield stress, so that the next kernel call maps them back to it. */
 static void points_stress(struct run *e)
 {
     const real yield = e->tables.elastic[0].law->yield;
@@ -126,7 +130,8 @@ static void points_stress(struct run *e)
         for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
 }
 
-/* Updates the pairs in contact; changed: 1 as after particles have changed, which requires a search, else 0. */
+/* Updates the list of particle pairs in contact. changed: 1 as if particles have changed, which requires a search for
+ * pairs, else 0. */
 static void faces_update(struct run *e, int changed)
 {
     contact_update_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
@@ -194,7 +199,8 @@ static void job_call(const struct job *j, struct ground *g)
     }
 }
 
-/* Times a kernel; the first of the two calls fills the caches. */
+/* Times the kernel of a job in two calls and keeps the shortest time so far in j->seconds. The first call fills the
+ * caches. */
 static void job_time(struct job *j, struct ground *g)
 {
     for (int k = 0; k < 2; k++) {
@@ -229,8 +235,8 @@ static void time_all(struct kernel_bench *b, bool quick)
 
 /* ---- bytes ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the mean number of bytes that the kernels read per column of a row block of bonds (bond_column.h). Columns
- * of stencils count 0, since they remain in cache. */
+/* Returns the mean number of bytes that kernels read per column of a row block of bonds (bond_column.h). Columns of
+ * blocks with a shared stencil count 0, since they remain in cache. */
 static double column_bytes(const struct bonds *b)
 {
     double sum = 0;
@@ -243,8 +249,8 @@ static double column_bytes(const struct bonds *b)
     return sum / (double)b->columns;
 }
 
-/* Returns the number of bytes that contact moves per particle near a face: its list of pairs twice, forces, energy
- * and positions. */
+/* Returns the number of bytes that contact moves per particle near a face: its list of pairs twice, forces, energy and
+ * positions. */
 static double contact_bytes(const struct run *e)
 {
     const struct contact *c = e->contact;
@@ -252,8 +258,8 @@ static double contact_bytes(const struct run *e)
            3 * sizeof(real) * (double)e->part.dim;
 }
 
-/* Returns the bytes that a kernel must move per particle: each array that it reads or writes counts once; nodes are
- * shared among the points of their cell. */
+/* Returns the number of bytes that the kernel of job j must move per particle. Each array that the kernel reads or
+ * writes counts once; nodes are shared among the points of their cell. */
 static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
@@ -304,8 +310,8 @@ static double job_bytes(const struct job *j, struct ground *g)
     }
 }
 
-/* Computes the lower limit of the time per particle of each kernel: bytes over memory bandwidth, or for bonds the
- * time of the arithmetic if that is longer. */
+/* Computes the lower limit of the time per particle of each kernel [s]: bytes over memory bandwidth, or for kernels on
+ * bonds the time of the arithmetic if that is longer. */
 static void find_limits(struct kernel_bench *b)
 {
     for (int k = 0; k < b->jobs; k++) {
@@ -319,7 +325,8 @@ static void find_limits(struct kernel_bench *b)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Times all kernels and targets, computes the limits, and prints and writes the results. */
+/* Times all kernels and targets, computes their limits, and prints and writes the results. quick: few repetitions.
+ * FAILED if a run or a file fails. */
 static status kernels_run(struct kernel_bench *b, bool quick)
 {
     TRY(bench_targets_memory(&b->targets));

@@ -35,8 +35,8 @@ struct scale_bench {
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* Resets the high-water mark of the memory of this process and returns its current memory [byte]; NAN if the system
- * does not allow this. */
+/* Resets the high-water mark of the memory of this process and returns the current memory [byte]; NAN if the system
+ * does not allow to reset it. */
 static double memory_from_here(void)
 {
 #ifdef __GLIBC__
@@ -48,7 +48,8 @@ static double memory_from_here(void)
     return fclose(f) == 0 && put ? (double)memory_peak() : NAN;
 }
 
-/* Returns true if the memory of the machine suffices for the most expensive method, with a frame being written. */
+/* Returns true if 0.7 of the memory of the machine suffice for a block of `particles` particles with the most expensive
+ * method, while a frame is being written. */
 static bool machine_holds(const struct bench_block *block, double particles)
 {
     const double each = block->dim == 2 ? 350 : 1000;
@@ -57,8 +58,8 @@ static bool machine_holds(const struct bench_block *block, double particles)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Runs a block that writes a frame every FRAME_EVERY steps, and stores the time for which each frame stops the loop
- * and the size of a frame per particle. */
+/* Runs a block that writes a frame every FRAME_EVERY steps. Stores in *r the time for which a frame stops the loop [s]
+ * and the size of a frame per particle [byte]. FAILED if the run fails. */
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;
@@ -86,8 +87,9 @@ static double output_share(const struct size_result *r) { return r->frame / (FRA
 
 /* ---- one size ---------------------------------------------------------------------------------------------------- */
 
-/* Measures set-up time, time per step and memory of a block of about `particles` particles. Steps are timed in PIECES
- * pieces, of which the fastest counts. visits: particles times steps of a piece. */
+/* Measures set-up time, time per step and memory of a block of about `particles` particles, and stores them in *r.
+ * Steps are timed in PIECES pieces, of which the fastest counts. visits: number of particles times steps of a piece.
+ * FAILED if a step fails. */
 static status time_size(struct size_result *r, const struct bench_block *block, double particles, double visits)
 {
     struct scene s;
@@ -110,7 +112,8 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the set-up time in units of steps of full peridynamics of the same size. */
+/* Returns the set-up time of a block in units of steps of full peridynamics on the same block. which: index of the
+ * block; size: index of its size. */
 static double setup_steps(const struct scale_bench *b, int which, int size)
 {
     int pd = which;
@@ -215,7 +218,8 @@ static void scale_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures a block at all sizes that the memory of the machine allows. quick: small sizes. */
+/* Measures block number `which` at all of the first `sizes` sizes that the memory of the machine allows, and prints the
+ * results. quick: small sizes. FAILED if a run fails. */
 static status measure_block(struct scale_bench *b, int which, int sizes, bool quick)
 {
     const struct bench_block *block = &bench_blocks[which];

@@ -51,7 +51,7 @@ struct targets_bench {
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the time of a loop without output [s]. */
+/* Returns the sum of the timers of a time loop without output [s]. */
 static double loop_of(const struct timers *l)
 {
     double sum = 0;
@@ -121,7 +121,7 @@ static status time_everything(struct targets_bench *b, int repetitions)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Appends a result, unless the list is full. */
+/* Appends a measured quantity with its target to the list, unless the list is full. */
 static void add_figure(struct targets *f, struct target_figure figure)
 {
     if (f->figures < SPEED_TARGETS_MAX) f->figure[f->figures++] = figure;
@@ -173,7 +173,8 @@ status bench_targets_speed(struct targets *f, bool quick)
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* Runs a scene for a short time as a separate process and returns its peak memory per particle [byte]. */
+/* Runs the scene of w for a short time as a separate process and stores its peak memory per particle in *peak [byte].
+ * FAILED if the run fails. */
 static status peak_per_particle(const struct target_run *w, double *peak)
 {
     static const char *const key[] = {"memory_peak_bytes", "particles"};
@@ -206,7 +207,7 @@ status bench_targets_memory(struct targets *f)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the ratio of measured value and limit meets the target. */
+/* Returns true if the ratio of measured value and limit meets the target of a quantity. */
 static bool met(const struct target_figure *a)
 {
     const double ratio = a->measured / a->limit;

@@ -13,7 +13,8 @@ static const char *const job_name[JOB_KINDS] = {
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints the measured limits of the machine. */
+/* Prints the measured limits of the machine: arithmetic of bonds, memory bandwidth, and plain transfers of material
+ * points. */
 static void print_limits(const struct limits *l)
 {
     printf("  limits of this machine, one thread\n");
@@ -76,7 +77,7 @@ static status kernels_draw_write_tables(const struct kernel_bench *b)
 
 /* ---- picture ----------------------------------------------------------------------------------------------------- */
 
-/* Writes a quoted label: the first word of `variant` in lower case, followed by `more`. */
+/* Writes a label in double quotes: the first word of `variant` in lower case, followed by `more`. */
 static void kernels_draw_put_label(FILE *to, const char *variant, const char *more)
 {
     fputc('"', to);
@@ -84,8 +85,8 @@ static void kernels_draw_put_label(FILE *to, const char *variant, const char *mo
     fprintf(to, "%s\"", more);
 }
 
-/* Sends the data blocks $bD (bond kernels, per bond) and $pD (transfers, one row per shape) for each dimension D
- * [ns]. */
+/* Sends two data blocks for each dimension D: $bD with the times of bond kernels per bond, $pD with the times of
+ * transfers per particle, one row per shape function [ns]. */
 static void send_data(FILE *to, const struct kernel_bench *b)
 {
     for (int d = 1; d <= DIM_MAX; d++) {
@@ -122,7 +123,7 @@ static void kernels_draw_set_panel(FILE *to, double left, double right, double b
             left, right, below, above);
 }
 
-/* Draws the measured values over their targets. */
+/* Draws bars of the measured quantities over their targets; 1 or less is met. */
 static void draw_speed_targets(FILE *to, const struct targets *f)
 {
     if (!f->figures) return;

@@ -55,8 +55,8 @@ struct field_bench {
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene of the plate or the part. A wave that enters the part through an absorbing face is caused by a load
- * of twice its stress. */
+/* Writes the scene of the whole plate or, if `part` is true, of the part between absorbing faces. A wave that enters
+ * the part through an absorbing face is caused by a load of twice its stress. FAILED if the file cannot be written. */
 static status field_scene_write(const struct field_bench *b, bool part)
 {
     const double high = part ? NEAR : HALF, wide = part ? WIDE : HALF;
@@ -78,8 +78,9 @@ static status field_scene_write(const struct field_bench *b, bool part)
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Reads size, memory, times and the curve of K from the results of a run. later: time by which its wave is shifted
- * [s]; processor: processor time that it received [s]. */
+/* Reads size, memory, times and the curve K_I(t) from the results of a run into *r. folder: of the run; later: time
+ * by which its wave is shifted [s]; processor: processor time that the run received [s]. FAILED if a file cannot be
+ * read. */
 static status field_read(struct field_row *r, const char *folder, double later, double processor)
 {
     struct history h = {0};
@@ -130,7 +131,7 @@ static status field_run(struct field_bench *b, int k)
 
 /* ---- differences ------------------------------------------------------------------------------------------------- */
 
-/* Returns K at a time between two samples, by linear interpolation. */
+/* Returns the stress-intensity factor of a run at time t [s], interpolated linearly between samples. */
 static double intensity_at(const struct field_row *r, double t)
 {
     int64_t k = 1;
@@ -138,8 +139,8 @@ static double intensity_at(const struct field_row *r, double t)
     return r->K[k - 1] + (r->K[k] - r->K[k - 1]) * (t - r->t[k - 1]) / (r->t[k] - r->t[k - 1]);
 }
 
-/* Returns the largest difference of K between a run and a direct run, over the largest K of the direct run. Compares
- * at the samples of the direct run that are within the time of the other. */
+/* Returns the largest difference of K_I between a run and a direct run, over the largest K_I of the direct run. It is
+ * evaluated at the samples of the direct run that are within the duration of the other run. */
 static double field_off(const struct field_row *r, const struct field_row *direct)
 {
     double most = 0;
@@ -151,7 +152,7 @@ static double field_off(const struct field_row *r, const struct field_row *direc
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of cells in the front of the pulse, half of its length. */
+/* Returns the number of cells in the front of the pulse, half of its length, for the largest cells of run k. */
 static double cells_in_front(const struct field_bench *b, int k)
 {
     return 0.5 * b->pulse * b->speed / (1e-3 * b->spacing * (2 << field_runs[k].levels));
@@ -181,7 +182,8 @@ static enum timer largest_timer(const struct field_row *r)
     return (enum timer)most;
 }
 
-/* Prints the fastest of the runs that are sufficiently close to a direct run, beside the goal. */
+/* Prints the fastest of the runs that are close enough to direct run number `direct`, and whether it reaches the
+ * required ratio of times. part: considers runs of the part between absorbing faces, else those of the whole plate. */
 static void field_print_aim(const struct field_bench *b, int direct, bool part)
 {
     int best = -1;
@@ -260,7 +262,8 @@ static void field_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Makes all runs and prints a row for each, with its differences from the direct runs. */
+/* Makes all runs, prints a row for each with its differences from the direct runs, and writes table and picture. FAILED
+ * if a run or a file fails. */
 static status field_measure(struct field_bench *b)
 {
     printf("  spacing %g mm, half plate of %.0f by %.0f spacings; pulse of %.0f spacings, its front %.0f; %d samples; "

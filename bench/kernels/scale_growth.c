@@ -62,7 +62,8 @@ struct growth_bench {
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of levels for which the largest cells are 2 mm. */
+/* Returns the number of levels of coarse cells with which the largest cells are 2 mm. spacing: of the particles
+ * [mm]. */
 static int levels_of(double spacing)
 {
     int levels = 0;
@@ -70,7 +71,8 @@ static int levels_of(double spacing)
     return levels;
 }
 
-/* Appends the overrides of a run. until: end of the run [us]; 0: that of the scene. */
+/* Appends the overrides of a run of the series s to *o. spacing [mm]; until: end of the run [us], 0: that of the
+ * scene. */
 static void growth_overrides(struct bench_overrides *o, const struct growth_series *s, double spacing, double until)
 {
     const double width = 3 * spacing;
@@ -132,8 +134,8 @@ static status growth_run(struct growth_row *r, const struct growth_series *s, do
     return ran;
 }
 
-/* Measures a run at a spacing [mm] and keeps the fastest; runs shorter than SHORT are repeated. quick: one run of the
- * first microseconds. FAILED if a run fails. */
+/* Measures a run of the series s at a spacing [mm] and stores the fastest in *least; runs shorter than SHORT are
+ * repeated. quick: one run of the first microseconds. FAILED if a run fails. */
 static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, bool quick)
 {
     const int repeated = quick ? 1 : REPEATED;
@@ -147,7 +149,8 @@ static status growth_time(struct growth_row *least, const struct growth_series *
 
 /* ---- exponents --------------------------------------------------------------------------------------------------- */
 
-/* Returns the slope of log2(y) over the number of halvings of the spacing, by least squares from row `first` on. */
+/* Returns the slope of log2(y) over the number of halvings of the spacing, by least squares over the rows first..n-1.
+ * y: returns the quantity number `which` of a row. */
 static double exponent_of(const struct growth_row *row, int first, int n, double (*y)(const struct growth_row *, int),
                           int which)
 {
@@ -174,8 +177,8 @@ static int rows_of(const struct growth_row *row)
     return n;
 }
 
-/* Computes the exponents, and the section of the step whose time exceeds most what the goal allows: its time in the
- * coarsest run, extrapolated with the required exponent. */
+/* Computes the exponents of cost of a series of runs, and the section of a step that exceeds its goal most. The goal
+ * for the finest run is the time of the section in the coarsest run, extrapolated with the required exponent. */
 static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, const struct growth_series *s)
 {
     const int n = rows_of(row);
@@ -197,7 +200,7 @@ static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, 
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints the header of the printed table. */
+/* Prints the header of the table of runs. */
 static void growth_print_header(void)
 {
     printf("  each run a process on one thread; largest cells 2 mm, time step %g us per mm of spacing, driven strip of "
@@ -269,7 +272,7 @@ static status growth_write_table(const struct growth_bench *b)
     return s;
 }
 
-/* Draws particles, megabytes and seconds over the spacing, a panel each. */
+/* Draws number of particles, memory and time over the spacing, a panel each. context: struct growth_bench. */
 static void growth_draw(FILE *to, const void *context)
 {
     static const char *const title[AIMS] = {"particles made", "peak memory [MB]", "loop [s]"};
@@ -299,8 +302,8 @@ static void growth_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures all series, prints a row for each spacing, and fits the exponents. finest: includes the finest
- * spacings. */
+/* Measures all series of runs, prints a row for each spacing, fits the exponents, and writes table and picture. quick:
+ * few and short runs; finest: includes the finest spacings. FAILED if a run or a file fails. */
 static status growth_measure(struct growth_bench *b, bool quick, bool finest)
 {
     bool any = false;

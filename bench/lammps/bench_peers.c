@@ -83,8 +83,8 @@ static bool peer_installed(void)
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene: uniform extension in x, slightly rotated so that no direction is special; no particles come into
- * contact. */
+/* Writes the scene of case c with `edge` particles along an edge: a uniform extension in x, slightly rotated so that no
+ * direction is special. No particles come into contact. */
 static void scene_text(FILE *to, const struct peer_case *c, int edge)
 {
     const double half = 0.5 * edge * SPACING, rate = c->breaking ? 3000 : 300, step = c->dim == 2 ? 4e-8 : 2e-8;
@@ -113,7 +113,7 @@ static void scene_text(FILE *to, const struct peer_case *c, int edge)
                 -0.0312 * edge * SPACING, 0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
 }
 
-/* Writes the scene to text[TEXT_ROOM]. */
+/* Writes the scene of case c into text[TEXT_ROOM]. edge: particles along an edge. FAILED without memory. */
 static status peer_scene_text(char *text, const struct peer_case *c, int edge)
 {
     FILE *to = fmemopen(text, TEXT_ROOM, "w");
@@ -132,8 +132,9 @@ static status peer_engine(struct run *e, struct scene *s, const struct peer_case
 
 /* ---- the input of LAMMPS ----------------------------------------------------------------------------------------- */
 
-/* Finds the bonds that the cracks cut, each pair once, assigns types to their particles and writes the exclusions.
- * Returns their number. */
+/* Finds the bonds that the cracks of run e cut, each pair of particles once, and returns their number. Stores in
+ * type[particles] a LAMMPS type of its own for each particle of such a bond, increments *types for each, and writes the
+ * exclusions of these pairs to the file `exclude`. */
 static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclude)
 {
     const struct particles *p = &e->part;
@@ -232,8 +233,8 @@ static status write_input(const struct run *e, const struct peer_case *c, int ed
 
 /* ---- both runs --------------------------------------------------------------------------------------------------- */
 
-/* Reads the positions and damages that LAMMPS dumped, in the order of ids, of n particles. FAILED if some are missing.
- */
+/* Reads positions and damage of n particles that LAMMPS has written, in the order of ids, into the arrays of s. FAILED
+ * if particles are missing. */
 static status peer_solution(struct solution *s, int64_t n)
 {
     char line[512];
@@ -306,7 +307,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints sizes, times and differences of a case. */
+/* Prints sizes, times and differences between Cleave and LAMMPS of a case. */
 static void print_result(const struct peer_case *c, const struct peer_result *r)
 {
     printf("  %-15s %s %8.5f %9.0f %10.0f %6.0f", c->name, c->law, c->reach, r->particles, r->bonds, r->cut);
@@ -320,8 +321,9 @@ static void print_result(const struct peer_case *c, const struct peer_result *r)
     fflush(stdout);
 }
 
-/* Measures bond_style bpm/peri where the installed LAMMPS has it, else derives its time from pair_style peri by the
- * ratios of its authors; prints a line for each timed case. */
+/* Measures the time of bond_style bpm/peri if the installed LAMMPS has it; else derives it from the time of pair_style
+ * peri by the ratios of its authors. Prints a line for each timed case. result[CASES]: results of the cases; quick:
+ * small cases. FAILED if a run fails. */
 static status bond_style_compare(struct peer_result *result, bool quick)
 {
     char text[TEXT_ROOM];

@@ -20,10 +20,10 @@ struct bar_result {
     double particles, steps, seconds; /* processor time of the fastest run [s] */
 };
 
-/* Runs a cylinder of copper that hits a plane of symmetry, for 80 us (quick: coarse, for 8 us), and keeps the shortest
- * processor time in *r, which other programs disturb least. yields: at 190 m/s, von Mises with linear hardening; else
- * elastic, at 19 m/s: at 190 m/s it would be stretched by 8 %, beyond what the current frame allows. Returns FAILED if
- * the run does. */
+/* Runs a cylinder of copper that hits a plane of symmetry for 80 us (quick: with coarse particles for 8 us). Keeps in
+ * *r the shortest processor time so far, which other programs disturb least. yields: at 190 m/s, von Mises with linear
+ * hardening. Otherwise the bar is elastic and has 19 m/s, since 190 m/s would stretch it by 8 %, beyond what the
+ * current frame allows. Returns FAILED if the run does. */
 static status bar_run(struct bar_result *r, bool yields, bool quick)
 {
     struct scene s;

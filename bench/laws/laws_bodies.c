@@ -8,14 +8,14 @@
 
 /* ---- bars that hit a wall ---------------------------------------------------------------------------------------- */
 
-/* Bar at rest: mean height of its uppermost layer and largest radius of its particles [m], largest plastic strain [1]
- * and temperature [K], error of the energy balance [1]. */
+/* State of a bar after it has hit a wall: mean height of its uppermost layer and largest radius of its particles [m],
+ * largest plastic strain [1] and temperature [K], error of the energy balance [1]. */
 struct bar_rest {
     double top, radius, strain, temperature, balance;
 };
 
-/* Runs the shipped scene `path` of a bar with the overrides o and linear or gimp shapes, and stores its state at the
- * end in *r. */
+/* Runs the scene `path` of a bar that hits a wall, with the overrides o, and stores its state at the end in *r. linear:
+ * linear shapes, else gimp. FAILED if a step fails. */
 static status bar_strike(struct bar_rest *r, const char *path, bool linear, struct bench_overrides *o)
 {
     struct run e;
@@ -78,9 +78,9 @@ status laws_bar_johnson_cook(const struct laws_case *c, double *found)
 #define YOUNG 200e9
 #define POISSON 0.3
 
-/* Runs load steps of a body of ideally plastic steel in the reference frame to the full load, and brings the stresses
- * of its particles up to date. text: the keys of the scene besides method, material and output. Release e and s with
- * bench_engine_free if the result is OK. */
+/* Runs load steps of a body of ideally plastic steel in the reference frame to the full load, and updates the stresses
+ * of its particles. text: the keys of the scene besides method, material and output. Returns FAILED if a load step
+ * does. Release e and s with bench_engine_free after OK only. */
 static status body_run(struct run *e, struct scene *s, const char *text)
 {
     char whole[2048];
@@ -145,9 +145,10 @@ status laws_beam(const struct laws_case *c, double *found)
     return OK;
 }
 
-/* Runs a hollow sphere (an octant) or a hollow cylinder (a quarter, in plane strain) of radii 10 and 20 mm under inner
- * pressure [Pa]. spacing: of the particles [m]. Stores the radius of the plastic zone over the inner radius in *front,
- * computed from the volume of the zone [1], and the mean displacement of the outer layer in *outer [m]. */
+/* Runs a hollow sphere (an octant) or a hollow cylinder (a quarter, in plane strain) of radii 10 and 20 mm under the
+ * inner pressure `pressure` [Pa]. spacing: of the particles [m]. Stores in *front the radius of the plastic zone over
+ * the inner radius, from the volume of the zone [1], and in *outer the mean displacement of the outer layer [m]. FAILED
+ * if a load step fails. */
 static status shell_run(bool sphere, double spacing, double pressure, double *front, double *outer)
 {
     struct run e;

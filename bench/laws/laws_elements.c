@@ -23,7 +23,8 @@ struct law laws_steel(enum flow flow)
     return laws_material(law, 200e9, 0.3, 200 * MPA, 7800);
 }
 
-/* Returns steel without isotropic hardening and with a back stress. modulus [Pa], recall [1]. */
+/* Returns a law of steel without isotropic hardening and with a back stress. modulus [Pa], recall [1]: C and gamma of
+ * the back stress. */
 static struct law steel_kinematic(real modulus, real recall)
 {
     struct law m = laws_steel(FLOW_LINEAR);
@@ -99,7 +100,8 @@ status laws_energy(const struct laws_case *c, double *found)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Loads a bar in `steps` equal steps from the strain *strain to the strain `to`. */
+/* Loads a bar in `steps` equal steps from the strain *strain to the strain `to`, and updates *strain. m: law; p: state
+ * of the bar. */
 static void bar_load(const struct law *m, struct law_points *p, real *strain, real to, int steps)
 {
     const real step[SYM_MAX] = {(to - *strain) / steps};
@@ -110,7 +112,8 @@ static void bar_load(const struct law *m, struct law_points *p, real *strain, re
     *strain = to;
 }
 
-/* Loads a bar in steps of 1e-6 until its stress is `to` [Pa]; the last step is shortened by bisection. */
+/* Loads a bar in strain steps of 1e-6 until its stress is `to` [Pa], and updates *strain. The last step is shortened by
+ * bisection. m: law; p: state of the bar. */
 static void bar_pull(const struct law *m, struct law_points *p, real *strain, real to)
 {
     const real sign = to > p->s[0][0] ? 1 : -1;
@@ -192,8 +195,9 @@ status laws_armstrong_frederick(const struct laws_case *c, double *found)
 
 /* ---- sheets and points ------------------------------------------------------------------------------------------- */
 
-/* Stretches a sheet in plane strain with a free face by steps of 1e-5 to the strain `at`: strains yy such that no
- * stress yy remains. Returns the largest stress xx without plastic strain [Pa]. */
+/* Stretches a sheet in plane strain with a free face by steps of 1e-5 to the strain `at` along xx. The strain yy
+ * follows from the condition that no stress yy remains. m: law; p: state of the sheet. Returns the largest stress xx
+ * without plastic strain [Pa]. */
 static real sheet_pull(const struct law *m, struct law_points *p, real at)
 {
     const real step = 1e-5;
@@ -227,8 +231,8 @@ status laws_plane_strain(const struct laws_case *c, double *found)
     return OK;
 }
 
-/* Stretches a point without change of volume at 1000/s, in steps of 1e-4, to the plastic strain `to`. Stores its
- * equivalent stress [Pa] and temperature [K] there, by interpolation. */
+/* Stretches a point without change of volume at a rate of 1000/s, in steps of 1e-4, to the plastic strain `to`. Stores
+ * its equivalent stress [Pa] and temperature [K] at this strain, by interpolation. m: law. */
 static void point_heat(const struct law *m, real to, real *stress, real *temperature)
 {
     const real step = 1e-4, strain[SYM_MAX] = {step, -0.5 * step, -0.5 * step};

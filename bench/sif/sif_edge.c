@@ -21,8 +21,8 @@ static const struct edge_model {
     [BOND] = {"bond", "bond", NULL, "1/3", "lw 2.4 pt 9 ps 1 lc rgb '#009e73'"},
 };
 
-/* Table 1 of the paper: K_I on rings of 30, 50, 70 spacings with 200 x 200 particles [MPa mm^0.5]. Table 2: seconds and
- * steps (i9-14900K). */
+/* Values of the paper on the modified ordinary state-based model (doi 10.1007/s11804-026-00791-z). Table 1: K_I on
+ * rings of 30, 50, 70 spacings with 200 x 200 particles [MPa mm^0.5]. Table 2: seconds and steps on an i9-14900K. */
 enum { PAPER_OSPD, PAPER_MOSPD, PAPERS };
 static const double paper_radius[EDGE_RINGS] = {30, 50, 70};
 static const double paper_ring[PAPERS][EDGE_RINGS] = {{12.015, 12.048, 12.101}, {11.867, 11.887, 11.935}};
@@ -48,7 +48,7 @@ static double speed_of(const struct edge_row *r) { return r->steps * r->side * r
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Prints the result of a run, beside the cost stated in the paper if there is any. */
+/* Prints the result of a run of the edge crack, beside the cost that the paper states for it, if there is one. */
 static void sif_edge_print_row(const struct edge_row *r)
 {
     const int paper = paper_of(r->model), side = paper_side(r->side);
@@ -78,8 +78,8 @@ static status sif_edge_take_row(void *row, const char *folder)
     return OK;
 }
 
-/* Adds probes with rings of 30, 50 and 70 spacings as in Table 1 of the paper, unless the largest ring does not fit
- * into the plate. side: particles along an edge. */
+/* Appends an override with probes on rings of 30, 50 and 70 spacings, as in Table 1 of the paper, unless the largest
+ * ring does not fit into the plate. side: number of particles along an edge. */
 static void override_probes(struct bench_overrides *o, int side)
 {
     if (paper_radius[EDGE_RINGS - 1] * width / side > 0.4 * width) return;
@@ -133,7 +133,7 @@ static void print_rings(const struct edge_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Fills a table with all runs. */
+/* Fills a table with all runs of the edge crack. */
 static void fill(struct bench_table *rows, const struct edge_table *t)
 {
     bench_table_make(rows, "",
@@ -186,7 +186,7 @@ static void panel(FILE *to, int column, const char *title)
             left, left + 0.28, title, left + 0.29);
 }
 
-/* Plots column `y` over the spacing, one line per model. */
+/* Plots column `y` of the data of the edge crack over the spacing, one line per model. t is not used. */
 static void plot_models(FILE *to, const struct edge_table *t, const char *y)
 {
     for (int m = 0; m < MODELS; m++)
@@ -244,7 +244,8 @@ static status sif_edge_write_tables(const struct edge_table *t)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Adds the goals for the runs with at least 100 particles along an edge. */
+/* Adds the goals for the edge crack: largest deviations of K_I for the runs with at least 100 particles along an
+ * edge. */
 static void sif_edge_ask(struct bench_goals *asked, const struct edge_table *t)
 {
     for (int k = 0; k < t->n; k++) {

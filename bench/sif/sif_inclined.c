@@ -7,8 +7,9 @@
 
 enum { INCLINED_MODES = 2, INCLINED_ANGLES = 5 };
 
-/* Factors over sigma (pi a)^0.5: from collocation, and from Table 3 with its misprints corrected (0.948 at 30 degrees
- * is 0.984 with exchanged digits, 1.666 at 45 degrees is 0.666). */
+/* Exact factors K_I, K_II over sigma (pi a)^(1/2) by the angle of the crack [degree]: from collocation, and from Table
+ * 3 of the paper on the modified ordinary state-based model, with its misprints corrected (0.948 at 30 degrees is 0.984
+ * with exchanged digits, 1.666 at 45 degrees is 0.666). */
 static const struct inclined_case {
     int angle;
     double exact[INCLINED_MODES], paper_ospd[INCLINED_MODES], paper_mospd[INCLINED_MODES];
@@ -34,7 +35,8 @@ struct inclined_table {
     struct inclined_row row[INCLINED_ANGLES * VARIANTS];
 };
 
-/* Returns the deviation of a factor relative to the magnitude of both. */
+/* Returns the deviation of the factor F[mode] from the exact one, relative to the magnitude of both exact factors
+ * [1]. */
 static double sif_inclined_off(const struct inclined_case *c, const double F[INCLINED_MODES], int mode)
 {
     return (F[mode] - c->exact[mode]) / hypot(c->exact[0], c->exact[1]);
@@ -58,8 +60,8 @@ static status sif_inclined_take_row(void *row, const char *folder)
     return OK;
 }
 
-/* Runs the inclined crack of a case, of half length 3 mm around (10, 5) mm, with variant v and a probe at its upper
- * tip, and appends the result to the table. quick: coarse spacing. */
+/* Runs the inclined crack of case c, of half length 3 mm around the point (10, 5) mm, with variant v and a probe at its
+ * upper tip, and appends the result to the table. quick: coarse spacing. FAILED if the run fails. */
 static status inclined_add(struct inclined_table *t, const struct inclined_case *c, int v, bool quick)
 {
     const double phi = c->angle * 3.14159265358979 / 180, x = 3 * sin(phi), y = 3 * cos(phi);
@@ -78,7 +80,8 @@ static status inclined_add(struct inclined_table *t, const struct inclined_case 
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Draws the deviations of K_I and K_II over the angle of the crack, with those of the paper. */
+/* Draws the deviations of K_I and K_II from collocation over the angle of the crack, with those of the paper. context:
+ * struct inclined_table. */
 static void sif_inclined_draw(FILE *to, const void *context)
 {
     const struct inclined_table *t = context;

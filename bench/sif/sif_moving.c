@@ -92,8 +92,8 @@ struct moving_table {
 
 /* ---- the closed form --------------------------------------------------------------------------------------------- */
 
-/* Computes the material constants and the speed factors k(v) of the closed form. FAILED or REFUSED if the scene
- * cannot be read. */
+/* Computes the material constants and the speed factors k(v), K(v) = k(v) K(0), of Freund's closed form: exact, and as
+ * printed in the paper. FAILED or REFUSED if the scene cannot be read. */
 static status closed_form(struct moving_table *t)
 {
     struct scene s = {0};
@@ -112,7 +112,7 @@ static double sif_moving_at_rest(const struct moving_table *t, double time)
 
 /* ---- ripple ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the ripple of n points y(x): the root-mean-square deviation from the parabola fitted to them, over their
+/* Returns the ripple of n points y(x): their root-mean-square deviation from the parabola fitted to them, over their
  * mean. */
 static double ripple_of(const double *x, const double *y, int n)
 {
@@ -135,7 +135,8 @@ static double ripple_of(const double *x, const double *y, int n)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Reads K_I over time from the history of a run: from the probe and from the sum over the disc. */
+/* Reads K_I over time from the history of a run into *r: of the probe, and of the sum over the disc. FAILED if it
+ * cannot be read. folder: of the run. */
 static status read_curves(struct moving_row *r, const char *folder)
 {
     struct history h = {0};
@@ -189,8 +190,8 @@ static struct bench_job job_of(struct moving_row *r, const struct moving_case *c
     return job;
 }
 
-/* Runs as many simulations in parallel as there are threads, each on one thread, so that times are those of one
- * thread. */
+/* Makes all runs, as many at a time as there are threads, each on one thread, so that times are those of one thread.
+ * quick: only the first QUICK cases. FAILED if a run fails. */
 static status sif_moving_run_all(struct moving_table *t, bool quick)
 {
     struct bench_job job[CASES];
@@ -202,7 +203,7 @@ static status sif_moving_run_all(struct moving_table *t, bool quick)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Fills a table with the curves of all runs and the exact values. */
+/* Fills a table with K_I over time of all runs, and with the exact values at the same times. */
 static void fill_curves(struct bench_table *rows, const struct moving_table *t)
 {
     bench_table_make(rows, "curves", "name,time,K_I,K_I_disc,K_I_exact,K_I_printed");
@@ -246,7 +247,8 @@ static bool is_sudden(const struct moving_case *c)
     return false;
 }
 
-/* Sends K over sigma (pi a)^0.5 with a = 12 mm, as in the paper; sigma is the stress on the crack plane. */
+/* Sends K_I over sigma (pi a)^(1/2) with a = 12 mm, as in the paper, for all runs of some figures, and the exact
+ * curves. sigma: stress on the crack plane; groups: figures of the paper, as bits. */
 static void put_curves(FILE *to, const struct moving_table *t, int groups)
 {
     const double size = stress * sqrt(3.14159265358979 * 12e-3);
@@ -268,14 +270,16 @@ static void put_curves(FILE *to, const struct moving_table *t, int groups)
 
 static bool release_methods(int groups) { return groups == LENGTH || groups == EXPONENT; }
 
-/* Returns true if a case is drawn in a column of the picture. If release methods are compared, both columns show all
- * cases; else column 2 has those with immediate release, column 1 the others. */
+/* Returns true if case c is drawn in a panel for the figures `groups` of the paper. If release methods are compared,
+ * both panels (column 1 and 2) show all cases; else panel 2 has the cases with immediate release and panel 1 the
+ * others. */
 static bool is_shown(const struct moving_case *c, int groups, int column)
 {
     return (c->groups & groups) && (release_methods(groups) || is_sudden(c) == (column == 2));
 }
 
-/* Draws a panel. Column 1, above: factor of the probe; 2, below: sum over the whole disc, as in the paper. */
+/* Draws one of two panels. column 1, above: factor of the probe; column 2, below: factor of the sum over the whole
+ * disc, as in the paper. groups: figures of the paper; what: title. */
 static void sif_moving_draw_panel(FILE *to, const struct moving_table *t, int groups, int column, const char *what)
 {
     const double above = column < 2 ? 0.93 : 0.45;
@@ -328,11 +332,11 @@ static status draw_groups(const struct moving_table *t)
 
 /* ---- targets ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest relative deviation of K from the exact value. */
+/* Returns the largest relative deviation of K_I from the exact value in a run [1]. */
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 
-/* Adds the goals. Those for moving cracks apply to spacings of 0.25 mm and less. Bonds that are released over a whole
- * horizon delay the start of the crack. */
+/* Adds the goals for stationary and moving cracks. Those for moving cracks apply to spacings of 0.25 mm and less. A
+ * release of bonds over a whole horizon has a goal of its own, as it delays the start of the crack. */
 static void sif_moving_ask(struct bench_goals *asked, const struct moving_table *t)
 {
     double worst = 0, slow = 0;

@@ -18,8 +18,8 @@ struct path_row {
     double found, expected, apart; /* angles found and expected, and their difference [degree] */
 };
 
-/* Finds the next line, from line *from on, in which the farthest crack tip has moved from place[], and stores its new
- * position there [m]. Returns false if there is none. */
+/* Finds the next row of the history, from row *from on, in which the farthest crack tip has moved from place[2] [m].
+ * Stores its new position in place[2] and the row in *from. Returns false if there is none. */
 static bool path_next(const struct history *h, int64_t *from, double place[2])
 {
     const int x = history_find_column(h, "path_x"), y = history_find_column(h, "path_y");
@@ -33,15 +33,16 @@ static bool path_next(const struct history *h, int64_t *from, double place[2])
 
 /* ---- kinks ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the initial position of the tip [m]. */
+/* Stores the initial position of the crack tip in place[2] [m]. */
 static void path_start(const struct history *h, double place[2])
 {
     place[0] = history_at(h, 1, history_find_column(h, "path_x"));
     place[1] = history_at(h, 1, history_find_column(h, "path_y"));
 }
 
-/* Reads the first kink of an inclined crack and compares its angle with the direction of the largest hoop stress. In
- * a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is long, within 1 %. */
+/* Reads the first kink of an inclined crack from the results of a run and compares its angle with the direction of the
+ * largest hoop stress. In a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is long,
+ * within 1 %. row: struct path_row; folder: of the run. FAILED if the history cannot be read. */
 static status kink_take(void *row, const char *folder)
 {
     struct path_row *r = row;
@@ -65,7 +66,7 @@ static status kink_take(void *row, const char *folder)
     return OK;
 }
 
-/* Adds a row to the table and updates the largest deviation. */
+/* Adds a row to the table, and sets *worst to the deviation of r if it is larger or NAN. */
 static void path_put(struct bench_table *t, const char *name, const struct path_row *r, double *worst)
 {
     bench_text(t, name);
@@ -98,8 +99,9 @@ static status kinks(struct bench_table *t, struct bench_goals *asked, bool quick
 
 /* ---- eccentric notch of a beam ----------------------------------------------------------------------------------- */
 
-/* Reads the path of a crack in a beam and keeps the largest difference between the angle of its chord and the
- * finite-element results, up to the length of these results. The chord begins at the initial tip. */
+/* Reads the path of a crack in a beam from the results of a run. Keeps the largest difference between the angle of its
+ * chord, which begins at the initial tip, and the finite-element results, up to the largest length of these results.
+ * row: struct path_row; folder: of the run. FAILED if the history cannot be read. */
 static status bend_take(void *row, const char *folder)
 {
     struct path_row *r = row;

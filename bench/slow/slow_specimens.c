@@ -82,14 +82,15 @@ struct slow_table {
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the crack length up to which loads are compared [m]; INFINITY for double cantilevers. */
+/* Returns the crack length up to which loads of a case are compared with the formulas [m]; INFINITY for double
+ * cantilevers. */
 static double longest_crack(const struct slow_case *c)
 {
     return c->specimen.kind == DOUBLE_CANTILEVER ? INFINITY : long_crack * c->specimen.width;
 }
 
-/* Returns the load over the reference load of a double cantilever with the same opening. Reference load and opening
- * follow from each other through the crack length. */
+/* Returns a measured load over the load of a double cantilever with the same opening, by beam theory. load [N], opening
+ * [m]: of the run. Reference load and opening follow from each other through the crack length. */
 static double cantilever_at_opening(const struct specimen *s, double load, double opening)
 {
     const double unit = specimen_load(s, 0) * 0.673 * s->width; /* load times (a + 0.673 h) */
@@ -97,8 +98,8 @@ static double cantilever_at_opening(const struct specimen *s, double load, doubl
     return load / (unit / sqrt(squared));
 }
 
-/* Returns the distance of the load from the end of the specimen [m]: half a spacing for a double cantilever, which is
- * loaded on its first column of particles, 0 for others. */
+/* Returns the distance of the load from the end of the specimen of a run [m]: half a spacing for a double cantilever,
+ * which is loaded on its first column of particles, else 0. */
 static double load_offset(const struct slow_row *r)
 {
     return r->of->specimen.kind == DOUBLE_CANTILEVER ? 0.5 * r->of->spacing / r->fine : 0;
@@ -172,7 +173,7 @@ static status slow_add(struct slow_table *t, int of, int model, double fine)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the results of all runs as a table. */
+/* Writes the results of all specimens as the table slow_specimens.csv. FAILED if it cannot be written. */
 static status slow_rows_write(const struct slow_table *t)
 {
     struct bench_table rows;
@@ -191,8 +192,8 @@ static status slow_rows_write(const struct slow_table *t)
     return s;
 }
 
-/* Draws loads over crack lengths, with lines for the reference. Crack lengths of double cantilevers are over the arm
- * height h instead of the width. */
+/* Draws load over crack length for all specimens, with lines for linear elastic fracture mechanics. Crack lengths of
+ * double cantilevers are over the arm height instead of the width. context: struct slow_table. */
 static void slow_curves_draw(FILE *to, const void *context)
 {
     const struct slow_table *t = context;
@@ -228,7 +229,7 @@ static void slow_curves_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Adds the goals for a run: its errors are within 3 %. */
+/* Adds the goals for the run of a specimen: each of its errors is within 3 %. */
 static void slow_ask(struct bench_goals *asked, const struct slow_row *r)
 {
     const char *name = r->of->name, *model = slow_model[r->model];

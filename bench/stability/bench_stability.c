@@ -21,8 +21,8 @@ static bool outside(const struct stability_row *r)
     return !(share >= STABILITY_LEAST && share <= STABILITY_MOST);
 }
 
-/* Prints the result of a case: on standard output if it differs from the prediction, on standard error if not, as
- * progress only. */
+/* Prints the limits of a case. The line goes to standard output if they differ from the prediction, and otherwise to
+ * standard error, where it only shows progress. */
 static void stability_print_row(const struct stability_row *r)
 {
     static const char *const run[] = {"", "stays", "grows"};
@@ -71,7 +71,7 @@ static status stability_measure(void *context, const struct stability_case *c)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Fills a table with all cases, their limits and the outcome of their runs. */
+/* Fills a table with all cases of the map, their limits and the outcome of their runs. */
 static void stability_put_table(struct bench_table *t, const struct stability_map *map)
 {
     static const char *const run[] = {"", "stays", "grows"};

@@ -34,8 +34,8 @@ static bool of_group(const struct bench_table *t, int64_t row, int g)
     return !strcmp(energy_drift_draw_text_of(t, row, GROUP), drift_group_name[g]);
 }
 
-/* Returns a growth rate on a logarithmic scale: the number of decades above LEAST_RATE, with the sign of the rate.
- * Rates that are not finite become the largest one. */
+/* Returns a growth rate per step on a logarithmic scale: the number of decades above LEAST_RATE, with the sign of the
+ * rate. Rates that are not finite are drawn as the largest one, MOST_RATE. */
 static double decades(double rate)
 {
     if (!isfinite(rate)) return log10(MOST_RATE / LEAST_RATE);
@@ -43,7 +43,7 @@ static double decades(double rate)
 }
 
 /* Sends the cases of group g as data blocks, one each for cases that hold, fail and have stopped. at: position of the
- * first case; returns the position of the next group. */
+ * first case on the axis. Returns the position of the next group. */
 static int put_group(FILE *to, const struct bench_table *t, int g, int at)
 {
     static const char *const verdict[] = {"holds", "fails", "stopped"};
@@ -102,7 +102,7 @@ static void energy_drift_draw_put_label(FILE *to, const char *text, double x, do
     fprintf(to, " at screen %g,%g %s\n", x, y, style);
 }
 
-/* Sends a line for each named scene. */
+/* Draws a line of text for each named scene with its largest change of energy, growth rate and verdict. */
 static void put_named(FILE *to, const struct bench_table *t)
 {
     double y = 0.94;

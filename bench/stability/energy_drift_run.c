@@ -19,7 +19,8 @@ enum { SAMPLES = 400 };
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* A mass that moves independently: a particle that is not part of a mesh, or a node. */
+/* A mass that moves independently: a particle that is not part of a mesh, or a node of the mesh. m: mass [kg]; x:
+ * position [m]; v[d]: pointer to component d of its velocity [m/s]. */
 struct mover {
     real m, x[DIM_MAX], *v[DIM_MAX];
 };
@@ -49,11 +50,11 @@ static struct mover mover_at(const struct run *e, int64_t k)
 
 static int turns_of(int dim) { return dim * (dim - 1) / 2; }
 
-/* Returns the axes of the plane of rotation t = 0, 1, 2: xy, yz, zx. */
+/* Stores the axes a and b of the plane of rotation number t = 0, 1, 2 (xy, yz, zx). */
 static void turn_axes(int t, int *a, int *b) { *a = t, *b = (t + 1) % DIM_MAX; }
 
-/* Computes the angular momentum about `centre`, L[DIM_MAX], one entry per plane of rotation (turn_axes), and the sum
- * of m |x - centre| |v| as its scale. */
+/* Computes the angular momentum L[DIM_MAX] of all masses about `centre` [m], one entry per plane of rotation
+ * (turn_axes), and as its scale *size, the sum of m |x - centre| |v| [kg m^2/s]. */
 static void angular_momentum(const struct run *e, const real *centre, real *L, real *size)
 {
     for (int t = 0; t < DIM_MAX; t++) L[t] = 0;
@@ -84,8 +85,8 @@ static void centre_of(const struct run *e, real *centre)
     for (int d = 0; d < e->part.dim; d++) centre[d] /= mass;
 }
 
-/* Removes the mean rotation of a body about `centre` from the velocities, because small-strain laws change the energy
- * of rotating bodies. Exact only for bodies with the symmetry of those in this bench. */
+/* Removes the mean rotation of a body about `centre` [m] from its velocities, because small-strain laws change the
+ * energy of rotating bodies. Exact only for bodies with the symmetry of those in this bench. */
 static void stop_turning(struct run *e, const real *centre)
 {
     real L[DIM_MAX], size, inertia[DIM_MAX] = {0};
@@ -105,7 +106,8 @@ static void stop_turning(struct run *e, const real *centre)
         }
 }
 
-/* Sets random velocities with little mean translation and rotation. */
+/* Sets random velocities of all masses with zero mean translation and rotation about `centre` [m]. They are up to LOUD
+ * wave speeds before the means are removed. */
 static void energy_drift_run_shake(struct run *e, const real *centre)
 {
     uint64_t seed = 1;
@@ -153,8 +155,9 @@ static void earlier_take(struct earlier *b, const struct run *e)
     }
 }
 
-/* Returns the sum of 1/2 m v_before . v_after over a step, and stores the sum of 1/2 m v_after^2 in *after. Leap-frog
- * integration conserves the first one together with the energy of positions. */
+/* Returns the sum of 1/2 m v_before . v_after over all masses for the last step [J], and stores the sum of 1/2 m
+ * v_after^2 in *after. b: velocities before the step. Leap-frog integration conserves the first sum together with the
+ * energy of positions. */
 static real kinetic_between(const struct earlier *b, const struct run *e, real *after)
 {
     real sum = 0;
@@ -172,7 +175,8 @@ static real kinetic_between(const struct earlier *b, const struct run *e, real *
 
 /* ---- the run ----------------------------------------------------------------------------------------------------- */
 
-/* Creates the run of a case with `steps` automatic time steps and evenly spaced samples. */
+/* Creates the run of the case l with `steps` automatic time steps and SAMPLES evenly spaced samples. REFUSED or FAILED
+ * if the scene is invalid. Release with bench_engine_free. */
 static status energy_drift_body_make(struct run *e, struct scene *s, const struct drift_case *l, int64_t steps)
 {
     struct bench_overrides o = {0};
@@ -188,8 +192,8 @@ static status energy_drift_body_make(struct run *e, struct scene *s, const struc
     return bench_engine_make(e, s, "body", text, bench_overrides_ready(&o), o.n);
 }
 
-/* Energies at the samples. energy: conserved by stable steps; plain: computed with the velocities after the step; work:
- * of loads. */
+/* Energies at the samples of a run [J] over the step number. energy: conserved by stable steps; plain: computed with
+ * the velocities after the step; work: work of loads. */
 struct course {
     int n;
     double step[SAMPLES + 8], energy[SAMPLES + 8], plain[SAMPLES + 8], work[SAMPLES + 8];
@@ -207,8 +211,8 @@ static void course_add(struct course *c, const struct run *e, const struct earli
     c->work[c->n++] = now->external_work;
 }
 
-/* Returns the growth rate of the energy per step: slope of its logarithm over the second half of the samples, by
- * least squares; NAN for too few samples. */
+/* Returns the growth rate of energy[c->n] per step: the slope of its logarithm over the second half of the samples of
+ * the run c, by least squares. Returns NAN for too few samples. */
 static double rate_of(const struct course *c, const double *energy)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -237,8 +241,8 @@ static void judge(const struct course *c, struct lasting *to)
     to->rate = rate_of(c, to->loudest > LASTING_LOUDEST ? c->plain : c->energy);
 }
 
-/* Returns true if angular momentum must be conserved: the body has no boundary conditions, is not one-dimensional,
- * and has no cells with a small-strain law, which do not describe rotations. */
+/* Returns true if a run must conserve angular momentum: the body has no boundary conditions, is not one-dimensional,
+ * and has no cells with a small-strain law, which does not describe rotations. */
 static bool energy_drift_run_is_free(const struct run *e)
 {
     return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->frame->mesh.points > 0 && e->scene->small_strain);

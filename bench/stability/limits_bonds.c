@@ -7,9 +7,9 @@
 
 /* ---- single particles -------------------------------------------------------------------------------------------- */
 
-/* Runs a plate from which a corner particle is torn off. Returns in to[0] 1 if the particle does not fly away, in
- * to[1] the momentum error, in to[2] the energy error. At the time step of 0.2 of the critical one, breaking leaves
- * an energy error of some percent. */
+/* Runs a plate from which a corner particle is torn off. to[0]: 1 if the particle does not fly away, else 0; to[1]:
+ * momentum error; to[2]: energy error. With a time step of 0.2 of the critical one, breaking bonds leave an energy
+ * error of some percent. FAILED if a step fails. */
 static status single(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -56,7 +56,7 @@ const struct limits_scene limits_single = {
 
 /* ---- compression beyond inversion -------------------------------------------------------------------------------- */
 
-/* Returns the number of neighbours along x whose order has reversed. */
+/* Returns the number of pairs of consecutive particles along x whose order has reversed. */
 static int inverted(const struct particles *p)
 {
     int pairs = 0;
@@ -64,8 +64,8 @@ static int inverted(const struct particles *p)
     return pairs;
 }
 
-/* Runs two halves of a plate that collide at +-r->given times the wave speed of a bar. Returns the number of inverted
- * neighbours in to[0] and the energy error in to[1]. */
+/* Runs two halves of a plate that collide at +-r->given times the wave speed of a bar. to[0]: number of neighbours
+ * whose order has reversed; to[1]: energy error. FAILED if a step fails. */
 static status inversion(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -116,7 +116,7 @@ const struct limits_scene limits_inversion = {"compression past inversion",
 
 /* ---- crack faces that close -------------------------------------------------------------------------------------- */
 
-/* Returns the largest overlap of the columns beside the crack [spacings]. */
+/* Returns the largest overlap of the two columns of particles beside the crack [spacings]. */
 static double overlap(const struct run *e)
 {
     const struct particles *p = &e->part;
@@ -131,8 +131,8 @@ static double overlap(const struct run *e)
     return left - right + 1;
 }
 
-/* Runs two halves of a cut plate that collide at +-0.04 of the wave speed. Returns the largest overlap of the crack
- * faces [spacings] in to[0], and in to[1] the share of their momentum that the halves keep. */
+/* Runs two halves of a cut plate that collide at +-0.04 of the wave speed. to[0]: largest overlap of the crack faces
+ * [spacings]; to[1]: share of their momentum that the halves keep. FAILED if a step fails. */
 static status closing(const struct limits_row *r, double *to)
 {
     struct run e;

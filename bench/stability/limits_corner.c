@@ -14,9 +14,10 @@
 #define WIDTH 32e-3
 #define SPEED 0.1
 
-/* Runs the wave past the corner. Returns in to[0] the largest transverse velocity over the velocity of the wave,
- * INFINITY if no particle is converted in an adaptive run, in to[1] the energy error and in to[2] the momentum error.
- * r->given: end of the initial bonds along y [mm]; at 40 the interface is flat. */
+/* Runs a plane wave past the corner of an interface between bonds and material points. r->given: end of the initial
+ * bonds along y [mm]; at 40 the interface is flat. to[0]: largest transverse velocity over the velocity of the wave,
+ * INFINITY if an adaptive run converts no particle; to[1]: energy error; to[2]: momentum error. FAILED if a step
+ * fails. */
 static status corner(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -46,9 +47,9 @@ static status corner(const struct limits_row *r, double *to)
 #define ADAPTIVE(...) .set = {"method", "adaptive", __VA_ARGS__}
 #define APIC "mpm.transfer", "apic"
 #define HANDSHAKE "coupling", "handshake"
-/* Rows. In the reference frame the energy is constant to 1e-8. The 1.1 and 1.4 % are between the sample at t = 0, with
- * the prescribed velocities, and all others, whose kinetic energy is that conserved by leap-frog integration, smaller
- * by a quarter of a velocity increment. */
+/* Methods and their expected results. In the reference frame the energy is constant to 1e-8. The errors of 1.1 and 1.4
+ * % are between the sample at t = 0, which has the prescribed velocities, and all others, whose kinetic energy is that
+ * conserved by leap-frog integration, smaller by a quarter of a velocity increment. */
 #define CALM "partial stress with apic or frame: reference"
 static const struct limits_row corners[] = {
     {.method = "partial stress, flip, no corner",

@@ -7,8 +7,8 @@
 #include "limits_scenes.h"
 #include "probes/diagnostics.h"
 
-/* A transformation: x' = scale (x, y), with exchanged axes if `turned` and reversed x if `mirrored`. listed: particles
- * from a list, in the order of the lattice (1) or permuted (2). */
+/* A transformation of the plate: x' = scale (x, y), with exchanged axes if `turned` and reversed x if `mirrored`.
+ * listed: the particles are from a list, in the order of the lattice (1) or permuted (2); 0: from a box. */
 struct twin {
     double scale;
     bool mirrored, turned;
@@ -35,8 +35,8 @@ static void limits_invariance_put_box(FILE *to, const struct twin *t, double x0,
 enum { PLATE_X = 38, PLATE_Y = 26 };
 static bool in_hole(double x, double y) { return hypot(x - 9, y - 5) <= 3.3; }
 
-/* Writes the particles of the plate as a list, without those in the hole; for t->listed = 2 in a permuted order that
- * is unrelated to positions. */
+/* Writes the particles of the transformed plate as a list, without those in the hole. For t->listed = 2 their order is
+ * permuted in a manner unrelated to positions. */
 static void put_list(FILE *to, const struct twin *t)
 {
     const double mm = 1e-3 * t->scale;
@@ -92,8 +92,8 @@ static void put_loads(FILE *to, const struct twin *t)
     fprintf(to, ", width: %.17g, velocity: 3}}\n", 12 * mm);
 }
 
-/* Writes the scene: a notched plate with a hole and without symmetry, under tension at two faces while a pulse crosses
- * it. */
+/* Writes the scene of the transformed plate t with the method of row r: a notched plate with a hole and without
+ * symmetry, under tension at two faces while a pulse crosses it. list: file of the list of particles. */
 static void put_plate(FILE *to, const struct twin *t, const struct limits_row *r, const char *list)
 {
     const double mm = 1e-3 * t->scale;
@@ -124,7 +124,8 @@ static status plate_run(struct run *e, struct scene *s, const struct twin *t, co
     return engine_run(e);
 }
 
-/* Returns the index of the particle of the transformed scene that corresponds to particle i; -1: none. */
+/* Returns the index of the particle of the transformed scene, with particles q, that corresponds to particle i of p; -1
+ * if there is none. */
 static int64_t twin_of(const struct particles *p, int64_t i, const struct particles *q, const struct twin *t)
 {
     const double x = t->scale * (t->mirrored ? -p->X[0][i] : p->X[0][i]), y = t->scale * p->X[1][i];
@@ -133,8 +134,8 @@ static int64_t twin_of(const struct particles *p, int64_t i, const struct partic
     return -1;
 }
 
-/* Returns the largest difference of velocities and of displacements over the largest values; infinite if bonds broke,
- * particles are missing or nothing moves. */
+/* Returns the largest difference of velocities and of displacements between the runs a and b, each over its largest
+ * value. t: transformation of b. Returns INFINITY if bonds broke, particles are missing or nothing moves. */
 static double difference(const struct run *a, const struct run *b, const struct twin *t)
 {
     double speed = 0, shift = 0, most_speed = 0, most_shift = 0;
@@ -178,8 +179,8 @@ static const struct twin plate[] = {{.scale = 1},
                                     {.scale = 1, .listed = 2}};
 enum { ITSELF, LARGER, MIRRORED, TURNED, ALL_OF_IT, LISTED, SHUFFLED };
 
-/* Returns in *to the difference between the results of the plate and of a transformed plate. r->given: index of the
- * transformation. */
+/* Stores in *to the difference between the results of the plate and of a transformed plate. r->given: index of the
+ * transformation. REFUSED or FAILED if a run is. */
 static status twins(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[ITSELF], &plate[(int)r->given], r, to);
@@ -202,8 +203,8 @@ static const struct limits_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adapt
 const struct limits_scene limits_twins = {
     "twins of a plate", NULL, {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
 
-/* Returns in *to the difference of results between a list of particles and its permutation. Particles are sorted by
- * position, so that it must be exactly 0. */
+/* Stores in *to the difference between the results for a list of particles and for its permutation. Particles are
+ * sorted by position, so that the difference must be exactly 0. REFUSED or FAILED if a run is. */
 static status renumbered(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[LISTED], &plate[SHUFFLED], r, to);

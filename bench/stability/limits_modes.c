@@ -10,8 +10,8 @@ struct matrix {
     real *at;
 };
 
-/* Returns the stiffness matrix of a body, divided by the square roots of the masses, from finite differences of the
- * forces, column by column, and made symmetric. The caller frees m.at. */
+/* Returns the matrix M^(-1/2) K M^(-1/2) of a body of bonds, with stiffness K and masses M. It is computed from finite
+ * differences of the forces, column by column, and made symmetric. The caller releases m.at with memory_free. */
 static struct matrix matrix_of(struct run *e)
 {
     struct bond_operator body = bond_operator_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
@@ -31,7 +31,8 @@ static struct matrix matrix_of(struct run *e)
     return m;
 }
 
-/* Returns the number of eigenvalues below x: the negative pivots of A - x I (Sylvester 1852). */
+/* Returns the number of eigenvalues of a matrix A below x: the number of negative pivots of A - x I (Sylvester
+ * 1852). */
 static int64_t limits_modes_below(const struct matrix *m, real x)
 {
     const int64_t n = m->n;
@@ -64,7 +65,7 @@ static real eigenvalue(const struct matrix *m, int64_t lower, real high)
     return high;
 }
 
-/* Returns an upper bound of the eigenvalues: the largest absolute row sum (Gershgorin). */
+/* Returns an upper bound of the eigenvalues of a matrix: its largest absolute row sum (Gershgorin). */
 static real bound(const struct matrix *m)
 {
     real most = 0;
@@ -92,7 +93,8 @@ static status square_make(struct run *e, struct scene *s, const struct limits_ro
 
 /* ---- zero-energy modes ------------------------------------------------------------------------------------------- */
 
-/* Returns in *to the number of zero-energy modes of a free square beyond its rigid motions. */
+/* Stores in *to the number of zero-energy modes of a free square beyond its three rigid motions. FAILED if the run
+ * cannot be created. */
 static status modes(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -24,8 +24,8 @@ static struct turning turning_of(const struct particles *p)
     return t;
 }
 
-/* Runs a rotating body to the end of its scene. Returns in to[0] the largest shear stress [MPa], of material points
- * only if there are any, and in to[1] and to[2] the relative changes of angular momentum and kinetic energy. */
+/* Runs a rotating body to the end of its scene. to[0]: largest shear stress [MPa], of material points only if there are
+ * any; to[1], to[2]: relative changes of angular momentum and of kinetic energy. FAILED if a step fails. */
 static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
@@ -45,8 +45,8 @@ static status limits_motion_turn(struct run *e, double *to)
         {"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, { "change of kinetic energy", threshold }    \
     }
 
-/* Runs a rotating square whose corners move at r->given m/s, a tenth of a revolution at 10 m/s and a whole one at 100
- * m/s. to[3]: errors as in limits_motion_turn. */
+/* Runs a square that rotates rigidly, with its corners at r->given m/s: for a tenth of a revolution at 10 m/s and a
+ * whole one at 100 m/s. to[3]: errors as in limits_motion_turn. FAILED if a step fails. */
 static status spin(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -87,7 +87,7 @@ static const struct limits_row spins[] = {
 const struct limits_scene limits_spin = {"rigid spin of a square", "%g m/s", TURNING(5e-3), ROWS(spins), spin};
 
 /* Runs a rotating disc of radius 10 mm for one revolution, with its rim at 100 m/s and peridynamic particles within 4
- * mm of its centre. to[3]: errors as in limits_motion_turn. */
+ * mm of its centre. to[3]: errors as in limits_motion_turn. FAILED if a step fails. */
 static status disc(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -103,8 +103,8 @@ static status disc(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows of the rotating disc. Without the correction of kernels/mpm/stress.h the errors are 110 MPa, 7e-6 and 0.23 %,
- * because material points expand by the square of the rotation per step while bonds do not. */
+/* Methods and expected results of the rotating disc. Without the correction of kernels/mpm/stress.h the errors are 110
+ * MPa, 7e-6 and 0.23 %, because material points expand by the square of the rotation per step while bonds do not. */
 static const struct limits_row discs[] = {
     {.method = "partial stress, flip",
      .set = {"mpm.frame", "current", "mpm.transfer", "flip"},
@@ -130,7 +130,7 @@ static void lame(const void *context, const real *X, real *v)
     v[1] = -1e-3 * sin(k * X[0]) * cos(k * X[1]);
 }
 
-/* Returns the momentum of the particles projected on Lame's mode, whose velocities `lame` gives. */
+/* Returns the momentum of the particles projected on Lame's mode of a square (the velocities computed by `lame`). */
 static double projection(struct run *e)
 {
     double sum = 0;
@@ -148,8 +148,8 @@ static double projection(struct run *e)
  * half a step. */
 enum { STANDS = 9 };
 
-/* Runs until the velocity of the mode has changed its sign STANDS times and stores the number of steps until then,
- * interpolated; NAN if it does not. */
+/* Runs until the velocity of Lame's mode has changed its sign STANDS times, and stores the number of steps until then
+ * in *steps, interpolated; NAN if it does not. FAILED if a step fails. */
 static status periods(struct run *e, double *steps)
 {
     double before = projection(e);
@@ -166,8 +166,8 @@ static status periods(struct run *e, double *steps)
     return OK;
 }
 
-/* Runs a free square in Lame's mode and returns the relative error of its frequency in *to. r->given: Poisson's
- * ratio. */
+/* Runs a free square in Lame's mode and stores the relative error of its frequency in *to. r->given: Poisson's ratio.
+ * FAILED if a step fails. */
 static status shear(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -230,7 +230,7 @@ const struct limits_scene limits_shear = {
 
 /* ---- long runs --------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic and strain energy of particles and mesh [J]. */
+/* Returns the kinetic and strain energy of the particles and the mesh of a run [J]. */
 static double energy_of(struct run *e)
 {
     return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) +
@@ -239,8 +239,8 @@ static double energy_of(struct run *e)
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
 }
 
-/* Runs a million steps of a free vibrating plate and returns the relative change of its energy in *to, between the
- * means over the first and the last fiftieth of the steps. */
+/* Runs a million steps of a free vibrating plate. Stores in *to the relative change of its energy between the means
+ * over the first and the last fiftieth of the steps. FAILED if a step fails. */
 static status million_steps(struct run *e, double *to)
 {
     double mean[2] = {0};
@@ -268,8 +268,8 @@ static status million(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows of the million steps. Material points dissipate most of this energy, because they damp all motion but rigid
- * rotation. */
+/* Methods and expected results of the million steps. Material points dissipate most of the energy, because they damp
+ * all motion but rigid rotation. */
 static const struct limits_row millions[] = {
     {.method = "bonds", .known = {{0, 5e-4}}},
     {.method = "gimp flip", POINTS("gimp", "flip"), .known = {{0.5, 0.97}}, .remedy = "bonds, or frame: reference"},
@@ -279,15 +279,17 @@ static const struct limits_row millions[] = {
 const struct limits_scene limits_million = {
     "a million steps of a free plate", NULL, {{"change of energy", 1e-3}}, ROWS(millions), million};
 
-/* Sets the velocities of the first free mode of a bar of 64 spacings. */
+/* Computes the velocity v[0] at X of the first free mode of a bar of 0.64 m, v = 0.01 cos(pi x/0.64 m). context is not
+ * used. */
 static void first_mode(const void *context, const real *X, real *v)
 {
     (void)context;
     v[0] = 0.01 * cos(M_PI * X[0] / 0.64);
 }
 
-/* Runs a bar that vibrates freely for ten periods and returns in *to the relative loss of its largest kinetic energy
- * between the first and the last period. Peaks between steps limit the accuracy to 1e-3. */
+/* Runs a bar that vibrates freely for ten periods. Stores in *to the relative loss of its largest kinetic energy
+ * between the first and the last period. The accuracy is 1e-3, since peaks are between steps. FAILED if a step
+ * fails. */
 static status vibration(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -310,7 +312,8 @@ static status vibration(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows of the vibrating bar. APIC loses 0.04 % of the energy or less with GIMP, 0.3 % with quadratic shapes. */
+/* Methods and expected results of the vibrating bar. APIC loses 0.04 % of the energy or less with GIMP, 0.3 % with
+ * quadratic shapes. */
 static const struct limits_row vibrations[] = {
     {.method = "bonds", .set = {"method", "pd"}, .known = {{0, 1e-3}}},
     {.method = "gimp flip", POINTS("gimp", "flip"), .known = {{0, 1e-3}}},

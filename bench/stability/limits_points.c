@@ -12,8 +12,8 @@
 
 /* ---- uniform stress in an extended body -------------------------------------------------------------------------- */
 
-/* Gives material points unit stress and moves them to positions of a body extended by the factor lambda and shifted
- * by `shift` [m]. */
+/* Sets unit stress in all material points and moves them to their positions in a bar that is extended by the factor
+ * lambda and shifted by `shift` [m]. */
 static void stretch(struct particles *p, double lambda, double shift)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -23,8 +23,9 @@ static void stretch(struct particles *p, double lambda, double shift)
     }
 }
 
-/* Returns in *to the largest force on an inner node of a uniformly stressed bar, extended by the factor r->given,
- * over stress and cross section. It should be 0; the worst of 64 positions of the points in their cells counts. */
+/* Stores in *to the largest force on an inner node of a uniformly stressed bar, extended by the factor r->given, over
+ * stress and cross section. It should be 0; the worst of 64 positions of the points in their cells counts. FAILED if
+ * the grid cannot be extended. */
 static status crossing(const struct limits_row *r, double *to)
 {
     const double lambda = r->given;
@@ -87,9 +88,9 @@ const struct limits_scene limits_crossing = {"uniform stress, stretched",
 
 /* ---- homogeneous extension --------------------------------------------------------------------------------------- */
 
-/* Runs a bar that expands with v = a X to the strain r->given, and returns in *to the largest relative error of the
- * stress in its middle, which waves from the ends do not reach. Exact is E ln(lambda), or E (lambda - 1) in the
- * reference frame. */
+/* Runs a bar that expands with v = a X to the strain r->given. Stores in *to the largest relative error of the stress
+ * in its middle, which waves from the ends do not reach. The exact stress is E ln(lambda), or E (lambda - 1) in the
+ * reference frame, with lambda = 1 + strain. FAILED if a step fails. */
 static status homologous(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -129,7 +130,7 @@ const struct limits_scene limits_homologous = {
 /* ---- modes invisible to the grid --------------------------------------------------------------------------------- */
 
 /* Runs a bar with two points per cell and alternating velocities, so that all node velocities are 0, for r->given
- * steps. Returns in *to the share of the kinetic energy that remains. */
+ * steps. Stores in *to the share of the kinetic energy that remains. FAILED if a step fails. */
 static status null_mode(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -143,8 +144,8 @@ static status null_mode(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows of the mode with zero node velocities; given: number of steps. What remains with APIC is at the ends of the
- * body. */
+/* Methods and expected results of the mode with zero node velocities. given: number of steps. The energy that remains
+ * with APIC is at the ends of the body. */
 static const struct limits_row null_modes[] = {
     {.method = "flip",
      .set = {"mpm.transfer", "flip"},
@@ -161,8 +162,9 @@ const struct limits_scene limits_null_mode = {"null mode +-v",
 
 /* ---- positions in the cells -------------------------------------------------------------------------------------- */
 
-/* Runs a body in rigid translation for 300 s, with points on faces of cells or close to them, and returns in *to the
- * largest spurious stress over rho c v. r->given: shift of the grid, which sets the position of the points. */
+/* Runs a body in rigid translation for 300 s, with points on faces of cells or close to them. Stores in *to the largest
+ * spurious stress over rho c v. r->given: shift of the grid, which determines the position of the points in their
+ * cells. FAILED if a step fails. */
 static status on_faces(const struct limits_row *r, double *to)
 {
     struct run e;

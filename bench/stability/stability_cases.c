@@ -22,7 +22,8 @@ static const char *const transfer[] = {"flip", "apic"};
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Passes on the peridynamic cases with all horizons, by dimension and model. */
+/* Passes on the peridynamic cases with all horizons, by dimension and model. Returns the first status that is not
+ * OK. */
 static status horizons(const struct taker *t)
 {
     static const double horizon[] = {3.015, 1, 2.015, 1.5, 4.015, 5.015, 6.015};
@@ -58,8 +59,8 @@ static status variants(const struct taker *t)
     return OK;
 }
 
-/* Passes on cases with published stability limits: large lattices of complete families, with the moduli of the
- * continuum and without surface correction. */
+/* Passes on the cases with published stability limits: large lattices of complete families, without surface correction.
+ * Returns the first status that is not OK. */
 static status stability_cases_published(const struct taker *t)
 {
     static const struct stability_case row[] = {
@@ -82,7 +83,7 @@ static status stability_cases_published(const struct taker *t)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Sets the range of the published stability limit of a case, if there is one: in one dimension for whole numbers of
+/* Sets the published range of the stability limit of a case, if there is one: in one dimension for whole numbers of
  * points per cell. */
 static void quote(struct stability_case *c)
 {
@@ -100,8 +101,9 @@ static void quote(struct stability_case *c)
             c->quoted_low = sheet[k].low[(int)c->cell - 1], c->quoted_high = sheet[k].high[(int)c->cell - 1];
 }
 
-/* Returns the number of offsets of the grid that are tried: multiples of an eighth of a cell, or of a twelfth for
- * three and six points per cell, so that points coincide with nodes, the worst position for linear shapes. */
+/* Returns the number of offsets of the grid that are tried for `cell` points per cell: multiples of an eighth of a
+ * cell, or of a twelfth for 1.5, 3 and 6 points per cell. Points then coincide with nodes, the worst position for
+ * linear shapes. */
 static int offsets_of(const struct taker *t, double cell, int dim)
 {
     const bool thirds = cell == 3 || cell == 1.5 || cell == 6;
@@ -144,7 +146,8 @@ static status stability_cases_points(const struct taker *t)
 
 /* ---- coupled bodies ---------------------------------------------------------------------------------------------- */
 
-/* Passes on the adaptive cases: all couplings, transfers and cell sizes. */
+/* Passes on the cases of bodies that are half peridynamic, in the current frame: all couplings, transfers and cell
+ * sizes. Returns the first status that is not OK. */
 static status coupled(const struct taker *t)
 {
     static const char *const couplings[] = {"partial stress", "handshake", "pm", "pg", "pmg", "pgg"};
@@ -197,8 +200,8 @@ static status coupled(const struct taker *t)
                                                            .note = "surface correction"});
 }
 
-/* Passes on cases of the reference frame: borders of the peridynamic region inside cells, and scattered peridynamic
- * particles and material points, as conversion can leave them. */
+/* Passes on the cases of the reference frame: borders of the peridynamic region inside cells, and scattered peridynamic
+ * particles and material points, as conversion can leave them. Returns the first status that is not OK. */
 static status stability_cases_reference(const struct taker *t)
 {
     static const struct stability_case row[] = {

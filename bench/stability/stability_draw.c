@@ -6,7 +6,7 @@
 #include "plot/gnuplot.h"
 #include "stability.h"
 
-/* Starts one of four panels, with its key on the right. */
+/* Begins one of four panels of the picture, at column and row 0 or 1, with its key on the right. */
 static void stability_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.052 + 0.5 * column, above = 0.95 - 0.5 * row;
@@ -92,7 +92,7 @@ static void draw_points(FILE *to, const struct stability_map *map, const char *t
 
 /* ---- every case -------------------------------------------------------------------------------------------------- */
 
-/* Draws the automatic and the critical time step of every case, over its observed limit. */
+/* Draws the automatic and the critical time step of every case of the map, over its observed limit. */
 static void draw_shares(FILE *to, const struct stability_map *map)
 {
     int at = 0;

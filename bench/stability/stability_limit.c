@@ -22,7 +22,8 @@
 
 /* ---- initial motion ---------------------------------------------------------------------------------------------- */
 
-/* Sets random velocities with zero mean, plus a uniform translation. */
+/* Sets random velocities with zero mean and up to `speed` [m/s], plus a uniform translation with the velocity `drift`
+ * along each axis [m/s]. */
 static void stability_limit_shake(struct run *e, double speed, double drift)
 {
     struct particles *p = &e->part;
@@ -38,15 +39,16 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
     }
 }
 
-/* Returns the kinetic energy that exceeds the one of the uniform translation with velocity `drift` [J]. */
+/* Returns the kinetic energy of a run that exceeds the energy of a uniform translation with the velocity `drift` along
+ * each axis [J]. */
 static double motion(const struct run *e, double drift)
 {
     return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) -
            0.5 * e->mass * e->part.dim * drift * drift;
 }
 
-/* Creates the run of a case with the time step dt [s], or with the automatic one if dt is 0. It is so long that only
- * its first step is a sample. */
+/* Creates the run of a case with the time step dt [s], or with the automatic one if dt is 0. With dt > 0 it is so long
+ * that only its first step is a sample. Release with bench_engine_free. */
 static status limit_block_make(struct run *e, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};
@@ -80,9 +82,9 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
 
 /* ---- limits ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the critical time step of a case by bisection between a step for which the motion stays bounded and one for
- * which it grows. critical: the step that Cleave predicts [s]; steps: length of each trial. REFUSED if there is no
- * limit near the prediction. */
+/* Finds the critical time step *limit of a case [s] by bisection between a step for which the motion stays bounded and
+ * one for which it grows. critical: the step that Cleave predicts [s]; steps: length of each trial. REFUSED if there is
+ * no limit near the prediction, FAILED if a trial cannot be run. */
 static status limit_of(const struct stability_case *c, double critical, int steps, double *limit)
 {
     const struct stability_shake quietly = {QUIET, 0, steps};
@@ -102,8 +104,8 @@ static status limit_of(const struct stability_case *c, double critical, int step
     return OK;
 }
 
-/* Returns the critical time step of the stiffest row of bonds, sqrt(2 rho/sum(c V/xi)) (Silling & Askari 2005)
- * [s]. */
+/* Returns the critical time step of the stiffest row of bonds [s], sqrt(2 rho/sum(c V/|xi|)) (Silling & Askari
+ * 2005). */
 static double silling_step(const struct run *e)
 {
     const struct bonds *b = &e->bonds;

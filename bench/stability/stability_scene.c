@@ -98,7 +98,8 @@ static void put_bodies(FILE *to, const struct stability_case *c, double edge)
     }
 }
 
-/* Writes balls of one or more particles at irregular positions of the block. */
+/* Writes five balls of one or more particles at irregular positions of the block of a case, each between the texts
+ * `before` and `after`. edge: of the block [m]. */
 static void put_balls(FILE *to, const struct stability_case *c, double edge, const char *before, const char *after)
 {
     static const double place[][DIM_MAX] = {
@@ -114,7 +115,8 @@ static void put_balls(FILE *to, const struct stability_case *c, double edge, con
     }
 }
 
-/* Writes a box whose edges are shares of the edge of the block, along x and along the other axes. */
+/* Writes a box whose ends are shares of the edge of the block of a case: share[0] along x, share[1] along the other
+ * axes. edge: of the block [m]. */
 static void put_shares(FILE *to, const struct stability_case *c, double edge, const double (*share)[2])
 {
     for (int end = 0; end < 2; end++) {
@@ -152,7 +154,7 @@ static void put_region(FILE *to, const struct stability_case *c, double edge)
 
 /* ---- supports ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the boundary conditions of a case; nothing for a free body. */
+/* Writes the boundary conditions of a case; nothing for a free body. edge: of the block [m]. */
 static void put_support(FILE *to, const struct stability_case *c, double edge)
 {
     static const char *const text[] = {
@@ -228,7 +230,8 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
 
 /* ---- label ------------------------------------------------------------------------------------------------------- */
 
-/* Writes a label that describes the case. text: capacity `size` [byte]. */
+/* Writes a label that describes the case into text[size]: dimension, method, model, horizon or points per cell, and its
+ * special property. */
 void stability_label(const struct stability_case *c, char *text, size_t size)
 {
     FILE *to = fmemopen(text, size, "w");

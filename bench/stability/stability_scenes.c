@@ -14,8 +14,8 @@
 enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, REMEDY, COLUMNS };
 static const char header[] = "scene,method,quantity,threshold,measured,verdict,remedy";
 
-/* Measures all quantities of a scene with one method, prints them, and adds a row for each to the table; quantities
- * beyond their threshold are listed with a remedy. */
+/* Measures all quantities of a scene with one method, prints them, and adds a row for each to the table. Quantities
+ * beyond their threshold are listed with a remedy. FAILED if the scene cannot be run. */
 static status stability_scenes_take(struct bench_table *t, const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];
@@ -77,7 +77,7 @@ static bool fails(const struct bench_table *t, int64_t row)
     return !strcmp(stability_scenes_text_of(t, row, VERDICT), "fails");
 }
 
-/* Returns true if a row of the table is the first one of its scene. */
+/* Returns true if row number `row` of the table is the first one of its scene. */
 static bool begins(const struct bench_table *t, int64_t row)
 {
     return row == 0 || strcmp(stability_scenes_text_of(t, row, SCENE), stability_scenes_text_of(t, row - 1, SCENE));
@@ -107,7 +107,8 @@ static void stability_scenes_put_label(FILE *to, const char *text, double x, int
     fprintf(to, " at screen %g, first %d %s\n", x, -line, style);
 }
 
-/* Writes a failure: method, quantity, remedy. */
+/* Writes the failure in row r of the table as line number `line` of the picture: method, quantity, measured value,
+ * threshold and remedy. */
 static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int line)
 {
     char text[256];
@@ -120,7 +121,8 @@ static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int li
     stability_scenes_put_label(to, stability_scenes_text_of(t, r, REMEDY), 0.745, line, "left textcolor rgb '#1b6b3a'");
 }
 
-/* Writes the number of quantities of a scene that meet their thresholds. */
+/* Writes the name of the scene that begins in row r of the table, and how many of its quantities meet their thresholds,
+ * as line number `line` of the picture. */
 static void put_scene(FILE *to, const struct bench_table *t, int64_t r, int line)
 {
     char text[128];

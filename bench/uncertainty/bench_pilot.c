@@ -22,7 +22,8 @@ struct pilot_tally {
 
 /* ---- one scene --------------------------------------------------------------------------------------------------- */
 
-/* Writes a scene with `method: auto` that requests its figure to within a relative error `within`. */
+/* Writes the scene k with `method: auto` to the file `path`. It requests the figure of the scene to within the relative
+ * error `within`. FAILED if the file cannot be written. */
 static status pilot_scene_write(const char *path, const struct pilot_scene *k, double within)
 {
     char text[TEXT_ROOM];
@@ -34,8 +35,8 @@ static status pilot_scene_write(const char *path, const struct pilot_scene *k, d
     return file_write_whole(path, text, (size_t)length);
 }
 
-/* Runs the scene with the choices of the pilot runs, as a study with a single case in `folder`, and reads a figure
- * from its summary into *value. */
+/* Runs a scene with the method and spacing that pilot runs have chosen, as a study with a single case in `folder`, and
+ * reads the figure called `figure` from its summary into *value. REFUSED or FAILED if the run is. */
 static status chosen_run(const struct pilot *p, const char *scene, const char *folder, double *value,
                          const char *figure)
 {
@@ -56,8 +57,8 @@ static const char *chosen_value(const struct pilot *p, const char *key)
     return "";
 }
 
-/* Makes the pilot runs and the chosen run of a scene, prints a line with its error, and counts the outcome. within:
- * requested accuracy. */
+/* Makes the pilot runs and the chosen run of the scene k in `folder`, prints a line with its error, and counts the
+ * outcome in *t. within: requested accuracy [1]. */
 static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene *k, double within, const char *folder)
 {
     const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "run");
@@ -93,7 +94,8 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Tests whether `method: auto` reaches the requested accuracy in all scenes. */
+/* Tests whether `method: auto` reaches the requested accuracy in all scenes with known figures. quick: one accuracy
+ * only. FAILED if a file cannot be written. */
 status bench_pilot(bool quick)
 {
     static const double asked[] = {0.05, 0.02, 0.01};

@@ -34,7 +34,8 @@ enum { SHARES = COUNT_OF(share) };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene with the keys of a variant; a number after @ is the horizon. */
+/* Writes the scene k with the keys of a variant and the given spacing to the file `path`. A number after @ in the
+ * variant is the horizon [spacings]. FAILED if the file cannot be written. */
 static status scene_text_write(const char *path, const struct known_scene *k, const char *variant, const char *spacing)
 {
     char text[TEXT_ROOM];
@@ -78,10 +79,10 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the difference between the finest mean and the exact value. */
+/* Returns the absolute difference between the mean of the finest level and the exact value of a figure. */
 static double true_error(const struct known_row *r) { return fabs(r->c.level[0].mean - r->exact); }
 
-/* Returns the share of the rows whose interval with a nominal probability contains the exact value. */
+/* Returns the share of the figures whose interval with the probability `nominal` contains the exact value [1]. */
 static double covered(const struct known_rows *rows, double nominal)
 {
     int held = 0;
@@ -92,7 +93,7 @@ static double covered(const struct known_rows *rows, double nominal)
     return (double)held / rows->n;
 }
 
-/* Returns the median of the half-width over the true error. */
+/* Returns the median over all figures of the half-width of the 95 % interval over the true error. */
 static double width_median(const struct known_rows *rows)
 {
     double ratio[ROWS_MOST];
@@ -143,8 +144,8 @@ static status rows_write(const struct known_rows *rows)
     return s;
 }
 
-/* Draws the observed over the nominal probability (left) and the half-width over the true error, both relative to the
- * figure (right). */
+/* Draws two panels: the observed over the nominal probability of intervals, and the half-width of the 95 % interval
+ * over the true error, both relative to the figure. context: struct known_rows. */
 static void uncertainty_draw(FILE *to, const void *context)
 {
     const struct known_rows *rows = context;
@@ -172,7 +173,8 @@ static void uncertainty_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Makes the studies of a scene with all variants and spacings and prints their rows. */
+/* Makes the convergence studies of the scene k with all variants and spacings in `folder`, prints their figures and
+ * adds them to *rows. quick: one spacing only. FAILED or REFUSED if a study is. */
 static status known_scene_measure(struct known_rows *rows, const struct known_scene *k, const char *folder, bool quick)
 {
     for (int v = 0; v < KNOWN_VARIANTS_MOST && k->variant[v][0]; v++)
