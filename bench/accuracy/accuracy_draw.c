@@ -237,6 +237,7 @@ static void plot_key(FILE *to, const struct panel *panel, int panels, double lef
 enum { COLUMNS = 2, PANELS_MAX = 16, KEY_PIXELS = 330, PANEL_WIDTH = 570, PANEL_HEIGHT = 380 };
 enum { PANEL_LEFT = 108, PANEL_RIGHT = 14, PANEL_ABOVE = 40, PANEL_BELOW = 56 }; /* margins of a panel [pixel] */
 
+/* A picture that consists of several panels in columns and rows, with their titles. */
 struct page {
     int panels, columns, rows;
     struct panel panel[PANELS_MAX];

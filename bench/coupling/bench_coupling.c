@@ -105,6 +105,7 @@ static status measure_variants(struct bar_table *t, bool quick)
 
 enum { REFLECTED, TRANSMITTED, ENERGY, SHARES };
 
+/* Returns one of the three values of a result by its index REFLECTED, TRANSMITTED or ENERGY. */
 static double share_of(const struct pulse_result *r, int share)
 {
     return share == REFLECTED ? r->reflected : share == TRANSMITTED ? r->transmitted : r->energy_change;

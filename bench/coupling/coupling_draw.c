@@ -7,6 +7,7 @@
 
 /* ---- panels ------------------------------------------------------------------------------------------------------ */
 
+/* Styles of lines by coupling, as options of gnuplot. */
 static const char *const variant_style[VARIANTS] = {
     [VARIANT_DAMPED] = "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'",
     [VARIANT_UNDAMPED] = "lw 2 pt 7 ps 0.8 lc rgb '#56b4e9'",
@@ -70,6 +71,8 @@ static void draw_pulses(FILE *to, const struct bar_table *t)
 
 /* ---- the plane wave ---------------------------------------------------------------------------------------------- */
 
+/* Lines of the panel with plane waves: coupling, interface and transfer that select its results; style and title for
+ * gnuplot. */
 static const struct series {
     int variant;
     const char *interface, *transfer, *style, *title;
@@ -83,12 +86,16 @@ static const struct series {
 };
 enum { SERIES = COUNT_OF(series) };
 
+/* Returns true if row r of the results belongs to line s: equal coupling, interface and transfer, with isotropic
+ * weights. */
 static bool of_series(const struct plane_row *r, const struct series *s)
 {
     return r->variant == s->variant && !strcmp(r->interface, s->interface) && !strcmp(r->transfer, s->transfer) &&
            !strcmp(r->weights, "isotropic");
 }
 
+/* Draws the amplitude that returns from the interface as a plane wave, over the width of the pulse, a line for each
+ * entry of `series`. */
 static void draw_plane(FILE *to, const struct plane_table *t)
 {
     bool there[SERIES] = {false};

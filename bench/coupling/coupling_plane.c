@@ -60,6 +60,8 @@ static status strip_make(struct run *e, struct scene *scene, const struct strip 
 
 /* ---- the run without interface ----------------------------------------------------------------------------------- */
 
+/* State of a strip without interface at its end: velocities v[2][particles] [m/s], and change of energy over the
+ * incident energy [1]. */
 struct plain {
     real *v[2], energy_change;
 };

@@ -44,11 +44,15 @@ struct stepped {
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
+/* A scene with a peridynamic model, a method, and a rule for the last force of a breaking bond: values of the scene
+ * keys. */
 struct breaking_method {
     const struct stepped_case *scene;
     const char *model, *method, *rule;
 };
 
+/* Starts the run of method w with the time step `share` of the critical one as a separate process. FAILED if it cannot
+ * be started. */
 static status stepped_start(struct bench_child *child, const struct breaking_method *w, double share)
 {
     struct bench_overrides o = {0};

@@ -59,6 +59,7 @@ void laws_add_trial_stress(const struct law *m, struct law_points *p, const real
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the elastic energy density of the first point of p [J/m^3], ((1 + nu) s:s - nu (tr s)^2)/(2 E). */
 real laws_elastic_energy(const struct law *m, const struct law_points *p)
 {
     real squares = 0, trace = 0;

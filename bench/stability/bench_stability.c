@@ -10,11 +10,13 @@
 
 enum { STEPS_OF_LINEAR = 1500 }; /* growth of points on nodes starts from round-off and is slow */
 
+/* Argument of stability_measure: the map to be filled; number of steps of a growth run and of a full run. */
 struct measuring {
     struct stability_map *map;
     int steps, long_steps;
 };
 
+/* Returns true if the automatic time step of a case is outside the required range of its observed limit. */
 static bool outside(const struct stability_row *r)
 {
     const double share = r->l.automatic / r->l.observed;

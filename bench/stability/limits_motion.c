@@ -10,10 +10,12 @@
 
 /* ---- rigid rotation ---------------------------------------------------------------------------------------------- */
 
+/* Angular momentum [kg m^2/s] about the origin and kinetic energy [J] of a body in the plane. */
 struct turning {
     double momentum, kinetic;
 };
 
+/* Returns the angular momentum about the origin and the kinetic energy of all particles, in the plane xy. */
 static struct turning turning_of(const struct particles *p)
 {
     struct turning t = {0};

@@ -37,6 +37,7 @@ status stability_caught(const struct stability_case *c, double times, double *st
 
 /* ---- row of the table -------------------------------------------------------------------------------------------- */
 
+/* Cases that are run beyond their stability limit: one for each kind of method. */
 static const struct stability_case beyond[] = {
     {.dim = 2, .method = "pd"},
     {.dim = 2, .method = "pd", .model = "mospd"},

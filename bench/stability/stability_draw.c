@@ -18,6 +18,7 @@ static void stability_draw_set_panel(FILE *to, int column, int row, const char *
 
 /* ---- over the horizon -------------------------------------------------------------------------------------------- */
 
+/* Lines of the panel with limits over the horizon: peridynamic model, dimension and title. */
 static const struct {
     const char *model;
     int dim;
@@ -26,6 +27,8 @@ static const struct {
            {"ospd", 2, "ospd, plate"}, {"mospd", 2, "mospd, plate"}, {"mospd", 3, "mospd, solid"}};
 enum { LAWS = COUNT_OF(law) };
 
+/* Returns true if row r of the map belongs to line k of the panel: a plain peridynamic case with its model and
+ * dimension. */
 static bool of_law(const struct stability_row *r, int k)
 {
     return r->c.group == GROUP_PD && !r->c.note && r->c.dim == law[k].dim && !strcmp(r->c.model, law[k].model);

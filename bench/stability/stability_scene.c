@@ -68,6 +68,8 @@ static void stability_scene_put_box(FILE *to, int dim, double from, double until
 
 #define SPACING 1e-3
 
+/* Returns the edge of the block of a case [m]: its number of particles times the spacing. Without a given number the
+ * block is large enough for the horizon and for the cells. */
 static double edge_of(const struct stability_case *c)
 {
     static const int edge[DIM_MAX + 1] = {0, 48, 16, 8};
@@ -77,6 +79,7 @@ static double edge_of(const struct stability_case *c)
     return n * SPACING;
 }
 
+/* Writes the materials and bodies of a case: one block of the given edge [m], or two halves of different density. */
 static void put_bodies(FILE *to, const struct stability_case *c, double edge)
 {
     char poisson[40] = "";

@@ -90,6 +90,7 @@ static struct instant instant_of(const struct load *l, const struct particles *p
 
 /* ---- how much ---------------------------------------------------------------------------------------------------- */
 
+/* Total force and moment of a load. */
 struct resultant {
     real force[DIM_MAX], moment[DIM_MAX];
 }; /* [N], about the origin [N m] */

@@ -63,6 +63,7 @@ static void print_head(const char *what) { printf("\n%-30s %14s %14s %14s\n", wh
 
 /* ---- choice of frames -------------------------------------------------------------------------------------------- */
 
+/* The frames of a run, list[n], in ascending order of time. */
 struct times {
     int n;
     struct listed_frame *list;

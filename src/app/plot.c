@@ -204,6 +204,8 @@ static status read_override(struct plot_words *w, const char *text) { return arg
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
+/* Options of `cleave plot` that are followed by a value, and the functions that read the value. A function returns
+ * REFUSED if the value is invalid. */
 static const struct {
     const char *name;
     status (*read)(struct plot_words *w, const char *text);

@@ -124,6 +124,8 @@ static uint64_t offset_of(const struct exported *x, int64_t i, int64_t j)
 
 /* ---- particles at cut bonds -------------------------------------------------------------------------------------- */
 
+/* Work arrays of the search for cut bonds. found[room]: neighbours of a particle in LAMMPS; bonded[particles]: marks of
+ * row_mark; number[particles]: mark, later index in the list, of particles at cut bonds. */
 struct search {
     int32_t *found;
     int64_t *bonded;

@@ -352,6 +352,7 @@ static status exodus_put(FILE *to, void *context)
 
 /* ---- the export -------------------------------------------------------------------------------------------------- */
 
+/* Returns REFUSED unless the name of a file ends in .exo, .e or .g, as readers of Exodus files expect. */
 static status exodus_check_name(const char *path)
 {
     const char *const endings[] = {".exo", ".e", ".g"};
@@ -361,6 +362,9 @@ static status exodus_check_name(const char *path)
     return status_set(REFUSED, "%s: a name that ends in .exo, .e or .g is expected", path);
 }
 
+/* Creates the particles of the scene, lists the frames if a run is exported, and writes the file. REFUSED if there are
+ * too many particles for the format, REFUSED or FAILED if the scene or a frame cannot be read or the file cannot be
+ * written. */
 static status exodus_make(struct exodus_export *x, const struct export_request *scene)
 {
     TRY(export_mesh_make(&x->mesh, scene));

@@ -183,6 +183,8 @@ static status file_export(const struct export_file *f, struct exported *x, const
 
 #define SIGN_OF_EXPORT ", exported by Cleave " /* in the first line of in.lammps */
 
+/* Returns true if the file `path` is a script in.lammps that Cleave has exported, by its first line. scene_text is not
+ * used. */
 static bool is_script_of_export(const char *path, const char *scene_text)
 {
     (void)scene_text;

@@ -64,6 +64,8 @@ void export_mesh_free(struct export_mesh *m)
 
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
+/* Returns the name of the node set of load k: the name of its boundary, or nodelist_N with N = k + 1 if the boundary
+ * has none or an earlier load has the same name. */
 struct set_name export_set_name(const struct export_mesh *m, int k)
 {
     const struct load *load = m->e->loads.load;
@@ -78,6 +80,7 @@ struct set_name export_set_name(const struct export_mesh *m, int k)
     return set;
 }
 
+/* Compares two int32_t for qsort, in ascending order. */
 static int int32_order(const void *a, const void *b)
 {
     const int32_t *p = a, *q = b;

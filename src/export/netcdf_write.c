@@ -35,6 +35,7 @@ void netcdf_array(struct netcdf_writer *w, const char *name, int number, enum ne
 
 /* ---- the header -------------------------------------------------------------------------------------------------- */
 
+/* Returns true if the first dimension of an array is that of records, so that it has a part in every record. */
 static bool is_over_records(const struct netcdf_writer *w, const struct netcdf_array *a)
 {
     return w->dimension[a->dimension[0]].length == 0;

@@ -70,6 +70,7 @@ bool exact_probe_find(const char *folder, char name[NAME_MAX_LENGTH])
 
 /* ---- scales ------------------------------------------------------------------------------------------------------ */
 
+/* Scale of the vertical axis of a panel: unit as a factor, ends in this unit, label. zero: all values are 0. */
 struct scale {
     double factor, low, high;
     bool zero;

@@ -89,6 +89,7 @@ void marks_draw_cracks(struct marks *m)
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
 
+/* Largest number of probes that have entries of their own in the key; number of edges of a drawn circle. */
 enum { PROBES_NAMED = 10, CIRCLE = 48 };
 
 /* Sends the edges of the box from[dim]..to[dim] as lines: four in 2D, twelve in 3D. */

@@ -15,6 +15,7 @@ static const float YIELDED = 1e-4f;
 
 /* ---- particle sets ----------------------------------------------------------------------------------------------- */
 
+/* Returns an allocated copy of n elements of `size` bytes. The caller releases it with memory_free. */
 static void *copy_of(const void *from, int64_t n, size_t size)
 {
     void *to = memory_new("report.set", n, size);
@@ -71,6 +72,8 @@ static void set_mark(struct film_set *s, const struct output_frame *frame, const
 
 /* ---- first reading ----------------------------------------------------------------------------------------------- */
 
+/* Adds a frame to the film: finds or creates its particle set, and updates displacements and ranges of fields. path:
+ * file of the frame. */
 static void frame_scan(struct film *f, struct film_frame *shown, const struct output_frame *frame, const char *path)
 {
     if (f->sets == 0 || !set_is_of(&f->set[f->sets - 1], frame)) {
@@ -124,6 +127,7 @@ void film_free(struct film *f)
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
+/* Selects at most `most` of the frames that were read, evenly spread, and sets f->used to their number. */
 static void frames_use(struct film *f, int most)
 {
     for (int k = 0; k < f->frames; k++) f->frame[k].used = false;
@@ -131,11 +135,13 @@ static void frames_use(struct film *f, int most)
     for (int k = 0; k < f->used; k++) f->frame[spread(k, f->frames, f->used)].used = true;
 }
 
+/* Divides the particles of all particle sets of the film into groups, by the present levels and thinning. */
 static void film_group(struct film *f)
 {
     for (int k = 0; k < f->sets; k++) film_set_group(&f->set[k], f);
 }
 
+/* Returns true if the film, with its present frames, fields and groups, takes at most `budget` bytes. */
 static bool fits(const struct film *f, int64_t budget)
 {
     const int64_t each = 2 * f->dim + film_fields_bytes(f), once = 2 * f->dim + 6;

@@ -22,6 +22,7 @@ enum { FILM_BYTES = 9 << 20, HISTORY_BYTES = 1 << 20, PICTURE_PARTICLES = 200000
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
 
+/* Arguments of write_unit: the page, and the header of history.csv, which states units. */
 struct units {
     struct page *page;
     const char *header;
@@ -81,6 +82,7 @@ static status write_history(struct page *p, const char *folder, const char *head
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
+/* Writes the corners of the pre-cracks of a scene to the JSON of the page [m]. */
 static void write_pre_cracks(struct page *p, const struct scene *s)
 {
     json_open(&p->json, "cracks", '[');
@@ -96,6 +98,7 @@ static void write_pre_cracks(struct page *p, const struct scene *s)
     json_close(&p->json, ']');
 }
 
+/* Writes the names of the materials and bodies of a scene to the JSON of the page. */
 static void write_names(struct page *p, const struct scene *s)
 {
     json_open(&p->json, "names", '{');
