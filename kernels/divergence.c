@@ -4,8 +4,9 @@
 #include "kernels.h"
 #include "kernels/simd/variants.h"
 
-/* Returns the mask of those of eight listed particles that have diverged. limit2: square of the largest allowed speed
- * [m^2/s^2]. */
+/* Returns the mask of those of the eight particles list[0 .. 7] that have diverged: that are too fast or have a
+ * position or velocity that is not finite. limit2: square of the largest allowed speed [m^2/s^2]; dim: dimensions of
+ * space. */
 static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const int32_t *list, real limit2,
                                                const int dim)
 {
@@ -19,7 +20,8 @@ static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const 
     return has_diverged(speed2, place, limit2);
 }
 
-/* Returns true if any of n listed particles has diverged. limit2: square of the largest allowed speed [m^2/s^2]. */
+/* Returns true if any of the n particles in `list` has diverged (eight_diverged). limit2: square of the largest allowed
+ * speed [m^2/s^2]. */
 static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit2,
                                        const int dim)
 {

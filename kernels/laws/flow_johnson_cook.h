@@ -7,7 +7,8 @@
 #include "data/law.h"
 #include "flow_power.h"
 
-/* Returns the factor of rate and temperature on the yield stress [1]. */
+/* Returns the factor (1 + C log max(rate/eps0, 1))(1 - T*^m) on the yield stress of the law m of Johnson & Cook [1],
+ * for eight points. rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
 static ALWAYS_INLINE lanes johnson_cook_factor(const struct law *m, lanes rate, lanes T)
 {
     const lanes ratio = lanes_max(rate * (1 / m->johnson_cook.eps0), lanes_broadcast(1));
@@ -17,6 +18,8 @@ static ALWAYS_INLINE lanes johnson_cook_factor(const struct law *m, lanes rate, 
     return (1.0 + m->johnson_cook.C * lanes_log(ratio)) * (1.0 - soft);
 }
 
+/* Returns the yield stresses of eight points by the law of Johnson & Cook [Pa] and stores their derivatives by the
+ * plastic strain a in *slope [Pa]. rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
 static ALWAYS_INLINE lanes flow_johnson_cook(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
 {
     const lanes factor = johnson_cook_factor(m, rate, T);
@@ -25,6 +28,7 @@ static ALWAYS_INLINE lanes flow_johnson_cook(const struct law *m, lanes a, lanes
     return (m->johnson_cook.A + power) * factor;
 }
 
+/* Returns the integral of the yield stress from plastic strain 0 to a at constant rate and temperature [J/m^3]. */
 static ALWAYS_INLINE lanes work_johnson_cook(const struct law *m, lanes a, lanes rate, lanes T)
 {
     const real n = m->johnson_cook.n;
@@ -32,6 +36,8 @@ static ALWAYS_INLINE lanes work_johnson_cook(const struct law *m, lanes a, lanes
     return cold * johnson_cook_factor(m, rate, T);
 }
 
+/* Returns the plastic strain at which the yield stress at the given rate and temperature is q [Pa]; INFINITY without
+ * hardening. */
 static ALWAYS_INLINE lanes reach_johnson_cook(const struct law *m, lanes q, lanes rate, lanes T)
 {
     const lanes factor = lanes_max(johnson_cook_factor(m, rate, T), lanes_broadcast(1e-12));

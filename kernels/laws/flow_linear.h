@@ -11,6 +11,8 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
+/* Returns the yield stresses of eight points with linear hardening [Pa] and stores the hardening modulus in *slope
+ * [Pa]. Rate and temperature have no effect. */
 static ALWAYS_INLINE lanes flow_linear(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
 {
     (void)rate, (void)T;
@@ -18,12 +20,14 @@ static ALWAYS_INLINE lanes flow_linear(const struct law *m, lanes a, lanes rate,
     return m->yield + m->hardening * a;
 }
 
+/* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3]. */
 static ALWAYS_INLINE lanes work_linear(const struct law *m, lanes a, lanes rate, lanes T)
 {
     (void)rate, (void)T;
     return (m->yield + 0.5 * m->hardening * a) * a;
 }
 
+/* Returns INFINITY: load steps need no bound of the plastic strain for a law that is linear. */
 static ALWAYS_INLINE lanes reach_linear(const struct law *m, lanes q, lanes rate, lanes T)
 {
     return (void)m, (void)q, (void)rate, (void)T, lanes_broadcast(INFINITY);

@@ -6,6 +6,8 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
+/* Returns the yield stresses of eight points, the least of the lines of all segments at the plastic strain a [Pa], and
+ * stores the slopes of these lines in *slope [Pa]. Rate and temperature have no effect. */
 static ALWAYS_INLINE lanes flow_table(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
 {
     (void)rate, (void)T;
@@ -20,6 +22,7 @@ static ALWAYS_INLINE lanes flow_table(const struct law *m, lanes a, lanes rate, 
     return least;
 }
 
+/* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3], segment by segment. */
 static ALWAYS_INLINE lanes work_table(const struct law *m, lanes a, lanes rate, lanes T)
 {
     (void)rate, (void)T;
@@ -33,6 +36,7 @@ static ALWAYS_INLINE lanes work_table(const struct law *m, lanes a, lanes rate, 
     return work;
 }
 
+/* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is q. */
 static ALWAYS_INLINE lanes reach_table(const struct law *m, lanes q, lanes rate, lanes T)
 {
     return (void)m, (void)q, (void)rate, (void)T, lanes_broadcast(INFINITY);

@@ -12,7 +12,8 @@
     case FLOW_##upper:                                                                                                 \
         return FLOW_CALL(lower);
 
-/* Returns the yield stress [Pa] and stores its slope in *slope [Pa]. */
+/* Returns the yield stresses of eight points by the flow law m [Pa] and stores their derivatives by the plastic strain
+ * in *slope [Pa]. a: plastic strains [1]; rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
 static ALWAYS_INLINE lanes flow_stress(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
 {
 #define FLOW_CALL(name) flow_##name(m, a, rate, T, slope)
@@ -24,7 +25,8 @@ static ALWAYS_INLINE lanes flow_stress(const struct law *m, lanes a, lanes rate,
 #undef FLOW_CALL
 }
 
-/* Returns an upper bound of the plastic strain at which the yield stress is q [1]. */
+/* Returns for eight points the plastic strain at which the yield stress of the flow law m is q [Pa], or an upper bound
+ * of it; INFINITY if there is none [1]. rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
 static ALWAYS_INLINE lanes flow_strain_bound(const struct law *m, lanes q, lanes rate, lanes T)
 {
 #define FLOW_CALL(name) reach_##name(m, q, rate, T)
@@ -36,7 +38,8 @@ static ALWAYS_INLINE lanes flow_strain_bound(const struct law *m, lanes q, lanes
 #undef FLOW_CALL
 }
 
-/* Returns the integral of the yield stress from 0 to a [J/m^3]. */
+/* Returns for eight points the integral of the yield stress of the flow law m from plastic strain 0 to a [J/m^3]. rate:
+ * total deviatoric strain rates [1/s]; T: temperatures [K]. */
 static ALWAYS_INLINE lanes flow_stress_integral(const struct law *m, lanes a, lanes rate, lanes T)
 {
 #define FLOW_CALL(name) work_##name(m, a, rate, T)

@@ -40,7 +40,7 @@ static ALWAYS_INLINE lanes lanes_exp(lanes a)
     return (lanes)((lanes_bits)sum + ((lanes_bits)shifted << 52));
 }
 
-/* Returns a^b of numbers a >= 0 and exponents b > 0; 0 where a is below 1e-300. */
+/* Returns a^b in each lane, for numbers a >= 0 and an exponent b > 0; 0 where a is below 1e-300. */
 static ALWAYS_INLINE lanes lanes_power(lanes a, real b)
 {
     const lanes_mask none = lanes_less(a, lanes_broadcast(1e-300));

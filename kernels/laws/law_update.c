@@ -22,20 +22,22 @@ enum { STEPS_PLANE_STRESS = 8 };
 /* Least yield stress over Young's modulus: the quotients of molten points stay finite. */
 #define LEAST_YIELD 1e-10
 
-/* Number of components of law_points that differ from 0. */
+/* Returns the number of independent components of the relative stress in a space (relative_stress). */
 static ALWAYS_INLINE int components(const enum space space)
 {
     return space == SPACE_SOLID ? 6 : space == SPACE_PLANE_STRAIN ? 4 : space == SPACE_PLANE_STRESS ? 3 : 1;
 }
 
-/* Number of components of a tensor that differ from 0, also those normal to a plane. */
+/* Returns how many of the components xx yy zz xy yz zx of a tensor can differ from 0 in a space, those normal to a
+ * plane included; only xx in 1D. */
 static ALWAYS_INLINE int tensor_components(const enum space space)
 {
     return space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
 }
 
-/* Computes the independent components of the relative stress s - g X [Pa]: in 3D and plane strain of its deviator, in
- * plane stress sum, difference and shear, in 1D the uniaxial one. */
+/* Computes the independent components xi[] of the relative stress s - g X of eight points [Pa], with their trial stress
+ * s and back stress X: in 3D and plane strain of its deviator, in plane stress sum, difference and shear, in 1D the
+ * uniaxial one. g: factor of the back stress [1]. */
 static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, lanes *xi, const enum space space)
 {
     if (space == SPACE_LINE) {
@@ -52,7 +54,9 @@ static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, l
     for (int c = 0; c < components(space); c++) xi[c] = p->s[c] - (c < 3 ? mean : lanes_broadcast(0)) - g * p->back[c];
 }
 
-/* Computes the parts `even` and `odd` of the scalar product 3/2 x:y of two relative stresses [Pa^2]. */
+/* Computes the scalar products 3/2 x:y of two relative stresses of eight points (components as in relative_stress)
+ * [Pa^2]: *even receives the part of xi_xx + xi_yy in plane stress and of xi in 1D, *odd that of all other
+ * components. */
 static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes *even, lanes *odd,
                                            const enum space space)
 {
@@ -65,12 +69,15 @@ static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes
         for (int c = 0; c < components(space); c++) *odd += (c < 3 ? 1.5 : 3.0) * x[c] * y[c];
 }
 
-/* The equation for t: squares of the trial relative stress [Pa^2], rates of shrinking, and q at t = 0 [Pa]. */
+/* The equation for t = da/q of eight points, with the increment da of plastic strain: the parts of the squared trial
+ * relative stress that shrink by 1/(1 + A t) (even) and by 1/(1 + B t) (odd) [Pa^2], the rates A and B [Pa], and the
+ * equivalent stress q at t = 0 [Pa]. */
 struct flow_equation {
     lanes even, odd, A, B, q;
 };
 
-/* Computes the equation at a factor g of the back stress. stiffness: effective kinematic modulus [Pa]. */
+/* Returns the equation for t of eight points, at a factor g of their back stress [1], and stores their relative stress
+ * in xi[] [Pa]. stiffness: kinematic modulus that acts over the step [Pa]. */
 static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct law_points *p, lanes g,
                                                       lanes stiffness, lanes *xi, const enum space space)
 {
@@ -83,13 +90,14 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     return e;
 }
 
-/* Returns the rate at which the components shrink in spaces where all shrink alike [Pa]. */
+/* Returns the rate by which the relative stress shrinks in spaces in which all its components shrink alike [Pa]. */
 static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
     return space == SPACE_LINE ? e->A : e->B;
 }
 
-/* Returns q at t [Pa]; *fall: -q dq/dt [Pa^3], in plane stress only. */
+/* Returns the equivalent relative stress q of the equation *e at t [Pa]. *fall: receives -q dq/dt [Pa^3], in plane
+ * stress only. */
 static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
 {
     if (space != SPACE_PLANE_STRESS) return e->q / (1.0 + single_rate(e, space) * t);
@@ -99,8 +107,9 @@ static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes 
         lanes_max(e->even * u * u + e->odd * v * v, lanes_broadcast(1e-200))); /* points without stress */
 }
 
-/* Returns the solution t of 1 - slope t - bound/q(t) = 0, which is q = bound + slope da; t = 0 where q(0) is below
- * bound. In closed form where all components shrink alike, else by Newton's method from t = 0. */
+/* Returns for eight points the solution t of 1 - slope t - bound/q(t) = 0, which is q = bound + slope da; t = 0 where
+ * q(0) is below bound. bound: yield stress at the start [Pa]; slope: its derivative by the plastic strain [Pa]. In
+ * closed form where all components shrink alike, else by Newton's method from t = 0. */
 static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes bound, lanes slope,
                                           const enum space space)
 {
@@ -115,8 +124,9 @@ static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes b
     return t;
 }
 
-/* Returns the effective kinematic modulus of a small step, C - gamma (3/2) xi:X/q [Pa]: the recall of the back stress
- * moves the yield surface back. q: of the trial relative stress xi [Pa]. */
+/* Returns the effective kinematic modulus of a small step, C - gamma (3/2) xi:X/q [Pa], with the modulus C and the
+ * recall gamma of the law and the back stress X: the recall of the back stress moves the yield surface back. xi: trial
+ * relative stress [Pa]; q: its equivalent stress [Pa]. */
 static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct law_points *p, const lanes *xi,
                                              lanes q, const enum space space)
 {
@@ -135,8 +145,8 @@ struct flow_recall {
     lanes left, added;
 };
 
-/* Returns the recall after an increment `more` of plastic strain [1]: exp(-x) and (1 - exp(-x))/x with x = gamma more,
- * below 1e-4 by its series. recall: gamma, > 0 [1]. */
+/* Returns the recall of the back stress of eight points after an increment `more` of plastic strain [1]: exp(-x) and (1
+ * - exp(-x))/x with x = gamma more, below 1e-4 by its series. recall: gamma, > 0 [1]. */
 static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
 {
     const lanes x = recall * more, left = lanes_exp(-x), least = lanes_max(x, lanes_broadcast(1e-4));
@@ -145,8 +155,9 @@ static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
     return (struct flow_recall){left, lanes_choose(small, series, (1.0 - left) / least)};
 }
 
-/* Returns t of a small step, by one linearised evaluation. trial, xi: equation and relative stress at g = 1; *back:
- * receives the recall of the step. */
+/* Returns t = da/q of eight points for a small step, by one linearised evaluation. trial, xi: equation and relative
+ * stress at the factor 1 of the back stress; bound: yield stress at the start of the step [Pa]; slope: its derivative
+ * by the plastic strain [Pa]; *back: receives the recall of the step. */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
@@ -163,7 +174,8 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
     return t;
 }
 
-/* Returns t of a step of any size, to round-off. *back: receives its recall. bound: yield stress at its start [Pa]. */
+/* Returns t = da/q of eight points for a step of any size, to round-off. bound: yield stress at the start of the step
+ * [Pa]; *back: receives the recall of the step. */
 static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound,
                                            struct flow_recall *back, const enum space space)
 {
@@ -186,8 +198,8 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     return t;
 }
 
-/* Computes the increment of plastic strain from the relative stress at the end of the step, and applies it to stress
- * and back stress. back: recall of the step. */
+/* Computes the increments of plastic strain of eight points, strain[], as 3/2 t xi [1], and applies them to their
+ * stress and back stress. xi: relative stress at the end of the step [Pa]; t: da/q; back: recall of the step. */
 static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
                                      const struct flow_recall *back, lanes *strain, const enum space space)
 {
@@ -208,7 +220,8 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
         p->back[c] = back->left * p->back[c] + back->added * (C * strain[c]);
 }
 
-/* Returns the plastic work of a step per reference volume [J/m^3], the trapezoidal rule in stress times volume. */
+/* Returns the plastic work of a step per reference volume for eight points [J/m^3], by the trapezoidal rule in stress
+ * times volume. strain: increments of plastic strain [1]. */
 static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
 {
     lanes work = lanes_broadcast(0);
@@ -218,11 +231,11 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
     return work;
 }
 
-/* Returns the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress and back stress
- * along the path on which the trial stress grows in proportion, at constant rate, temperature and direction of flow.
- * The integral of the back stress over the increment a is X:N b + (C/gamma) (a - b),   b = (1 - exp(-gamma a))/gamma
- * gamma = 0: X:N a + C a^2/2. back: X at the start of the step [Pa]; more: increment of a [1]; strain: increment of
- * plastic strain [1]. */
+/* Returns for eight points the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress
+ * and back stress along the path on which the trial stress grows in proportion, at constant rate, temperature and
+ * direction of flow. The integral of the back stress over the increment a is X:N b + (C/gamma) (a - b), b = (1 -
+ * exp(-gamma a))/gamma; without recall (gamma = 0) X:N a + C a^2/2. back: X at the start of the step [Pa]; more:
+ * increment of a [1]; strain: increment of plastic strain [1]. */
 static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_points *p, const lanes *back, lanes more,
                                      const lanes *strain, const enum space space)
 {
@@ -238,7 +251,8 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_poi
     return work + along * added + C / recall * more * (1.0 - added);
 }
 
-/* Updates eight points in one space, by one mode of solution. Returns the bits of those that yield. */
+/* Maps the trial stresses of the active points of eight back to the yield surface in one space, by one mode of solution
+ * (small explicit steps or load steps), and updates their plastic state. Returns the bits of those that yield. */
 static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_points *p, const enum space space,
                                             const enum law_mode mode)
 {

@@ -20,8 +20,9 @@ static bool none_moves(const real *mass, int64_t first, int64_t end)
     return true;
 }
 
-/* Adds the kinetic energy of nodes first .. end - 1 to *sum [J]: 1/2 m v^2, or for coarse cells, whose mass matrix is
- * not diagonal, half the product of momentum and velocity. context: the mesh. */
+/* Adds the kinetic energy of the nodes first .. end - 1 of a mesh to sum[0] [J]: 1/2 m v^2, or for coarse cells, whose
+ * mass matrix is not diagonal, half the product of momentum and velocity. A function for reproducible_sums; context:
+ * the mesh. */
 static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -43,9 +44,9 @@ real mesh_kinetic(const struct mesh *mesh)
     return sum;
 }
 
-/* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 to *sum, with the nodal forces f [J/s^2]; times dt^2 it is
- * the correction of mesh_kick. Nodes of matched coarse cells have the mass matrix of mesh_inertia.h. context: the
- * mesh. */
+/* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 of a mesh to sum[0], with nodal forces f and masses m
+ * [J/s^2]; times dt^2 it is the correction of mesh_kick. Nodes of matched coarse cells have the mass matrix of
+ * mesh_inertia.h. A function for reproducible_sums; context: the mesh. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -83,7 +84,7 @@ struct strain_sum {
     bool finite;
 };
 
-/* Returns the sum of the eight values. */
+/* Returns the sum of the eight entries of a vector. */
 static ALWAYS_INLINE real lanes_sum(lanes a)
 {
     real all = 0;

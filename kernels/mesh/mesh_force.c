@@ -12,7 +12,8 @@
 
 /* ---- whole cells ------------------------------------------------------------------------------------------------- */
 
-/* Returns the vector `now` shifted by one lane: {before[7], now[0], .., now[6]}. */
+/* Returns the vector `now` shifted by one lane, with the last entry of `before` in front: {before[7], now[0], ..,
+ * now[6]}. */
 static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
 {
     return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
@@ -182,8 +183,9 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
 }
 
-/* Adds the forces in mesh->partial_force of all active partial cells to the nodes. Several cells share a node, so the
- * forces are added serially and in order. */
+/* Adds the forces in mesh->partial_force of all active partial cells (cells with missing points, partial stresses,
+ * several materials or doubled nodes) to the nodes. Several cells share a node, so the forces are added serially and in
+ * order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
     for (int64_t group = 0; group < mesh_partial_group_count(mesh); group++) {

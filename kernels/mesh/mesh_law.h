@@ -78,7 +78,7 @@ static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], l
     e[0][1] = e[1][0] = c * g[0][1] + s * g[1][1] + s;
 }
 
-/* Computes the matrix C of the cofactors of the 3 x 3 matrix A, for eight cells at a time. */
+/* Computes the matrix C of the cofactors of the 3 x 3 matrix A, for eight matrices at a time, one per vector lane. */
 static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
 {
     for (int a = 0; a < 3; a++)
@@ -153,8 +153,8 @@ static ALWAYS_INLINE void stress_add_skew_part(lanes P[3][3], const lanes e[3][3
 
 /* ---- constitutive law -------------------------------------------------------------------------------------------- */
 
-/* Computes the stress P of the symmetric strain e by Hooke's law, for eight cells at a time [Pa]. m: elastic
- * constants. */
+/* Computes the stress P of the symmetric strain e by Hooke's law, for eight cells at a time [Pa]. e, P: dim x dim; m:
+ * elastic constants of the material. */
 static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes e[3][3], lanes P[3][3], const int dim)
 {
     for (int a = 0; a < dim; a++) {
@@ -164,8 +164,8 @@ static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes e[3]
     }
 }
 
-/* Returns the stiffness of the mean normal stress by the trace of the strain [Pa] if the points of a cell have one
- * dilatation; 0 if each has its own. */
+/* Returns the derivative of the mean normal stress by the trace of the strain [Pa] if the points of a cell have one
+ * dilatation (m->mean_dilatation); 0 if each has its own. */
 static ALWAYS_INLINE real averaged_stiffness(const struct elastic *m, const int dim)
 {
     return m->mean_dilatation ? (m->c11 + (dim - 1) * m->c12) / dim : 0;

@@ -5,13 +5,15 @@
 
 #include "kernels/laws/law_update.h"
 
-/* Returns material point number q of a cell, -1 if there is none. cell: -1 for a lane without cell. */
+/* Returns the particle number of material point q of a cell, -1 if it has none. cell: index of the cell, -1: no
+ * cell. */
 static ALWAYS_INLINE int32_t place_point(const struct mesh *mesh, int32_t cell, int q, const int dim)
 {
     return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + q];
 }
 
-/* Returns the values of an array of particles at eight points. point: indices, -1: 0 in this lane. */
+/* Returns the values from[point[l]] of a particle array for eight points, one per lane; 0 in lanes with point[l] =
+ * -1. */
 static ALWAYS_INLINE lanes lanes_of_listed(const real *from, const int32_t *point)
 {
     lanes eight;
@@ -19,9 +21,9 @@ static ALWAYS_INLINE lanes lanes_of_listed(const real *from, const int32_t *poin
     return eight;
 }
 
-/* Returns the total deviatoric strain rate sqrt(2/3 D':D') of a step of dt [s] in which the elastic trial stress has
- * grown from e->before to e->s [1/s]; in plane stress and 1D that of incompressible flow. dt 0: returns 0, the rate of
- * load steps. m: elastic constants. */
+/* Returns for eight points the total deviatoric strain rate sqrt(2/3 D':D') of a step of dt [s] in which the elastic
+ * trial stress has grown from e->before to e->s [1/s]; in plane stress and 1D that of incompressible flow. dt 0:
+ * returns 0, the rate of load steps. m: constants of their material. */
 static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_points *e, real dt)
 {
     lanes D[SYM_MAX], square = lanes_broadcast(0);
@@ -36,8 +38,9 @@ static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_po
     return lanes_square_root(lanes_max(2.0 / 3 * square, lanes_broadcast(1e-200))) / dt;
 }
 
-/* Loads the state of eight points into *e. point: indices, -1 for a lane without a point; stress: symmetric components
- * of the trial stress [Pa]; dt: as in law_rate; m: constants of the material whose law is evaluated. */
+/* Loads the plastic state and the stresses of eight points into *e, for law_update. point: particle numbers, -1 for a
+ * lane without a point; stress: symmetric components of the trial stress [Pa]; dt: duration of an explicit step [s], 0
+ * in load steps; m: constants of the material whose law is evaluated. */
 static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elastic *m, const int32_t *point,
                                     const lanes *stress, real dt, struct law_points *e, const int dim)
 {
@@ -61,8 +64,8 @@ static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elas
         p->temperature ? lanes_of_listed(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Stores the state of lane l, which has yielded, to point i, and its stress in `stress`, whose trial value it
- * replaces. */
+/* Stores the state in lane l of *e, of a point that has yielded, to point i of the particles, and its stress in
+ * `stress`, whose trial value it replaces. m: constants of its material. */
 static ALWAYS_INLINE void law_store(const struct particles *p, const struct elastic *m, const struct law_points *e,
                                     int l, int64_t i, lanes *stress, const int dim)
 {
@@ -78,9 +81,9 @@ static ALWAYS_INLINE void law_store(const struct particles *p, const struct elas
 }
 
 /* Maps the trial stresses of the points number q of eight cells back to their yield surfaces by their flow laws, and
- * updates their plastic state. left: bits of the lanes whose points have a law; dt: duration of an explicit step [s], 0
- * in load steps; stress: symmetric components, trial stress on entry [Pa]; m: elastic constants of all materials.
- * Points of several materials: law by law. */
+ * updates their plastic state. cell: eight cell indices; left: bits of the lanes whose points have a law; dt: duration
+ * of an explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry [Pa]; m: elastic
+ * constants of all materials. Points of several materials: law by law. */
 static NEVER_INLINE void place_laws(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                     const int32_t *cell, int q, unsigned left, real dt, lanes *stress, int dim)
 {

@@ -6,8 +6,9 @@
 #include "kernels/simd/lanes.h"
 
 /* Replaces the force on nodal components with prescribed velocity by mass times the change of that velocity per time.
- * Adds the impulse [N s] and the work [J] that the walls exert to impulse[] and *work, and stores the reaction of each
- * wall. The walls of one component are consecutive; their sums are added at the end. */
+ * dt_velocity: time over which forces change the velocities [s]. Adds the impulse [N s] and the work [J] that the walls
+ * exert to impulse[] and *work, and stores the reaction of each wall [N s]. The walls of one component are consecutive;
+ * their sums are added at the end. */
 static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
@@ -30,8 +31,9 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
     }
 }
 
-/* Adds the forces of dashpots to the nodal forces and sets grid.absorbed to their energy and impulse in this step.
- * Dashpots of mirror nodes are listed at the image nodes. */
+/* Adds the forces of dashpots to the nodal forces of the mesh and sets grid.absorbed to their energy and impulse in
+ * this step. dt_velocity: time over which forces change the velocities [s]. Dashpots of mirror nodes are listed at the
+ * image nodes. */
 static void dashpots_force(struct mesh *mesh, real dt_velocity)
 {
     struct grid *g = &mesh->grid;
@@ -49,9 +51,10 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
 
 #define OFF_PLACE 1e-6 /* largest deviation from a prescribed position that counts as round-off [cells]; empirical */
 
-/* Sets constrained components to the prescribed velocity exactly, removing round-off from velocity and displacement.
- * A displacement within OFF_PLACE cell edges of its prescribed value is set to that value; one that differs by more,
- * for example of a node that started from another displacement, follows the velocity alone. */
+/* Sets nodal components held by walls to the prescribed velocity exactly, removing round-off from velocity and
+ * displacement. dt: time step [s]. A displacement within OFF_PLACE cell edges of its prescribed value is set to that
+ * value; one that differs by more, for example of a node that started from another displacement, follows the velocity
+ * alone. */
 static void walls_move(struct mesh *mesh, real dt)
 {
     const struct grid *g = &mesh->grid;
@@ -78,8 +81,9 @@ void mesh_clear(struct mesh *mesh)
 }
 
 /* Advances velocity and displacement of the active nodes of a row (along x) by a leap-frog step, eight at a time;
- * entries beyond the last node have neither force nor mass and stay at rest. Returns the square of the largest velocity
- * component [m^2/s^2], INFINITY if one is not finite. Maxima ignore NaN, so the sum of all components is tested. */
+ * entries beyond the last node have neither force nor mass and stay at rest. dt, dt_velocity: times over which
+ * velocities move the nodes and forces change the velocities [s]. Returns the square of the largest velocity component
+ * [m^2/s^2], INFINITY if one is not finite. Maxima ignore NaN, so the sum of all components is tested. */
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
@@ -149,8 +153,8 @@ static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
     }
 }
 
-/* Updates momentum over mass of the nodes of a mesh of coarse cells with the nodal forces, and computes the nodal
- * velocities from it (mesh_velocity). */
+/* Adds the nodal forces over a time dt_velocity [s] to the momentum (over mass) of all nodes of a mesh of coarse cells,
+ * and computes the nodal velocities from it (mesh_velocity). */
 static void momentum_move(struct mesh *mesh, real dt_velocity)
 {
 #pragma omp parallel for schedule(static)

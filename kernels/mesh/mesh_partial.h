@@ -52,9 +52,9 @@ static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const la
     }
 }
 
-/* Adds to f the forces of state-based bonds on the modes of the cells of a group of partial cells [Pa]: f += share^T
- * pull for each material point with bonds (struct mesh_end), with p->end_pull of this point. f: one value for each
- * mode of cell_strain_vector. */
+/* Adds to f the forces of state-based bonds on the modes of the cells of a group of eight partial cells [Pa]: f +=
+ * share^T pull for each material point with bonds (struct mesh_end), with the reaction `pull` of its bonds
+ * (p->end_pull). f: one value for each mode of cell_strain_vector, one cell per lane. */
 static ALWAYS_INLINE void partial_add_bond_forces(const struct mesh *mesh, const struct particles *p, int64_t group,
                                                   lanes *f, const int dim)
 {

@@ -30,7 +30,8 @@ static ALWAYS_INLINE void cell_interpolate_to_points(real *v, const int dim)
             if (!(c >> d & 1)) interpolate_to_quarters(&v[c], &v[c | 1 << d]);
 }
 
-/* Returns the interpolated value at material point number q of a cell. v: values at its 2^dim corners, overwritten. */
+/* Returns the value at material point number q of a cell, interpolated linearly from its corners. v: values at its
+ * 2^dim corners, overwritten. */
 static ALWAYS_INLINE real cell_interpolate_to_point(real *v, int q, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -70,9 +71,10 @@ static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t 
     }
 }
 
-/* Computes e = R^T F - 1 at each material point of cell I, with the deformation gradient F at the point and the
- * rotation R of the mean deformation gradient of the cell. R: receives the rotation, dim x dim row by row; the
- * identity if `finite` is false or in 1D. e[q]: dim x dim row by row for point q; only its symmetric part is strain. */
+/* Computes e = R^T F - 1 at each material point of cell I [1], with the deformation gradient F at the point and the
+ * rotation R of the mean deformation gradient of the cell. R: receives the rotation, dim x dim row by row; the identity
+ * if `finite` (finite strain) is false or in 1D. e[q]: dim x dim row by row for point q; only its symmetric part is
+ * strain. */
 static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t I, real *R,
                                              real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
 {
@@ -98,8 +100,9 @@ static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t I,
             }
 }
 
-/* Returns true if a point of the material numbers `material` in the cell with the 2^dim points `point` has the mean
- * dilatation of its cell. */
+/* Returns true if a cell has a point of a material with mean dilatation, for which the points of a cell have one
+ * dilatation. m: elastic constants of all materials; material: number of the material of every particle; point: the
+ * 2^dim points of the cell, -1: none. */
 static ALWAYS_INLINE bool cell_averages(const struct elastic *m, const uint8_t *material, const int32_t *point,
                                         const int dim)
 {
@@ -109,8 +112,9 @@ static ALWAYS_INLINE bool cell_averages(const struct elastic *m, const uint8_t *
 }
 
 /* Replaces value[q] of each point of a cell by its difference from the mean over the points of the cell of the same
- * material, mean less value; by 0 for materials without mean dilatation, and where there is no point. material: number
- * of the material of every particle; point: the 2^dim points of the cell, -1: none. */
+ * material, mean less value; by 0 for materials without mean dilatation, and where there is no point. m: elastic
+ * constants of all materials; material: number of the material of every particle; point: the 2^dim points of the cell,
+ * -1: none. */
 static ALWAYS_INLINE void cell_differences(const struct elastic *m, const uint8_t *material, const int32_t *point,
                                            real *value, const int dim)
 {
@@ -136,7 +140,8 @@ static ALWAYS_INLINE void cell_differences(const struct elastic *m, const uint8_
 }
 
 /* Replaces the trace of the strains e[q] of the points of cell I by the mean over the points of the same material,
- * where the material has the mean dilatation of its cell. e: as from mesh_point_strains. */
+ * where the material has the mean dilatation of its cell. e: as from mesh_point_strains; m: elastic constants of all
+ * materials. */
 static ALWAYS_INLINE void mesh_strains_average(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, int64_t I,
                                                real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)

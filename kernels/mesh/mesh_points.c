@@ -6,16 +6,16 @@
 #include "mesh_run.h"
 #include "kernels/pd/rotation.h"
 
-/* One body for all dimensions; the parallel region is inside each instance. */
+/* Calls X for each number of dimensions: one body for all; the parallel region is inside each instance. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
-/* Returns the number of cells that may have points: all cells, or those of the list filled_cell. */
+/* Returns the number of cells that may have points: all cells of the mesh, or those of the list mesh->filled_cell. */
 static ALWAYS_INLINE int64_t cells_of_points(const struct mesh *mesh)
 {
     return mesh->absent ? mesh->filled_cells : mesh->grid.n;
 }
 
-/* Returns the k-th cell that may have points. */
+/* Returns the index of the k-th cell that may have points (cells_of_points). */
 static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 {
     return mesh->absent ? mesh->filled_cell[k] : k;
@@ -112,7 +112,7 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
 /* ---- bonded points ----------------------------------------------------------------------------------------------- */
 
 /* Computes the rotations of eight cells with the strain s, in the layout of particles.end_rotation. rotates: true for
- * the finite rotation s->R, false for that by the antisymmetric part of the displacement gradient. */
+ * the finite rotation s->R of the cell, false for that by the antisymmetric part of the displacement gradient. */
 static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
 {
     lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_broadcast(0);
@@ -216,9 +216,9 @@ void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 
 /* ---- stress ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the Cauchy stress of point i in p: s itself at small strain, R sym(s U) R^T/det U at finite strain, with the
- * stress s at the strain e, U = 1 + e and the rotation R of the cell, of sheets that yield also over the stretch of the
- * thickness. At finite strain stores its volume, too. */
+/* Stores the Cauchy stress of point i of material m in p: the stress s at the strain e itself at small strain, R sym(s
+ * U) R^T/det U at finite strain, with U = 1 + e and the rotation R of the cell; in sheets that yield also divided by
+ * the stretch of the thickness. At finite strain stores its volume, too. R, e: dim x dim, row by row. */
 static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R,
                                              const real *e, const int dim, bool finite)
 {
@@ -259,7 +259,8 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
     p->volume[i] = p->volume0[i] * det;
 }
 
-/* Stores Cauchy stress and, at finite strain, volume of the points of cell I in p. */
+/* Stores the Cauchy stress and, at finite strain, the volume of the points of cell I in p. m: elastic constants of all
+ * materials. */
 static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                       const int dim, bool finite)
 {
@@ -323,7 +324,8 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Sets FLAG_STRESSED for the points of cell I whose largest principal stress exceeds their conversion stress. */
+/* Sets FLAG_STRESSED for the points of cell I whose largest principal stress exceeds their conversion stress. m:
+ * elastic constants of all materials; finite: true for finite strain. */
 static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                            int64_t I, const int dim, bool finite)
 {
@@ -349,7 +351,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
-/* Calls cell_points_mark for cell I; one function per dimension, not inlined, since few cells are examined. */
+/* Calls cell_points_mark for cell I: one function per dimension, not inlined, since few cells are examined. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
@@ -390,7 +392,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     }
 DIMENSIONS(TENSION)
 
-/* Returns the bound of places_tension; one function per dimension, not inlined. */
+/* Returns places_tension for eight cells [Pa]; one function per dimension, not inlined. */
 static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                          const int dim)
 {
@@ -399,7 +401,7 @@ static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct m
                       : cells_tension_3(m, s, there);
 }
 
-/* Returns true if cell I has a point of a material other than `material`. */
+/* Returns true if cell I has a point of a material other than number `material`. */
 static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct particles *p, int64_t I, uint8_t material,
                                      const int dim)
 {
@@ -410,7 +412,8 @@ static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct parti
     return false;
 }
 
-/* Returns the bound of places_tension for eight cells of a row of consecutive cells, from its k-th cell on [Pa]. */
+/* Returns the bound of the largest principal stress by places_tension for eight cells of a row of consecutive cells,
+ * from its k-th cell on [Pa]. */
 static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                        int64_t k, const int dim, const bool finite)
 {

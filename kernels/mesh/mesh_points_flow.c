@@ -4,7 +4,7 @@
 #include "mesh_partial.h"
 #include "mesh_run.h"
 
-/* Arguments of mesh_points_flow. */
+/* Arguments of mesh_points_flow: mesh, particles, elastic constants of all materials, and time step dt [s]. */
 struct flow_step {
     const struct mesh *mesh;
     const struct particles *p;
@@ -12,8 +12,8 @@ struct flow_step {
     real dt;
 };
 
-/* Updates the plastic state of the points of eight cells. cell: eight cell indices, -1 for a lane without cell;
- * u[c][i]: displacements of their corners [m]. */
+/* Updates the plastic state of the points of eight cells at the end of an explicit step. cell: eight cell indices, -1
+ * for a lane without cell; u[c][i]: displacements of their corners [m]; finite: true for finite strain. */
 static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *cell, lanes u[CORNERS_MAX][3],
                                      const int dim, const bool finite)
 {

@@ -20,8 +20,8 @@ static ALWAYS_INLINE void mesh_run_load_displacements(const struct mesh *mesh, c
         for (int i = 0; i < dim; i++) u[c][i] *= inside;
 }
 
-/* Returns true in 2D for isotropic elastic constants m. The stresses of the mean strain and of the bending modes then
- * have no moment, and cell_balance_finite_moments is not needed. */
+/* Returns true in 2D for isotropic elastic constants m. The stresses of the mean strain and of the bending modes of a
+ * whole cell then have no moment, and cell_balance_finite_moments is not needed. */
 static ALWAYS_INLINE bool cells_have_balanced_moments(const struct elastic *m, const int dim)
 {
     return dim == 2 && fabs(m->c11 - m->c12 - 2 * m->shear) <= 1e-14 * m->c11;

@@ -13,7 +13,7 @@ struct microbench_lattice;
 /* Creates about 80,000 particles in `dim` dimensions with neighbours within 3.015 spacings. Release with
  * microbench_lattice_free. */
 KERNEL(struct microbench_lattice *, microbench_lattice_make, (int dim));
-/* Sweeps once over all bonds. Returns seconds per directed bond. */
+/* Sweeps once over all bonds of the lattice s. Returns seconds per directed bond. */
 KERNEL(double, microbench_lattice_run, (struct microbench_lattice *s));
 
 /* Releases s, the data of the lattice benchmark. */
@@ -29,7 +29,7 @@ KERNEL(struct microbench_triad *, microbench_triad_make, (bool quick));
 /* Runs the triad once. Returns bytes per second, counted as 24 bytes per entry. */
 KERNEL(double, microbench_triad_run, (struct microbench_triad *t));
 
-/* Releases the arrays of the triad. */
+/* Releases t, the data of the triad. */
 KERNEL(void, microbench_triad_free, (struct microbench_triad *t));
 
 /* ---- microbench_points.c: the plain material point method -------------------------------------------------------- */
@@ -37,13 +37,13 @@ KERNEL(void, microbench_triad_free, (struct microbench_triad *t));
 /* Data of a plain material point method: 2D linear MUSL FLIP, 80,000 points sorted by cell, four per cell. */
 struct microbench_points;
 
-/* Creates the points. Release with microbench_points_free. */
+/* Creates the data of the material point method, with points in motion. Release with microbench_points_free. */
 KERNEL(struct microbench_points *, microbench_points_make, (void));
 
-/* Runs one step. Returns seconds per point and step. */
+/* Runs one step of the plain material point method m. Returns seconds per point and step. */
 KERNEL(double, microbench_points_run, (struct microbench_points *m));
 
-/* Releases the points. */
+/* Releases m, the data of the plain material point method. */
 KERNEL(void, microbench_points_free, (struct microbench_points *m));
 
 #endif

@@ -27,7 +27,7 @@ struct microbench_lattice {
     real *x[DIM_MAX], *f[DIM_MAX];
 };
 
-/* Computes the forces of all bonds on eight particles, those with the indices i to i + 7. */
+/* Computes the forces of all bonds on eight particles of the lattice, those with the indices i to i + 7. */
 static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, int64_t i, const int dim)
 {
     const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;
@@ -67,7 +67,7 @@ DIM_VARIANTS(SWEEP)
 #define SWEEP_ENTRY(D) [D] = stencil_sweep_##D##d,
 static void (*const stencil_sweep[DIM_MAX + 1])(struct microbench_lattice *) = {DIM_VARIANTS(SWEEP_ENTRY)};
 
-/* Computes index distances and inverse lengths of all neighbours within 3.015 spacings. */
+/* Computes index distances and inverse lengths of all neighbours of a lattice particle within 3.015 spacings. */
 static void find_neighbours(struct microbench_lattice *s)
 {
     const int reach[DIM_MAX] = {MARGIN, s->dim > 1 ? MARGIN : 0, s->dim > 2 ? MARGIN : 0};

@@ -12,6 +12,7 @@
 
 enum { CELLS_X = 100, CELLS_Y = 200, CORNERS = 4, NODES_X = CELLS_X + 1, NODES = NODES_X * (CELLS_Y + 1) };
 
+/* Data of the plain material point method: n points, edge h of a cell [m], time step dt [s], elastic constants [Pa]. */
 struct microbench_points {
     int64_t n;
     real h, dt, c11, c12, shear;
@@ -20,7 +21,8 @@ struct microbench_points {
     real *m, *px, *py, *fx, *fy, *ux, *uy; /* nodes: mass, momentum, force, velocity */
 };
 
-/* Weights N of the linear shape functions of a point at the four corners of its cell, and their slopes gx, gy [1/m]. */
+/* Weights N of the linear shape functions of a point at the four corners of its cell [1], and their slopes gx, gy
+ * [1/m]. */
 struct corner {
     real N[CORNERS], gx[CORNERS], gy[CORNERS];
 };
@@ -43,7 +45,8 @@ static void add_corners(real *field, int cx, int cy, const real *sum)
     for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
 }
 
-/* Adds mass, momentum and internal force of the points of cell cx, cy to its nodes (first map). */
+/* First map: adds mass, momentum and internal force of the points of cell cx, cy to its four nodes. cx, cy: place of
+ * the cell in the grid. */
 static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -63,8 +66,8 @@ static void cell_scatter(struct microbench_points *p, int cx, int cy)
     add_corners(p->fx, cx, cy, fx), add_corners(p->fy, cx, cy, fy);
 }
 
-/* Adds the change of the nodal velocities (in fx, fy) to the velocities of the points of cell cx, cy, and adds their
- * momentum to the nodes again (second map). */
+/* Second map: adds the change of the nodal velocities (in fx, fy) to the velocities of the points of cell cx, cy, and
+ * adds their momentum to the nodes again. */
 static void cell_remap(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -91,7 +94,7 @@ static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, i
     p->volume[i] *= 1 + xx + yy;
 }
 
-/* Updates position, stress and volume of the points of cell cx, cy. */
+/* Third map: updates position, stress and volume of the points of cell cx, cy from the nodal velocities. */
 static void cell_gather(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -128,14 +131,15 @@ MAP(scatter)
 MAP(remap)
 MAP(gather)
 
-/* Sets mass, momentum and force of all nodes to 0. */
+/* Sets mass, momentum and force of all nodes to 0, before a step. */
 static void nodes_clear(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
     for (int I = 0; I < NODES; I++) p->m[I] = p->px[I] = p->py[I] = p->fx[I] = p->fy[I] = 0;
 }
 
-/* Computes the change of velocity (in fx, fy) and the new velocity of all nodes; sets momentum to 0. */
+/* Computes the change of velocity of all nodes (into fx, fy) and their new velocity (ux, uy) from momentum and force;
+ * sets the momentum to 0. */
 static void nodes_move(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
@@ -147,7 +151,7 @@ static void nodes_move(struct microbench_points *p)
     }
 }
 
-/* Divides the momentum of all nodes by their mass, after the second map. */
+/* Divides the momentum of all nodes by their mass, after the second map: px, py are then velocities. */
 static void nodes_remapped(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)

@@ -16,8 +16,8 @@
  * means, one after the other in the order of its list. A multiple of POINTS. */
 enum { MEAN_POINTS = 64 };
 
-/* Returns true in a space where points of the materials of t can have the mean dilatation of their cell; false if the
- * transfer has no stress. */
+/* Returns true if points of the materials in t can have the mean dilatation of their cell, in a space of `dim`
+ * dimensions; false in 1D and if the transfer has no stress (momentum only). */
 static ALWAYS_INLINE bool mean_dilatation(const struct transfer_data *t, const int dim)
 {
     return dim > 1 && __builtin_expect(t->mean_dilatation, 0) && !t->momentum_only;
@@ -29,9 +29,9 @@ static ALWAYS_INLINE bool mean_shared(const struct particles *p, int32_t i, int3
     return p->material[i] == p->material[j] && p->body[i] == p->body[j];
 }
 
-/* Replaces value[k] of n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of its
- * body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined, so
- * that the code for other materials contains none of it. */
+/* Replaces value[k] of the n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of
+ * its body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined,
+ * so that the code for other materials contains none of it. */
 static NEVER_INLINE void differences_from_mean(const struct particles *p, const struct transfer_data *t,
                                                const int32_t *list, int n, real *value)
 {

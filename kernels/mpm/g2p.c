@@ -96,8 +96,8 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* Adds the displacements `step` [m] to the positions of the points of stencil s. Returns a bit mask: bit k is set if
- * point k has left cell c. */
+/* Adds the displacements `step` [m] to the positions of the points of stencil s and stores them. Returns a bit mask:
+ * bit k is set if point k has left cell c of the grid. */
 static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
                                      const struct cell_stencil *s, const row_of_points *step, const int dim)
 {
@@ -111,8 +111,8 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_sign_bits((row_of_points)~inside);
 }
 
-/* Returns in each lane -1 if the point moves with the velocities of the second map (remap.c), else 1. Points with bonds
- * do; if momentum_only or second_map is set, all do. point: numbers of the points. */
+/* Returns for a few points, in each lane, -1 if the point moves with the velocities of the second map (remap.c), else
+ * 1. Points with bonds do; if t->momentum_only or t->second_map is set, all do. point: numbers of the points. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     const bool all = t->momentum_only || t->second_map;
@@ -156,7 +156,8 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
     }
 }
 
-/* Computes the rate of dilatation tr L at the points of stencil s of cell c [1/s], as points_gather does. */
+/* Computes the rate of dilatation tr L at the points of stencil s of cell c [1/s], with the velocity gradient L that
+ * points_gather computes. */
 static ALWAYS_INLINE row_of_points points_dilate(const struct grid *g, const struct cell *c,
                                                  const struct cell_stencil *s, const int dim, const enum shape shape,
                                                  const enum transfer transfer)
@@ -177,8 +178,8 @@ static ALWAYS_INLINE row_of_points points_dilate(const struct grid *g, const str
     return trace;
 }
 
-/* Computes by how much the rate of dilatation of n <= MEAN_POINTS listed points of a cell changes by averaging
- * (dilatation.h) [1/s]. */
+/* Computes by how much the rate of dilatation of n <= MEAN_POINTS listed points of a cell changes by averaging over the
+ * points of one body and material (dilatation.h), change[k] for point list[k] [1/s]. */
 static NEVER_INLINE void means_of_dilatation(const struct grid *g, const struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, real *change,
                                              const int dim, const enum shape shape, const enum transfer transfer)
@@ -194,7 +195,8 @@ static NEVER_INLINE void means_of_dilatation(const struct grid *g, const struct 
     differences_from_mean(p, t, list, n, change);
 }
 
-/* Adds a third, in 2D half, of the changes of n points to the diagonal of their velocity gradients L [1/s]. */
+/* Adds a third, in 2D half, of the changes of the rate of dilatation of n points, change[], to the diagonal of their
+ * velocity gradients L [1/s]. */
 static ALWAYS_INLINE void points_dilate_more(row_of_points *L, const real *change, int n, const int dim)
 {
     row_of_points more;
@@ -243,9 +245,9 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
     if (__builtin_expect(p->temperature != NULL, 0)) prefetch_line(p->temperature + i);
 }
 
-/* Updates the n listed points of one cell (g2p_points). Returns the number of points that have left the cell. The cell
- * is computed again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. averaged:
- * result of mean_dilatation. */
+/* Updates the n listed points of one cell of the grid at the end of the step (g2p_points). Returns the number of points
+ * that have left the cell. due: receives the points where materials yield; averaged: result of mean_dilatation. The
+ * cell is computed again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       struct flow_points *due, const int32_t *list, int n, const int dim,
                                       const enum shape shape, const enum transfer transfer, const bool averaged)

@@ -30,9 +30,9 @@ void grid_clear(struct grid *g)
     EACH_NODE(CLEAR)
 }
 
-/* Sets one velocity component of a node to the velocity that the wall w prescribes; the reaction replaces the force,
- * and with APIC also the momentum. Adds the impulse [N s] and the work [J] of the wall to impulse[] and *work, and
- * stores w->reaction. Does nothing for nodes lighter than smallest_mass [kg]. */
+/* Sets one velocity component of a node of the grid to the velocity that the wall w prescribes; the reaction replaces
+ * the force, and with APIC also the momentum. Adds the impulse [N s] and the work [J] of the wall to impulse[] and
+ * *work, and stores its reaction [N s]. Does nothing for nodes lighter than smallest_mass [kg]. */
 static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX],
                       real *work)
 {
@@ -59,8 +59,9 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
  * f_g), as if the mirrored body were present, for every shape. Mirror nodes are few and several may share an image;
  * they are processed in order by one thread. */
 
-/* Adds mass, reflected force and reflected momentum of each mirror node to its image node, and sets them to 0 at the
- * mirror node. Stores in `taken` the impulse that the points gave to the mirror node [N s]. */
+/* Adds mass, reflected force and reflected momentum of each mirror node (a node beyond a plane of symmetry) to its
+ * image node, and sets them to 0 at the mirror node. Stores in its member `taken` the impulse that the points gave to
+ * it [N s]. dt_velocity: time over which forces change the velocities [s]. */
 static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, real dt_velocity)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++) {
@@ -164,8 +165,8 @@ static void followers_find(struct grid *g, real smallest_mass)
     array_sort(g->follower, n, sizeof *g->follower, by_node);
 }
 
-/* Adds `times` the force and the mass of node I to node J, from which the acceleration of J is computed. The momentum
- * of J is scaled so that its velocity does not change. */
+/* Adds `times` the force and the mass of the light node I to node J, from which the acceleration of I is extrapolated.
+ * The momentum of J is scaled so that its velocity does not change. */
 static void lend(struct grid *g, int64_t I, int64_t J, real times)
 {
     const real more = times * g->mass[I] / g->mass[J];
@@ -205,9 +206,10 @@ static void followers_out(struct grid *g)
         }
 }
 
-/* Applies dashpots to the nodal velocities after the forces have changed them, and sets g->absorbed to their energy and
- * impulse in this step. Nodes lighter than light_mass or smallest_mass [kg] are left out. Dashpots are few; a serial
- * loop keeps sums independent of the number of threads. */
+/* Applies dashpots to the nodal velocities of the grid after the forces have changed them, and sets g->absorbed to
+ * their energy and impulse in this step. dt_velocity: time over which forces change the velocities [s]. Nodes lighter
+ * than light_mass or smallest_mass [kg] are left out. Dashpots are few; a serial loop keeps sums independent of the
+ * number of threads. */
 static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
 {
     const real least = smallest_mass > g->light_mass ? smallest_mass : g->light_mass;
@@ -236,8 +238,9 @@ static void grid_absorb_again(struct grid *g)
         }
 }
 
-/* Computes the velocity of node I and its change, which replaces the force; clears the momentum. Nodes lighter than
- * smallest_mass [kg] get none. */
+/* Computes the new velocity of node I from its momentum and force, and its change, which replaces the force; sets the
+ * momentum to 0. dt_velocity: time over which forces change the velocities [s]. Nodes lighter than smallest_mass [kg]
+ * get none. */
 static ALWAYS_INLINE void node_advance(struct grid *g, int64_t I, real dt_velocity, real smallest_mass, const int dim)
 {
     const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;
@@ -266,7 +269,7 @@ void grid_constrain(struct grid *g, enum transfer transfer, real smallest_mass, 
     grid_mirror_nodes_spread(g, transfer, impulse);
 }
 
-/* Replaces the momentum of node I by its velocity. */
+/* Replaces the momentum of node I by its velocity; by 0 if the node is lighter than smallest_mass [kg]. */
 static ALWAYS_INLINE void node_remapped(struct grid *g, int64_t I, real smallest_mass, const int dim)
 {
     const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;

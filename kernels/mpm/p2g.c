@@ -131,8 +131,8 @@ static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *li
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
 }
 
-/* Computes by how much the mean stress of n <= MEAN_POINTS listed points of a cell changes by averaging
- * (dilatation.h) [Pa]. */
+/* Computes by how much the mean stress of n <= MEAN_POINTS listed points of a cell changes by averaging over the points
+ * of one body and material (dilatation.h), change[k] for point list[k] [Pa]. */
 static NEVER_INLINE void means_of_stress(const struct particles *p, const struct transfer_data *t, const int32_t *list,
                                          int n, real *change, int dim)
 {
@@ -201,8 +201,8 @@ p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIE
 
 /* ---- single field of a few points -------------------------------------------------------------------------------- */
 
-/* Adds value N of point i to the nodal array `field`, with the weights N of the first map. half_width: half the
- * reference edge of a particle, l_p [m]. */
+/* Adds `value` of point i to the nodal array `field`, distributed to the nodes with the weights N of the first map.
+ * half_width: half the reference edge of a particle, l_p [m]. */
 static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct particles *p, real half_width, int32_t i,
                                           real value, real *field, const int dim, const enum shape shape)
 {

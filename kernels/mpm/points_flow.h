@@ -51,13 +51,14 @@ static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, 
     m->rate = lanes_square_root(lanes_max(2.0 / 3 * square, lanes_broadcast(1e-200)));
 }
 
-/* Returns lanes l to l + POINTS - 1 of a. */
+/* Returns lanes l to l + POINTS - 1 of the eight values *a. */
 static ALWAYS_INLINE row_of_points lanes_part(const lanes *a, int l)
 {
     return (row_of_points) * (const points_anywhere *)((const real *)a + l);
 }
 
-/* Loads the back stresses of eight points, rotated by the spin of the step, into e. */
+/* Loads the back stresses of eight points, rotated by the spin of the step, into the members `back` of *e. point:
+ * numbers of the points. */
 static NEVER_INLINE void flow_load_back(const struct particles *p, const int32_t *point,
                                         const struct flow_motion *motion, struct law_points *e, const int dim)
 {
@@ -73,7 +74,9 @@ static NEVER_INLINE void flow_load_back(const struct particles *p, const int32_t
     if (dim == 2) e->back[2] = -e->back[0] - e->back[1];
 }
 
-/* Loads the state of eight points into e. m: constants of their material; stress: their trial stresses [Pa]. */
+/* Loads the plastic state and the stresses of eight points into *e, for law_update. m: constants of their material;
+ * point: numbers of the points; stress: their trial stresses, symmetric components [Pa]; motion: their motion in the
+ * step. */
 static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elastic *m, const int32_t *point,
                                     const lanes *stress, const struct flow_motion *motion, struct law_points *e,
                                     const int dim)
@@ -100,8 +103,8 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
         p->temperature ? lanes_gather(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Clears FLAG_STRESSED of point i of material m, which has yielded, if its largest principal stress does not exceed the
- * conversion stress. stress: after the return mapping [Pa]. */
+/* Clears FLAG_STRESSED of point i of a material m that has yielded, if its largest principal stress does not exceed the
+ * conversion stress. stress: symmetric components after the return mapping [Pa]. */
 static ALWAYS_INLINE void point_unmark(struct particles *p, const struct elastic *m, int64_t i, const real *stress,
                                        const int dim)
 {
@@ -111,7 +114,8 @@ static ALWAYS_INLINE void point_unmark(struct particles *p, const struct elastic
         p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
-/* Stores the state of lane l, which has yielded, to point i. */
+/* Stores the plastic state and stress in lane l of *e, of a point that has yielded, to point i of the particles. m:
+ * constants of its material. */
 static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *m, const struct law_points *e, int l,
                                      int64_t i, const int dim)
 {
@@ -124,7 +128,8 @@ static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *
     point_unmark(p, m, i, stress, dim);
 }
 
-/* Stores the back stresses of the lanes whose bits are set, which turn with their points. */
+/* Stores the back stresses of eight points in the lanes whose bits are set in lanes_set; their components turn with the
+ * points. point: numbers of the points. */
 static NEVER_INLINE void flow_store_back(struct particles *p, const struct law_points *e, unsigned lanes_set,
                                          const int32_t *point, const int dim)
 {
@@ -133,7 +138,8 @@ static NEVER_INLINE void flow_store_back(struct particles *p, const struct law_p
             p->back_stress[c][point[l]] = e->back[law_place[dim][c]][l];
 }
 
-/* Removes the first n points of `due`, at most LANES; at most POINTS others must follow. */
+/* Removes the first n points (at most LANES) of the list `due` of points whose return mapping is due; at most POINTS
+ * others must follow. */
 static ALWAYS_INLINE void flow_remove(struct flow_points *due, int n, const int dim)
 {
     due->n -= n;
@@ -175,8 +181,8 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
     flow_remove(due, n, dim);
 }
 
-/* Adds n points to those whose return mapping is due. point: their numbers, filled up to AT_ONCE; L: their velocity
- * gradients [1/s]. */
+/* Adds n points to the list `due` of those whose return mapping is due. point: their numbers, filled up to AT_ONCE; L:
+ * their velocity gradients [1/s]. */
 static ALWAYS_INLINE void flow_add(struct flow_points *due, const int32_t *point, int n, const row_of_points *L,
                                    const int dim)
 {

@@ -44,7 +44,7 @@ static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *
 }
 
 /* Updates the velocities of n listed points (n <= AT_ONCE) of cell c by the change of the nodal velocities, and adds
- * their new momentum to the sums of the cell. */
+ * their new momentum to the sums `sum` over the points of the cell. */
 static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
                                        const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                        const enum shape shape)

@@ -75,8 +75,9 @@ SHAPE_VARIANTS_TURNING(GATHER)
 /* Sums of momentum over the points of a cell for every node that they reach, by rows of four nodes [kg m/s]. */
 typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
 
-/* Adds the momentum m N (v + L (x_I - x_p)) of point `at` of stencil s to the sums of its cell. slope: velocity
- * gradients L of the points of the stencil, from rotating_velocity_gradients [1/s]. */
+/* Adds the momentum m N (v + L (x_I - x_p)) of point `at` of stencil s to the sums over the points of its cell, with
+ * its mass m, weights N, velocity v and distances x_I - x_p to the nodes. slope: velocity gradients L of the points of
+ * the stencil, from rotating_velocity_gradients [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g, const struct particles *p,
                                              const row_of_points *slope, const struct cell_stencil *s, int at,
                                              const int dim, const enum shape shape)
@@ -104,7 +105,8 @@ static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g
     }
 }
 
-/* Adds the momentum of the n listed points of one cell to the nodes of the grid (turn_scatter_point). */
+/* Adds the momentum of the n listed points of one cell to the nodes of the grid, with their velocity extrapolated to
+ * each node (turn_scatter_point). */
 static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                             const enum shape shape)

@@ -37,7 +37,7 @@ static ALWAYS_INLINE row_of_points points_choose(row_of_points sign, row_of_poin
 #endif
 }
 
-/* Returns the larger of a and b in each lane. */
+/* Returns the larger of a and b in each lane of two vectors of material points. */
 static ALWAYS_INLINE row_of_points points_max(row_of_points a, row_of_points b)
 {
 #ifdef __AVX__
@@ -47,7 +47,7 @@ static ALWAYS_INLINE row_of_points points_max(row_of_points a, row_of_points b)
 #endif
 }
 
-/* Returns the smaller of a and b in each lane. */
+/* Returns the smaller of a and b in each lane of two vectors of material points. */
 static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 {
 #ifdef __AVX__
@@ -57,14 +57,14 @@ static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 #endif
 }
 
-/* Returns |a|. */
+/* Returns |a| in each lane of a vector of material points. */
 static ALWAYS_INLINE row_of_points points_absolute(row_of_points a)
 {
     const points_mask digits = (points_mask){0} + INT64_MAX;
     return (row_of_points)((points_mask)a & digits);
 }
 
-/* Returns a bit mask: bit k is set where lane k is negative. */
+/* Returns a bit mask of a vector of material points: bit k is set where lane k is negative. */
 static ALWAYS_INLINE int points_sign_bits(row_of_points a)
 {
 #ifdef __AVX__
@@ -79,14 +79,14 @@ static ALWAYS_INLINE int points_sign_bits(row_of_points a)
  * repeat the last point. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
-/* Returns the smaller of a and b. */
+/* Returns the smaller of two whole numbers. */
 static ALWAYS_INLINE int int_min(int a, int b) { return a < b ? a : b; }
 
-/* Returns how many of `left` remaining points are processed at once. */
+/* Returns how many of `left` remaining points of a cell are processed at once: at most AT_ONCE. */
 static ALWAYS_INLINE int points_at_once(int left, const int dim) { return int_min(left, AT_ONCE(dim)); }
 
-/* Returns true if all lanes hold the same point, as in cells with one point (2D and 3D). The branch saves time there,
- * and costs none where cells have four points. */
+/* Returns true if all lanes of a vector of points hold the same point, as in cells with one point (2D and 3D). The
+ * branch saves time there, and costs none where cells have four points. point: numbers of the points. */
 static ALWAYS_INLINE bool points_are_the_same(const int32_t *point, const int dim)
 {
     return dim > 1 && point[0] == point[POINTS - 1];

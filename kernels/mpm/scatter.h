@@ -6,8 +6,8 @@
 #include "kernels/kernels.h"
 
 /* Returns true if the data of the point ORDER_AHEAD entries after entry k of the list should be prefetched: for one
- * point per cache line. *i: receives this point. The points of a row of cells occupy two (in 3D four) lines in many
- * arrays, more than the hardware prefetcher follows. */
+ * point per cache line. *i: receives the number of this point. The points of a row of cells occupy two (in 3D four)
+ * lines in many arrays, more than the hardware prefetcher follows. */
 static ALWAYS_INLINE bool prefetch_is_due(const int32_t *list, int k, int64_t *i)
 {
     *i = list[k + ORDER_AHEAD];

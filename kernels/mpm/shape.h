@@ -159,13 +159,13 @@ static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const str
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
-/* Returns the index of node k of a row, relative to the first node of the row. */
+/* Returns the index of node k of a row of four nodes, relative to the index of the first node of the row. */
 static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const int dim, const enum shape shape)
 {
     return IS_FACE(dim, shape) ? k % 2 + k / 2 * g->stride[1] : k;
 }
 
-/* Adds the values a of the nodes of a row to the nodal array whose entry of the first node is *to. */
+/* Adds the values a of the four nodes of a row to a nodal array. to: its entry of the first node of the row. */
 static ALWAYS_INLINE void nodes_add_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
                                         const enum shape shape)
 {
@@ -323,8 +323,8 @@ static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int a
     return weight;
 }
 
-/* Returns the derivative of the factor stencil_row along axis d, which is across the row, for point `at` of the stencil
- * [1/m]. */
+/* Returns the derivative of the factor stencil_row_factor along axis d, which is across the row, for point `at` of the
+ * stencil [1/m]. */
 static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s, int at, int k1, int k2, int d,
                                                    const int dim, const enum shape shape)
 {

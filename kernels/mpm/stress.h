@@ -32,7 +32,7 @@ static inline void stress_rotate_2d(real *s, real w)
     s[0] = mean + turned, s[1] = mean - turned;
 }
 
-/* Computes c = a b, 3x3. */
+/* Computes the matrix product c = a b of 3 x 3 matrices. */
 static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], real c[3][3])
 {
     for (int i = 0; i < 3; i++)
@@ -74,8 +74,9 @@ static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *s, cons
     more[5] = w[2] * (s[0] - s[2]) + w[0] * s[4] - w[1] * s[3];
 }
 
-/* Computes the change of the stress of a few points by an exact rotation, each by its own angle up to SPIN_SERIES.
- * angle2: square of the angle [rad^2]. With A s = W s - s W, whose eigenvalues are 0, +-i a and +-2i a at the angle a,
+/* Computes in `more` the change of the stress s of a few points by an exact rotation, each by its own angle up to
+ * SPIN_SERIES. w: components of the antisymmetric matrix W [rad]; angle2: square of the angle a [rad^2]. With
+ * A s = W s - s W, whose eigenvalues are 0, +-i a and +-2i a at the angle a,
  *     R s R^T = s + c1 A s + c2 A^2 s + c3 A^3 s + c4 A^4 s,
  *     c1 = (8 sin a - sin 2a)/6a, c2 = (15 - 16 cos a + cos 2a)/12a^2,
  *     c3 = (2 sin a - sin 2a)/6a^3, c4 = (3 - 4 cos a + cos 2a)/12a^4. */
@@ -97,8 +98,9 @@ static ALWAYS_INLINE void stress_exact_rotation_increment(const row_of_points *s
     stress_rotation_increment(sum, w, more, dim);
 }
 
-/* Rotates the stress s of a few points (one per lane), each by its own antisymmetric matrix W with components w [rad]:
- * to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second order between. */
+/* Rotates the stress s of a few points (one per lane; symmetric components), each by its own antisymmetric matrix W
+ * with components w [rad]: to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second order
+ * between. */
 static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -169,8 +171,8 @@ static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_
     return trace;
 }
 
-/* Returns the largest principal stress [Pa], in 3D by the trigonometric solution of the cubic equation. s: symmetric
- * components. */
+/* Returns the largest principal stress [Pa] of the stress s (symmetric components), in 3D by the trigonometric solution
+ * of the cubic equation. */
 static ALWAYS_INLINE real stress_largest_principal(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -185,8 +187,8 @@ static ALWAYS_INLINE real stress_largest_principal(const real *s, const int dim)
     return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
 }
 
-/* Returns an upper bound of the largest principal stress [Pa]. The principal stress itself is computed only where this
- * bound exceeds the conversion stress. s: symmetric components. */
+/* Returns an upper bound of the largest principal stress [Pa] of the stress s (symmetric components). The principal
+ * stress itself is computed only where this bound exceeds the conversion stress. */
 static ALWAYS_INLINE real stress_principal_bound(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -226,7 +228,8 @@ static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const 
     for (int a = 0; a < n; a++) stress[a] += pull * local[a];
 }
 
-/* Rotates v by the quaternion q, in place. */
+/* Rotates the vector v by the unit quaternion q, in place. q: first the three components along the axes, last the real
+ * one. */
 static inline void quaternion_rotate_vector(const real *q, real *v)
 {
     real u[3], old[3] = {v[0], v[1], v[2]};

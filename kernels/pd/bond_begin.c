@@ -29,7 +29,8 @@ struct candidate {
     int32_t i, j;
 };
 
-/* Returns the state of row block g while row blocks are examined; other threads may set DUE_DENIED in it. */
+/* Returns the state (due or not) of row block g while row blocks are examined; other threads may set DUE_DENIED in
+ * it. */
 static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
 
 /* Returns true if the bond `bond` of row block g, from particle i, is between its onset and its end, beyond which the
@@ -46,8 +47,8 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
     return c->stretch > c->range.onset && c->stretch <= c->range.end && c->range.onset < c->range.end;
 }
 
-/* Returns the row whose dilatation stands for that of particle or image j: its own, or that of its source; -1 if the
- * row does not hold the whole family. */
+/* Returns the row whose dilatation stands for that of particle or image j: its own, or that of the source of the image;
+ * -1 if the row does not hold the whole family (all neighbours of a particle). */
 static int64_t row_of_dilatation(const struct bonds *b, const struct particles *p, int32_t j)
 {
     const int64_t row = b->row_of[image_source_particle(p, b->soft.image, j)];
@@ -68,14 +69,15 @@ static void mark_needed(struct bonds *b, const struct particles *p, const struct
         }
 }
 
-/* Normal equations of the strain of a family, n unknowns: A eps = b; and the sums of weights and of weighted stretches.
- */
+/* Normal equations for the strain eps that fits the stretches of a family (all bonds of one particle) best, n unknowns:
+ * A eps = b; and the sums of weights (all) and of weighted stretches (sum). */
 struct strain_fit {
     int n;
     real A[SYM_MAX][SYM_MAX], b[SYM_MAX], all, sum;
 };
 
-/* Adds a bond of reference direction e, with the stretch `stretch` and the weight w, to the equations. */
+/* Adds a bond of reference direction e, with the stretch `stretch` and the weight w, to the normal equations of a
+ * family. */
 static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real stretch, real w)
 {
     real product[SYM_MAX];
@@ -91,8 +93,8 @@ static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real 
     fit->all += w, fit->sum += w * stretch;
 }
 
-/* Solves the equations by elimination and returns the trace of the strain [1]. A family of too few directions, whose
- * pivot is below PIVOT times the sum of weights, has D times its mean stretch. */
+/* Solves the normal equations of a family by elimination and returns the trace of its strain [1]. A family of too few
+ * directions, whose pivot is below PIVOT times the sum of weights, has `dim` times its mean stretch. */
 static real fit_trace(struct strain_fit *fit, int dim)
 {
     real trace = 0;
@@ -108,7 +110,8 @@ static real fit_trace(struct strain_fit *fit, int dim)
     return trace;
 }
 
-/* Computes the dilatation of one row [1]. */
+/* Computes the dilatation of the family of one row [1]: the trace of the strain that fits the stretches of its bonds
+ * best, weighted by the stiffness that they keep. */
 static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -124,8 +127,8 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
     return fit_trace(&fit, p->dim);
 }
 
-/* Returns true if the stress across a candidate allows it to soften. Both rows of a bond get the same answer: one with
- * a row of half a family, at a material point, has the dilatation of its other particle. */
+/* Returns true if the stress across the bond of candidate c allows it to soften. Both rows of a bond get the same
+ * answer: a bond with a row of half a family, at a material point, has the dilatation of its other particle. */
 static bool is_pulled(const struct bonds *b, const struct particles *p, const struct candidate *c)
 {
     const int64_t one = row_of_dilatation(b, p, c->i), two = row_of_dilatation(b, p, c->j);
@@ -160,8 +163,8 @@ static void mark_point(struct bonds *b, struct particles *p, int32_t i)
     __atomic_store_n(&b->soft.at_points, true, __ATOMIC_RELAXED);
 }
 
-/* Examines the candidates of row block g: those that the stress allows begin to soften. Sets DUE_DENIED in its state
- * if the stress does not allow one. */
+/* Examines the bonds of row block g that may begin to soften (is_candidate): those that the stress allows do. Sets
+ * DUE_DENIED in its state if the stress does not allow one. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     bool denied = false;

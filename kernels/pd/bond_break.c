@@ -48,8 +48,8 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
     if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
 }
 
-/* Recomputes the weighted volume of a row (all bonds of one particle) after a change of its weights. Only for
- * state-based models that normalise by the present family, and rows that hold the complete family. */
+/* Recomputes the weighted volume of a row (all bonds of one particle) after a change of the weights of its bonds. Only
+ * for state-based models that normalise by the present family, and rows that hold the complete family. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && b->whole[row])
@@ -58,8 +58,8 @@ static void row_changed(struct bonds *b, int64_t row)
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Replaces the force of a breaking bond on particle i, which the force kernel has added to p->f, by `share` [1] times
- * its force with the states before bonds broke. */
+/* Replaces the force of a breaking bond on particle i, which the force kernel has added to p->f, by `share` times its
+ * force with the states of the families before bonds broke. share: fraction of the force that acts in this step [1]. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
@@ -78,7 +78,7 @@ static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64
 }
 
 /* Breaks bond q of a row: replaces its force on the particle by that of the step in which it breaks (bond_last.h), adds
- * its elastic energy to the fracture energy of the row and its plastic work to that of the row, and marks it as
+ * its elastic energy to the fracture energy and its plastic work to the plastic work of the row, and marks it as
  * broken. */
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
@@ -144,8 +144,8 @@ static void mark_due(struct bonds *b, int64_t g)
     __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
 }
 
-/* Returns true if bond q of a row, from particle i to j, is beyond its end. Marks the row block as due if the bond is
- * beyond its onset and has not begun to soften. */
+/* Returns true if bond q of a row, from particle i to j, is stretched beyond its limit, at which it breaks. Marks the
+ * row block as due if the bond is beyond the onset of softening and has not begun to soften. */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {

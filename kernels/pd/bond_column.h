@@ -36,8 +36,8 @@ static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int
     return (struct column){b, number, b->common[number].first, NULL, NULL, kind};
 }
 
-/* Returns column k of a row block that follows a stencil. own: first particle of the row block; number: index of the
- * column among all columns. */
+/* Returns column k of a row block that follows a stencil, with the data of the bonds from that stencil. own: first
+ * particle of the row block; number: index of the column among all columns; kind: COLUMN_STENCIL, WHOLE or UNIT. */
 static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t number,
                                                        const struct stencil *stencil, int64_t k, int64_t own,
                                                        const enum column_kind kind)

@@ -28,7 +28,8 @@ struct core {
     real ratio, K, y[DIM_MAX], distance;
 };
 
-/* Computes the core of a bond in the row of particle i; ratio = 1 if the bond is broken or not within its core. */
+/* Returns the core of a bond in the row of particle i; its ratio is 1 if the bond is broken or not compressed into its
+ * core. */
 static inline struct core bond_core_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                        int32_t i)
 {
@@ -44,7 +45,7 @@ static inline struct core bond_core_of(const struct bonds *b, const struct parti
     return c;
 }
 
-/* Adds the core forces on the particles of row block g. */
+/* Adds the repulsive core forces of the bonds of row block g to the forces p->f on its eight particles [N]. */
 RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
@@ -57,7 +58,8 @@ RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, 
     }
 }
 
-/* Returns half the core energy of the bonds of row block g [J]; the other half belongs to the bonds' other rows. */
+/* Returns half the energy of the repulsive cores of the bonds of row block g [J]; the other half belongs to the bonds'
+ * other rows. */
 RARE real row_block_core_energy(const struct bonds *b, const struct particles *p, int64_t g)
 {
     real sum = 0;

@@ -75,7 +75,8 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + q) : stretch;
 }
 
-/* Returns the elastic part of the stretch of the bond with index q in a row block, as bonds_elastic_stretch [1]. */
+/* Returns the elastic part of the given stretch of the bond with index q in a row block [1], by the rules of
+ * bonds_elastic_stretch. */
 static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t q, real stretch)
 {
     if (b->soft.curve) return stretch * bond_kept_share(b, row_block, q, stretch);
@@ -99,7 +100,7 @@ static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, la
 
 /* ---- one bond, for samples and frames ---------------------------------------------------------------------- */
 
-/* Returns the stretch of a bond in the row of particle i [1]. */
+/* Returns the present stretch of a bond in the row of particle i [1]. */
 static inline real bond_stretch_of(const struct particles *p, const struct bond *bond, int32_t i)
 {
     real distance2 = 0;
@@ -115,13 +116,14 @@ static inline real bond_elastic_stretch_of(const struct bonds *b, const struct p
     return bond_entry_elastic_stretch(b, b->row_of[i] / LANES, bond->entry, bond_stretch_of(p, bond, i));
 }
 
-/* Returns the force of a bond in the row of particle i [N], equal to the force kernel's; tension is positive. */
+/* Returns the force of a bond in the row of particle i [N], equal to the one that the force kernel computes; tension is
+ * positive. */
 static inline real bond_force_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_stretch_of(b, p, bond, i);
 }
 
-/* Stores the force of a bond on particle i as a vector in f[dim] [N]. */
+/* Stores the force of a bond on particle i, in its row, as a vector in f[dim] [N]. */
 static inline void bond_force_vector(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                      int32_t i, real *f)
 {
@@ -139,7 +141,8 @@ static inline real bond_energy_of(const struct bonds *b, const struct particles 
     return b->stiffness * bond->w * energy / bond->inverse_length;
 }
 
-/* Returns the plastic work of a bond [J]: closed form, since hardening is linear and the path only grows. */
+/* Returns the plastic work of a bond so far [J], 0 if it is broken: in closed form, since hardening is linear and the
+ * plastic path only grows. */
 static inline real bond_plastic_work_of(const struct bonds *b, const struct bond *bond)
 {
     const int64_t q = bond->entry;

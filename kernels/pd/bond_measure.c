@@ -27,7 +27,7 @@ static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struc
 }
 
 /* Returns the elastic energies of the eight bonds of column s divided by the stiffness. x: positions of the particles
- * of the row block; *press: lowered to the smallest stretch of the intact bonds. */
+ * of the row block [m]; *press: lowered to the smallest stretch of the intact bonds [1]. */
 static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *press, const int dim, const enum pd_model model)
 {
@@ -90,7 +90,8 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
-/* Updates the largest stretches of the eight bonds of column s. x: positions of the particles of the row block. */
+/* Updates the largest stretches so far of the eight bonds of column s, which soften. x: positions of the particles of
+ * the row block [m]. */
 static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
                                              const int dim)
 {
@@ -99,7 +100,7 @@ static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct
     bonds_soften(s.b, s.number * LANES, stretch);
 }
 
-/* Updates the largest stretches of the bonds of row block g, which has begun to soften. */
+/* Updates the largest stretches so far of the bonds of row block g, of which at least one has begun to soften. */
 static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim)
 {
@@ -141,7 +142,7 @@ real bond_row_plastic_path(const struct bonds *b, int64_t row)
     return all > 0 ? sum / all : 0;
 }
 
-/* Returns the plastic work of row `row` for reproducible_sum. context: the bonds. */
+/* Returns the plastic work of the bonds of a row [J], as a term for reproducible_sum. context: the bonds. */
 static real bond_measure_plastic_term(const void *context, int64_t row) { return bond_row_plastic_work(context, row); }
 
 real bond_plastic_work(const struct bonds *b)

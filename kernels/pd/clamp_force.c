@@ -103,7 +103,8 @@ static void clamp_force_give(const struct clamped *c, struct particles *p, int64
     }
 }
 
-/* Copies the weights of the bonds to mirror images in clamped planes from the bond arrays to the list b->clamped. */
+/* Copies the weights of the bonds to mirror images in clamped planes from the bond arrays to the list b->clamped, after
+ * some have changed. */
 static void weights_follow(struct bonds *b)
 {
     struct clamped *c = &b->clamped;

@@ -45,7 +45,7 @@ static inline void polar_rotation_3d(const real *M, real *R)
     }
 }
 
-/* Computes the rotation nearest to M in dimension 2 or 3. */
+/* Computes the rotation R nearest to the matrix M (row major, dim x dim), in dimension 2 or 3. */
 static inline void polar_rotation(const real *M, real *R, const int dim)
 {
     if (dim == 2)

@@ -7,7 +7,8 @@
 
 #define POLAR_TINY 1e-300 /* keeps the root of a zero matrix finite */
 
-/* Computes the rotations R nearest to eight 2x2 matrices M, with the formula of polar_rotation_2d; M = 0: identity. */
+/* Computes the rotations R nearest to eight 2 x 2 matrices M (row major), with the formula of polar_rotation_2d; the
+ * identity where M = 0. */
 static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
 {
     const lanes c = M[0] + M[3], s = M[2] - M[1], size2 = c * c + s * s;
@@ -17,8 +18,8 @@ static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
     R[1] = -R[2];
 }
 
-/* Does one step of R <- (R + R^-T)/2 (Higham 1986) and clears `sound` in lanes whose R is singular or inverted. Returns
- * the determinant of R before the step. */
+/* Does one step of R <- (R + R^-T)/2 (Higham 1986) on eight 3 x 3 matrices R, and clears `sound` in lanes whose R is
+ * singular or inverted. Returns the determinants of R before the step. */
 static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
 {
     const lanes cofactor[9] = {R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
@@ -47,7 +48,7 @@ static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
     for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_broadcast(c % 4 == 0));
 }
 
-/* Computes the rotations R nearest to eight matrices M; dim: 2 or 3. */
+/* Computes the rotations R nearest to eight matrices M (row major), in dimension 2 or 3. */
 static ALWAYS_INLINE void polar_rotation_lanes(const lanes *M, lanes *R, const int dim)
 {
     if (dim == 2)

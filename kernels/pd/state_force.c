@@ -65,7 +65,8 @@ struct own_family {
     lanes share;   /* V/Q, with the weighted volume of a full family if the moduli refer to it [m] */
 };
 
-/* Returns the moduli and weighted volumes of the families of the eight particles of row block g. */
+/* Returns the moduli and weighted volumes of the families (all bonds of one particle) of the eight particles of row
+ * block g. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -86,7 +87,8 @@ struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states *k of the families of the eight particles of row block g in b->state. */
+/* Stores the states *k of the families of the eight particles of row block g, pressure, spring stiffness and rotation,
+ * in b->state. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -101,7 +103,8 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
-/* Returns the mask of those rows of row block g whose particles are material points. */
+/* Returns the mask of those rows of row block g whose particles are material points with bonds, the others being
+ * peridynamic particles. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     lanes_mask end;
@@ -111,7 +114,7 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
 
 /* Computes the rotations of the cells of eight material points in the form in which rotations are stored (rotation.h),
  * from particles.end_rotation. row: numbers of the points; own: the first of them if they are consecutive, else -1;
- * spring: spring stiffness; back: true for the inverse rotations. */
+ * spring: spring stiffness of their families [N/m]; back: true for the inverse rotations. */
 static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *row, int32_t own, lanes spring,
                                       const bool back, lanes *rotation, const int dim)
 {
@@ -153,7 +156,7 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
 
 /* Updates the states *k of those particles of row block g that are material points: their cells add a part of the mean
  * strain, which changes the pressure, and determine the rotation. Stores the reactions of the bonds on the cells in
- * particles.end_pull and end_moment. */
+ * particles.end_pull and end_moment. f: moduli and weighted volumes of the families; sum: sums over them. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -220,8 +223,9 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     if (b->state.past[g]) state_blend_breaking_rows(b, p, limit, g);
 }
 
-/* Sets the states of mirror images to those of their sources, with rotations reflected at planes of symmetry. Images in
- * clamped planes have no state: clamp_force.c adds their reaction to the source. */
+/* Sets the states of the families of mirror images to those of their sources, with rotations reflected at planes of
+ * symmetry. Images in clamped planes have no state: clamp_force.c adds their reaction to the source. rotates: true in
+ * models with rotations. */
 static void state_of_images(struct bonds *b, const struct particles *p, int dim, bool rotates)
 {
     for (int64_t g = p->n; g < p->n_all; g++) {

@@ -16,9 +16,8 @@
 struct family_left {
     real extension, weighted;       /* sum w r e, with e = r stretch; sum w r^2 [m^2] */
     real moment[DIM_MAX * DIM_MAX]; /* sum w Y (x) xi [m^2] */
-    real share; /* mean, over the breaking bonds, of the fraction of the force with which they act in this step (struct
-                   bond_last) [1] */
-    int64_t ended; /* number of breaking bonds */
+    real share;                     /* mean, over the breaking bonds, of the share of struct bond_break_moment [1] */
+    int64_t ended;                  /* number of breaking bonds */
 };
 
 /* Computes the sums over those bonds of a row (all bonds of one particle) that stay below their limit, counts the
@@ -120,8 +119,8 @@ static inline real state_before_breaking(const struct bonds *b, const struct par
     return sign * (c == 0 ? t->pressure[i] : c == 1 ? t->spring[i] : t->rotation[c - 2][i]);
 }
 
-/* Computes the force of a state-based bond on particle i, f[dim] [N], from the states of both particles. now: true for
- * their present states, false for the states before bonds broke in this step. */
+/* Computes the force of a state-based bond on particle i, f[dim] [N], from the states of the families of both
+ * particles. now: true for their present states, false for the states before bonds broke in this step. */
 static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool now, real *f, const int dim)
 {

@@ -82,7 +82,7 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
 }
 
 /* Adds the symmetric part of T (x) y of the eight bonds of a column to sum[], symmetric components with one lane per
- * particle. */
+ * particle: T is the force due to the state of the row's particle s alone [N], y the bond vector [m]. */
 static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
@@ -93,7 +93,8 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
-/* Computes the stress of the peridynamic particles of row block g. */
+/* Computes the stress of the peridynamic particles of row block g into p->stress [Pa], from the states of their
+ * families. */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
@@ -139,7 +140,8 @@ bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIAN
 
 /* ---- a row whose weights change ---------------------------------------------------------------------------------- */
 
-/* Computes the rotation matrix R of the cell of a material point with bonds, row major, from particles.end_rotation. */
+/* Computes the rotation matrix R (row major) of the cell of material point i, which has bonds, from
+ * particles.end_rotation. */
 static void end_rotation(const struct particles *p, int32_t i, real *R)
 {
     if (p->dim == 2) {

@@ -71,13 +71,13 @@ static ALWAYS_INLINE lanes lanes_load_or_gather(const real *from, int32_t first,
     return first >= 0 ? lanes_load(from + first) : lanes_gather(from, index);
 }
 
-/* Returns a where the mask is set, else b. */
+/* Returns in each lane a where the mask is set, else b. */
 static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
 {
     return (lanes)((mask & (lanes_mask)a) | (~mask & (lanes_mask)b));
 }
 
-/* Returns the mask of lanes whose sign bit is set. */
+/* Returns the mask of the lanes in which the sign bit of a is set. */
 static ALWAYS_INLINE lanes_mask lanes_negative(lanes a) { return (lanes_mask) - ((lanes_bits)a >> 63); }
 
 /* Returns the mask of lanes where a < b. */
@@ -110,21 +110,21 @@ static ALWAYS_INLINE lanes lanes_min(lanes a, lanes b)
 #endif
 }
 
-/* Returns |a|. */
+/* Returns |a| in each lane. */
 static ALWAYS_INLINE lanes lanes_absolute(lanes a)
 {
     const lanes_mask digits = (lanes_mask){0} + INT64_MAX;
     return (lanes)((lanes_mask)a & digits);
 }
 
-/* Returns the mask of the lanes whose bit is set. */
+/* Returns the mask of the lanes l whose bit l is set in `bits`. */
 static ALWAYS_INLINE lanes_mask lanes_mask_from_bits(uint8_t bits)
 {
     const uint64_t a = bits;
     return (lanes_mask) - (-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
 }
 
-/* Returns the bits of the lanes that are set in the mask. */
+/* Returns eight bits: bit l is set if lane l is set in the mask. */
 static ALWAYS_INLINE unsigned lanes_mask_bits(lanes_mask mask)
 {
 #ifdef __AVX512F__
@@ -136,7 +136,7 @@ static ALWAYS_INLINE unsigned lanes_mask_bits(lanes_mask mask)
 #endif
 }
 
-/* Returns a in lanes whose bit is set, else 0. */
+/* Returns in each lane l: a if bit l is set in `bits`, else 0. */
 static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 {
 #ifdef __AVX512F__
@@ -146,7 +146,7 @@ static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 #endif
 }
 
-/* Returns the larger of a and b in lanes whose bit is set, else a. */
+/* Returns in each lane l: the larger of a and b if bit l is set in `bits`, else a. */
 static ALWAYS_INLINE lanes lanes_max_selected(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -156,7 +156,7 @@ static ALWAYS_INLINE lanes lanes_max_selected(uint8_t bits, lanes a, lanes b)
 #endif
 }
 
-/* Returns the smaller of a and b in lanes whose bit is set, else a. */
+/* Returns in each lane l: the smaller of a and b if bit l is set in `bits`, else a. */
 static ALWAYS_INLINE lanes lanes_min_selected(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -191,9 +191,9 @@ static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
 
 #if defined __AVX512F__ || defined __FMA__
 
-/* Estimates 1/sqrt(a). Without AVX-512: halving the exponent and mantissa bits and subtracting from a constant is
- * accurate to 3.5 % for normal numbers (the constant minimises the largest error); one step of the series below leaves
- * 6e-6. */
+/* Returns estimates of 1/sqrt(a) in each lane, of 14 bits or more. Without AVX-512: halving the exponent and mantissa
+ * bits and subtracting from a constant is accurate to 3.5 % for normal numbers (the constant minimises the largest
+ * error); one step of the series of lanes_inverse_square_root leaves 6e-6. */
 static ALWAYS_INLINE lanes lanes_estimate_inverse_root(lanes a)
 {
 #ifdef __AVX512F__

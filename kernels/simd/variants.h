@@ -1,4 +1,5 @@
-/* The list of kernel instances. A line here creates the instance, its table entry, its test and its benchmark. */
+/* The list of kernel instances, macros that call X for each combination of dimension and model, shape or transfer. A
+ * line here creates the instance, its table entry, its test and its benchmark. */
 #ifndef CLEAVE_KERNELS_VARIANTS
 #define CLEAVE_KERNELS_VARIANTS
 
