@@ -3,11 +3,13 @@
 
 #include <string.h>
 
-/* Returns the level of moving row blocks, i.e. one more than the number of neighbouring row blocks to which motion
- * spreads in a step: forces reach two horizons in state-based models, one in bond-based ones. */
+/* Returns the highest level of a row block, that of row blocks in motion: 1 + the number of neighbouring row blocks to
+ * which motion spreads in a step. Forces reach over two horizons in state-based models (level 3), over one in
+ * bond-based models (level 2). b: bonds of the body. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
-/* Returns true if a particle of the row block is not at its reference position. */
+/* Returns true if a particle of row block `row_block` has left its reference position, i.e. if x and X differ in any
+ * bit. Row blocks are groups of LANES rows of bonds, one row for each particle. */
 static bool has_moved(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
@@ -16,8 +18,8 @@ static bool has_moved(const struct bonds *b, const struct particles *p, int64_t 
     return false;
 }
 
-/* Returns true if displacements, velocities and forces of a row block are zero, and only bonds can move its
- * particles. */
+/* Returns true if row block `row_block` (LANES rows of bonds, one for each particle) is at rest: displacements,
+ * velocities and forces of its particles are zero, and no load, grid or mesh can move them. */
 static bool active_set_is_inactive(const struct bonds *b, const struct particles *p, const struct loads *l,
                                    int64_t row_block)
 {
@@ -30,8 +32,9 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
     return !has_moved(b, p, row_block);
 }
 
-/* Returns the row block of the neighbour in a lane of a column, -1 if there is none or it has no row. Padding may point
- * to any particle. */
+/* Returns the row block of the neighbour of a bond, or -1 if the bond is padding or its neighbour has no row. column:
+ * copy of a column of a row block, i.e. of one bond in each of its LANES rows; lane: the bond in it. The row of a
+ * mirror image is that of its source particle. */
 static int64_t row_block_of(const struct bonds *b, const struct particles *p, const struct loads *l,
                             const struct column_copy *column, int lane)
 {
@@ -40,8 +43,9 @@ static int64_t row_block_of(const struct bonds *b, const struct particles *p, co
     return row < 0 ? -1 : row / LANES;
 }
 
-/* Raises the level of a row block to `level`, and recursively those of its neighbours to one less. Level 0 is
- * inactive. */
+/* Raises the activity level of row block `row_block` to `level`, and the levels of the row blocks of its neighbours to
+ * level - 1, recursively down to 1. Levels never decrease here. Row blocks of level 0 are inactive: the bond sweep
+ * skips them. */
 static void row_block_activate(struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                                int level)
 {
@@ -57,7 +61,8 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
     }
 }
 
-/* Returns true if a neighbour of the row block has exactly this level. */
+/* Returns true if a particle of row block `row_block` has a bond to a particle whose row block has exactly the activity
+ * level `level`. */
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
 {
@@ -72,8 +77,8 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
     return false;
 }
 
-/* Recomputes the levels of all row blocks from their present motion. Rows are rebuilt after every conversion, so
- * inactive row blocks are searched, not active ones. */
+/* Recomputes the activity levels b->active.level of all row blocks: the highest level for row blocks in motion, one
+ * less for each bond between a row block and the moving ones, 0 for the rest. Called after rows were rebuilt. */
 static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;
@@ -89,8 +94,9 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
     r->is_current = true;
 }
 
-/* Raises the levels of the row blocks that have begun to move since the last call, and of their neighbours. Only active
- * row blocks below the highest level are tested: no other one can have begun to move. */
+/* Raises the activity levels of the row blocks that have begun to move since the last call, and of their neighbours,
+ * and rebuilds the list of active row blocks. Only active row blocks below the highest level are tested, since motion
+ * spreads to others through them. Sets b->active.over once no active row block is below the highest level. */
 static void active_set_follow(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;

@@ -10,7 +10,9 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Lists the particles that are loaded (LOADED) or wait for reactions of bonds across clamped planes (MOVES_LATER). */
+/* Allocates l->loaded [p->n + LANES] and l->list: marks the particles of all loads as LOADED and those within reach of
+ * a clamped mirror plane as MOVES_LATER, and lists the marked particles in ascending order. Allocates nothing if no
+ * particle can be marked. */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
@@ -47,8 +49,8 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     return OK;
 }
 
-/* Replaces the particles listed because contact acts on them by n particles in ascending order. The list of loaded
- * particles stays ascending; particles to which nothing applies any more are removed. */
+/* Replaces the particles on which contact acts (mark TOUCHES in l->loaded) by list[n], in ascending order. The list
+ * l->list of all marked particles is rebuilt in ascending order; particles without any mark drop out of it. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
@@ -84,9 +86,10 @@ void loads_free(struct loads *l)
 
 /* ---- forces on particles ----------------------------------------------------------------------------------------- */
 
-/* Replaces the force on the driven peridynamic particles of a load by the force that gives them their prescribed
- * velocity. Its difference from the force of the bonds is the reaction of the support, whose impulse and work are
- * booked. */
+/* Prescribes the velocity of the peridynamic particles of a load: replaces their force by m (v_prescribed -
+ * v)/dt_velocity. The difference from the previous force is the reaction of the support; its impulse is added to
+ * l->impulse and its work to l->constraint_work. load->reaction is summed from the previous forces. by: the motion
+ * prescribed in this step; dt_velocity: duration of the velocity update [s]. */
 static void drive(struct loads *l, struct load *load, struct particles *p, const struct prescribed_motion *by,
                   real dt_velocity)
 {
@@ -119,7 +122,9 @@ struct force_sum {
     int component;
 };
 
-/* Sum of a force component over a block, in eight partial sums: additions to a single sum would wait for each other. */
+/* Adds the sum of one force component over the particles first .. end - 1 to *sum [N]; a block function of
+ * reproducible_sums. context: a struct force_sum, with the particles and the component. LANES partial sums are kept,
+ * because additions to a single one would wait for each other. */
 static void loads_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct force_sum *s = context;
@@ -132,9 +137,10 @@ static void loads_force_block(const void *context, int64_t first, int64_t end, r
     for (int l = 0; l < LANES; l++) *sum += part[l];
 }
 
-/* Books the impulse of mirrors. Forces of bonds between particles sum to 0, so the sum of all forces across a mirror is
- * that of its images, the reaction of the support. Along a mirror that leaves tangential motion free the forces of
- * images cancel in pairs and nothing is booked: the momentum balance remains a check there. */
+/* Adds the impulse of the mirror supports in a velocity update of duration dt_velocity [s] to l->impulse: the sum of
+ * all particle forces, normal to each mirror and, if it also holds tangential motion, along it. Forces of bonds between
+ * particles cancel in this sum; forces of bonds to images remain and are the reaction of the support. Along other
+ * mirrors forces of images cancel in pairs, so nothing is added. */
 static void mirror_impulse(struct loads *l, const struct particles *p, real dt_velocity)
 {
     bool held[DIM_MAX] = {false};
@@ -150,8 +156,9 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     }
 }
 
-/* Updates the displacement of a load by a step: prescribed displacements are stored, prescribed velocities are
- * integrated over the step. If particles have different values, their mean is used. */
+/* Updates load->displacement [m] by one step: a prescribed displacement is stored, a prescribed velocity is integrated
+ * over the step. If the values differ between particles, their mean is used. by: motion that the load prescribes in
+ * this step. */
 static void displacement_update(struct load *load, const struct particles *p, const struct prescribed_motion *by)
 {
     const bool displaces = load->boundary->displaces;
@@ -189,7 +196,9 @@ void loads_finish_particle_forces(struct loads *l, struct particles *p, real t, 
 
 /* ---- after the gather -------------------------------------------------------------------------------------------- */
 
-/* Sets the velocity of driven material points on the grid exactly; books impulse and work. */
+/* Sets the velocities of the driven material points of a grid to their prescribed values; points of a mesh are skipped.
+ * The change of momentum is added to l->impulse and its work to l->constraint_work. by: motion that the load prescribes
+ * in this step. */
 static void velocities_set(struct loads *l, const struct load *load, struct particles *p,
                            const struct prescribed_motion *by)
 {
@@ -213,8 +222,9 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
  * belong to former points between partly driven nodes, and are kept. */
 #define OFF_PLACE 1e-6
 
-/* Moves displaced particles to their position at the end of the step, except points of a mesh. Returns true if points
- * on a grid were moved. */
+/* Moves the particles of a load with prescribed displacement to their positions at the end of the step, except points
+ * of a mesh. Particles moved by bonds are corrected only within round-off (OFF_PLACE spacings). by: motion prescribed
+ * in this step; spacing: lattice spacing [m]. Returns true if a point of a grid was moved. */
 static bool positions_set(const struct load *load, struct particles *p, const struct prescribed_motion *by,
                           real spacing)
 {

@@ -12,7 +12,8 @@
 /* Returns true for an absorbing boundary. */
 static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOUNDARY_ABSORBING; }
 
-/* Returns true if two loads absorb at one face of a particle. */
+/* Returns true if loads a and b both absorb at the same face of one particle, i.e. have equal face axis and side and a
+ * common particle with area. The caller checks that both are absorbing. */
 static bool absorb_same(const struct load *a, const struct load *b)
 {
     if (a->boundary->face != b->boundary->face || a->boundary->side != b->boundary->side) return false;
@@ -26,7 +27,8 @@ static bool absorb_same(const struct load *a, const struct load *b)
     return false;
 }
 
-/* Returns true if a load absorbs in the plane of a mirror, where the body continues. */
+/* Returns true if the absorbing face of load a is in the plane of a mirror, i.e. if one of its particles with area is
+ * within 0.51 spacings of the plane. False if `mirror` is no mirror or its axis is not that of the face. */
 static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, const struct particles *p, real spacing)
 {
     const int axis = a->boundary->face;
@@ -36,7 +38,8 @@ static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, c
     return false;
 }
 
-/* Returns REFUSED if a boundary absorbs at a face that is in the plane of a mirror. */
+/* Returns REFUSED, with a message that names both boundaries, if an absorbing face is in the plane of a mirror: the
+ * body continues there, so that it has no face. */
 static status absorbing_mirrors_check(const struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++)
@@ -69,7 +72,8 @@ status absorbing_boundaries_check(const struct loads *l, const struct particles 
     return OK;
 }
 
-/* Makes the list of all particles that belong to an absorbing face, in ascending order and without duplicates. */
+/* Makes the list l->absorbing.particle of all particles on absorbing faces, in ascending order and without duplicates.
+ * Released by absorbing_dashpots_free. */
 static void particles_join(struct loads *l, const struct particles *p)
 {
     struct absorbing *a = &l->absorbing;
@@ -83,8 +87,9 @@ static void particles_join(struct loads *l, const struct particles *p)
     memory_free(chosen);
 }
 
-/* Returns the coefficient of the dashpot on the q-th particle of an absorbing face, for motion along d [kg/s]: its area
- * times the impedance of the material. by: bonds, grid or mesh, whichever moves the particle. */
+/* Returns the coefficient of the dashpot on particle number q of an absorbing load, for motion along axis d [kg/s]:
+ * area of the particle times wave impedance of its material (normal or tangential to the face). by: what moves the
+ * particle, bonds, grid or mesh; on grids the area is that extrapolated to the face. */
 static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
                          enum moved_by by, int d)
 {
@@ -99,15 +104,17 @@ static int by_index(const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Returns the index of particle i in the list of dashpots, -1 if it has none. */
+/* Returns the index of particle i in the ascending list a->particle of particles with dashpots, or -1 if it is not in
+ * it. */
 static int64_t dashpot_of(const struct absorbing *a, int32_t i)
 {
     const int32_t *found = a->n ? bsearch(&i, a->particle, (size_t)a->n, sizeof i, by_index) : NULL;
     return found ? found - a->particle : -1;
 }
 
-/* Sets the dashpot coefficients to 0 in components that a support prescribes, for particles moved by bonds. On grids
- * the walls of the nodes have this effect. */
+/* Sets dashpot coefficients of particles moved by bonds to 0 in components that a support or a clamped mirror
+ * prescribes, so that the reaction of the support contains no dashpot force. On grids the walls of nodes have this
+ * effect. */
 static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
@@ -156,8 +163,9 @@ void absorbing_dashpots_free(struct loads *l)
 
 /* ---- particles that bonds move ----------------------------------------------------------------------------------- */
 
-/* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
- * dt_velocity: duration of the velocity update [s]. */
+/* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh),
+ * and books their impulse and the energy that they absorb. Does nothing while l->absorbing.idle. dt_velocity: duration
+ * of the velocity update [s]. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity)
 {
     struct absorbing *a = &l->absorbing;
@@ -186,16 +194,16 @@ void loads_add_absorbed(struct loads *l, const struct absorbed *by)
 
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
-/* Compares two dashpots by their nodes, for sorting. */
+/* Compares two struct dashpot by their node index, for sorting and for binary search. */
 static int by_dashpot(const void *a, const void *b)
 {
     const struct dashpot *p = a, *q = b;
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* Replaces negative dashpot coefficients by 0 and reduces the positive ones so that the sum stays equal (all are 0 if
- * it is negative). Coefficients are extrapolated linearly from the first two particles of a face, which gives nodes
- * behind them negative values if the face is not on nodes. */
+/* Replaces negative dashpot coefficients among rate[n] [kg/s] by 0 and scales the positive ones so that their sum stays
+ * equal; all become 0 if the sum is negative. Negative ones arise at nodes behind a face that is not on nodes, because
+ * coefficients are extrapolated from the first two particles of each column. */
 static void rates_clip(real *rate, int64_t n)
 {
     real all = 0, left = 0;
@@ -203,8 +211,8 @@ static void rates_clip(real *rate, int64_t n)
     for (int64_t I = 0; I < n && all < left; I++) rate[I] = all > 0 ? real_max(rate[I], 0) * (all / left) : 0;
 }
 
-/* Adds a dashpot for each node with a positive coefficient. rate: coefficients [dim][g->n] [kg/s], overwritten. The
- * coefficient of a node beyond a mirror plane is added to that of its image. */
+/* Adds a dashpot to grid g for each node with a positive coefficient in any direction. rate: coefficients [dim][g->n]
+ * [kg/s]; overwritten. The coefficient of a node beyond a mirror plane is first added to that of its mirror image. */
 static void dashpots_list(struct grid *g, real *rate)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++)
@@ -221,7 +229,8 @@ static void dashpots_list(struct grid *g, real *rate)
     }
 }
 
-/* Removes the dashpot of a component that a wall prescribes. */
+/* Sets the dashpot coefficient of node `node` in direction `component` to 0, because a wall prescribes its velocity.
+ * Does nothing if the node has no dashpot. g->dashpot must be sorted by node. */
 static void dashpots_hold(struct grid *g, int64_t node, int component)
 {
     const struct dashpot one = {.node = (int32_t)node};
@@ -229,7 +238,7 @@ static void dashpots_hold(struct grid *g, int64_t node, int component)
     if (held) held->rate[component] = 0;
 }
 
-/* Returns zeroed rates for nodes [dim][n], in memory kept for the next call. */
+/* Returns an array of n zeroed dashpot coefficients. The memory belongs to a and is used again by the next call. */
 static real *field_of(struct absorbing *a, int64_t n)
 {
     GROW("loads.field", a->field, n);
@@ -263,8 +272,9 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
     memory_free(value);
 }
 
-/* Returns the share of the face area of the point at quarter point `place` of a cell that a corner of the cell receives
- * [1]. The face is half a spacing in front of the point, along `axis` to side `side`. */
+/* Returns the fraction of the face area of a particle that corner `corner` of its mesh cell receives [1]. A cell has
+ * 2^dim integration points, one in each of its 2^dim parts of equal size; bit d of `place` and `corner` is 1 for the
+ * upper half along axis d. The face is half a spacing in front of the point, along `axis` towards `side` (-1 or 1). */
 static real face_weight(int dim, int corner, int place, int axis, int side)
 {
     const bool before = (corner >> axis & 1) == (side > 0), first = (place >> axis & 1) == (side > 0);
@@ -274,8 +284,8 @@ static real face_weight(int dim, int corner, int place, int axis, int side)
     return weight;
 }
 
-/* Adds the dashpot coefficients of an absorbing face to the nodes of its cells: rate [dim][nodes of the mesh]
- * [kg/s]. */
+/* Adds the dashpot coefficients of the absorbing load `load` to the nodes of the mesh cells behind its face. rate:
+ * coefficients, [dim][mesh->grid.n] [kg/s]. Particles that are not in a cell are skipped. */
 static void mesh_face(const struct absorbing *a, const struct load *load, const struct mesh *mesh,
                       const struct particles *p, real *rate)
 {

@@ -10,15 +10,17 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if two loads are on equal particles and constant in time, so that they can be combined. */
+/* Returns true if two loads can be applied together: they act on equal lists of particles and their shares (areas,
+ * volumes, masses) are constant in time. */
 static bool same_particles(const struct load *a, const struct load *b)
 {
     return !a->moving && !b->moving && a->n == b->n &&
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Frees the array of shares of component d of load b and uses an equal array of an earlier load with the same leader in
- * its place, if there is one. */
+/* Replaces the share array (area, volume or mass of each particle) of component d of load b by an equal array of an
+ * earlier load or component with the same leader, and frees its own. Without an equal array nothing changes. The leader
+ * is the first load on the same list of particles; dim: number of components. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
     struct load *load = &l->load[b];
@@ -32,8 +34,9 @@ static void share_join(struct loads *l, int b, int d, int dim)
         }
 }
 
-/* Finds the leader of load b, the first load on the same particles, replaces arrays of shares that are equal to earlier
- * ones, and allocates the positions that the leader stores to compute work. */
+/* Sets the leader of load b, i.e. the first load on the same list of particles (itself, if none is earlier). Replaces
+ * share arrays (areas, volumes, masses) that are equal to earlier ones of that leader, and allocates in the leader the
+ * previous positions from which work is computed. dim: number of components. */
 static void load_join(struct loads *l, int b, int dim)
 {
     struct load *load = &l->load[b];
@@ -60,7 +63,8 @@ void loads_merge_equal_lists(struct loads *l, int dim)
     }
 }
 
-/* Returns true if the share of component d of load b is the array of an earlier component or load. */
+/* Returns true if the share array of component d of load b is also used by an earlier load or an earlier component,
+ * which frees it. */
 static bool is_borrowed(const struct loads *l, int b, int d)
 {
     for (int c = 0; c <= b; c++)
@@ -89,8 +93,8 @@ struct push {
     real value[BOUNDARIES_MAX], *f, *before;
 };
 
-/* Collects component d of all loads with this leader in *a. factor [loads]: factor of each load at present. Returns
- * false if none has this component. */
+/* Collects component d of all loads with leader `leader` in *a, one term for each distinct array of shares.
+ * factor[l->n]: present factor of each load's value [1]. Returns false if no load of this leader has component d. */
 static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
 {
     const struct load *first = &l->load[leader];
@@ -107,7 +111,8 @@ static bool push_make(struct push *a, const struct loads *l, int leader, struct 
     return a->terms > 0;
 }
 
-/* Computes the forces on particles first .. end - 1 of the leader [N]. */
+/* Computes the forces on the particles number first .. end - 1 of a leader's list: force[k] = sum of value * share over
+ * the terms of a [N]. force: [end - first]. */
 static void loads_applied_forces(const struct push *a, int64_t first, int64_t end, real *restrict force)
 {
     for (int b = 0; b < a->terms; b++) {
@@ -116,7 +121,8 @@ static void loads_applied_forces(const struct push *a, int64_t first, int64_t en
     }
 }
 
-/* Adds the force [N] to that on particle i, the k-th one of the load, and stores its coordinate. Returns the force. */
+/* Adds `force` [N] to the force on particle i, number k of the leader's list, and stores the present coordinate of the
+ * particle in a->before[k]. Returns the force. */
 static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     a->before[k] = a->x[i];
@@ -124,21 +130,22 @@ static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, r
     return force;
 }
 
-/* Returns the work of the force [N] over the displacement of particle i, the k-th one of the load, since push_one
- * [J]. */
+/* Returns the work of `force` [N] on particle i, number k of the leader's list, over its displacement since push_one
+ * stored its coordinate [J]. */
 static ALWAYS_INLINE real work_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     return force * (a->x[i] - a->before[k]);
 }
 
-/* Returns true if the listed particles first .. end - 1 have consecutive indices. */
+/* Returns true if the entries first .. end - 1 of the ascending list `particle` are consecutive indices. */
 static bool follow_each_other(const int32_t *particle, int64_t first, int64_t end)
 {
     return particle[end - 1] - particle[first] == end - 1 - first;
 }
 
-/* Returns the sum of `one` over a block, in eight partial sums. dense: particles have consecutive indices, as in a body
- * loaded everywhere. */
+/* Returns the sum of one(a, k, i, force[k - first]) over the particles number k = first .. end - 1 of a leader's list,
+ * with i = a->particle[k], in LANES partial sums. force: [end - first] [N]. dense: particles have consecutive indices,
+ * as in a body loaded everywhere. */
 static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64_t, real), const struct push *a,
                                     int64_t first, int64_t end, const real *force, const bool dense)
 {
@@ -154,6 +161,8 @@ static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64
     return sum;
 }
 
+/* Applies the forces of a struct push, the context, to the particles number first .. end - 1 of its list, and adds
+ * their sum to *sum [N]; a block function of reproducible_sums. */
 static void push_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct push *a = context;
@@ -163,6 +172,8 @@ static void push_block(const void *context, int64_t first, int64_t end, real *su
                                                        : block_sum(push_one, a, first, end, force, false);
 }
 
+/* Adds the work of the forces of a struct push, the context, on the particles number first .. end - 1 of its list to
+ * *sum [J]; a block function of reproducible_sums. */
 static void work_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct push *a = context;
@@ -174,9 +185,9 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the mean of a time function over the kick that ends at t, by the trapezoidal rule [1]. The kick is centred on
- * the time of the forces; the value at its end alone would be half a step late, a first-order error. A load that
- * switches at a whole step then has its full impulse too: half of it in the kick that contains the switch. */
+/* Returns the mean of time function f over the velocity update (kick) from t - dt_velocity to t [s], by the trapezoidal
+ * rule [1]. The value at its end alone would be half a step late, a first-order error. A load that switches at a whole
+ * step still has its full impulse: half of it in the kick that contains the switch. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_value(f, t - dt_velocity) + time_function_value(f, t));
@@ -202,9 +213,10 @@ void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velo
         }
 }
 
-/* Returns the mean of the factors of the kicks before and after the drift of a step, t being its middle [1]. With kicks
- * F_n at positions x_n and drifts v dt between them, the change of 1/2 m v- . v+ equals sum 1/2 (F_n + F_n+1) . v dt to
- * the last digit, however short a load is. */
+/* Returns the factor of a load for its work over the drift of the step of size dt about t [s]: the mean of time
+ * function f over the kicks before and after it, f(t)/2 + (f(t - dt) + f(t + dt))/4 [1]. With kicks F_n at positions
+ * x_n and drifts v dt between them, the change of m v- . v+/2 equals sum (F_n + F_n+1)/2 . v dt exactly, however short
+ * a load is. */
 static real drift_factor(const struct time_function *f, real t, real dt)
 {
     return 0.5 * time_function_value(f, t) +
@@ -228,7 +240,8 @@ void loads_add_work(struct loads *l, struct particles *p, real t, real dt)
         }
 }
 
-/* Sets the force on the listed particles first .. end - 1 to 0. */
+/* Sets all force components of the particles number first .. end - 1 of a load to 0, as bytes if their indices are
+ * consecutive. */
 static void clear_run(const struct load *load, struct particles *p, int64_t first, int64_t end)
 {
     const bool dense = follow_each_other(load->particle, first, end);

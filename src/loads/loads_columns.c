@@ -41,14 +41,16 @@ struct columns {
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Returns the edge of a particle's cube [m]. */
+/* Returns the edge of the cube (in 2D the square) of particle i [m]: (volume/section)^(1/dim), or the spacing of the
+ * scene if the boundary has no section. For particles of a body with equal volumes the mean width c->width is used. */
 static real width_of(const struct columns *c, const struct boundary *b, const struct particles *p, int64_t i)
 {
     if (p->body[i] == c->body && c->even) return c->width;
     return b->section > 0 ? pow(p->volume0[i] / b->section, 1.0 / p->dim) : c->spacing;
 }
 
-/* Computes the mean width of the particles of the body, and whether all have one volume. */
+/* Computes c->width, the mean edge of the particles' cubes in body c->body [m], and c->even, true if all of them have
+ * one volume within EVEN. A width within EVEN of the lattice spacing is set to the spacing. */
 static void find_width(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real mean = 0, least = INFINITY, most = 0;
@@ -64,8 +66,9 @@ static void find_width(struct columns *c, const struct boundary *b, const struct
     if (fabs(c->width - c->spacing) <= EVEN * c->spacing) c->width = c->spacing;
 }
 
-/* Finds a lattice site of the body along d, at or near `low` [m]: particles are placed on a circle of one width, and
- * their mean direction gives the site. Returns false if the particles have no order. */
+/* Finds a lattice site of body c->body along axis d, at or near coordinate `low` [m], and stores it in *site [m]:
+ * positions are mapped to angles on a circle of one particle width, and the mean direction gives the site. At most
+ * about SITES_SAMPLED particles are used. Returns false if the particles have no order along d. */
 static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
 {
     const int64_t stride = p->n / SITES_SAMPLED + 1;
@@ -81,8 +84,9 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
            along > (1 - EVEN) * (real)n;
 }
 
-/* Computes the distance of the columns and the position of column 0 along each axis across them: at lattice sites if
- * the particles are ordered, else FINE columns per particle width. */
+/* Computes the axes across the columns, their distance c->step, and c->middle, the middle line of column 0 along each
+ * of these axes [m]. Columns are at lattice sites if particles are ordered and of one volume, else FINE columns per
+ * particle width. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];
@@ -102,8 +106,8 @@ static void find_middles(struct columns *c, const struct boundary *b, const stru
 
 /* ---- particles in columns ---------------------------------------------------------------------------------------- */
 
-/* Returns the index of a key in the hash table, or the free index where it belongs (Fibonacci hashing, Knuth vol.
- * 3). */
+/* Returns the index of `key` in the hash table of columns, or the free index where it must be inserted (Fibonacci
+ * hashing, Knuth vol. 3). The table must have a free index. */
 static int64_t table_place(const struct columns *c, int64_t key)
 {
     const int64_t last = c->room - 1;
@@ -112,7 +116,8 @@ static int64_t table_place(const struct columns *c, int64_t key)
     return place;
 }
 
-/* Doubles the room of the hash table of columns. */
+/* Doubles the size c->room of the hash table of columns (TABLE_FIRST at first) and enters all keys again. Column
+ * numbers do not change. */
 static void table_grow(struct columns *c)
 {
     const struct columns old = *c;
@@ -130,7 +135,8 @@ static void table_grow(struct columns *c)
     memory_free(old.number);
 }
 
-/* Returns the number of the column of a key; if there is none, adds it if `make`, else returns -1. */
+/* Returns the number of the column with position key `key`. A missing column is appended if `make` is true; otherwise
+ * -1 is returned. */
 static int32_t column_number(struct columns *c, int64_t key, bool make)
 {
     if (make && 2 * c->n >= c->room) table_grow(c);
@@ -145,7 +151,7 @@ struct span {
     int64_t from[DIM_MAX - 1], to[DIM_MAX - 1];
 };
 
-/* Computes the columns through the cube of particle i. */
+/* Returns the range of columns whose middle lines pass through the cube of particle i. width: edge of the cube [m]. */
 static struct span span_of(const struct columns *c, const struct particles *p, int64_t i, real width)
 {
     struct span s = {{0, 0}, {1, 1}};
@@ -156,8 +162,8 @@ static struct span span_of(const struct columns *c, const struct particles *p, i
     return s;
 }
 
-/* Counts particle i in its columns, or stores it there if `put`. Particles of the body create columns; those of other
- * bodies only enter existing columns. */
+/* Counts particle i in c->count of each column through its cube (put false), or stores it in c->order there (put true).
+ * While counting, particles of body c->body create columns; particles of other bodies enter existing columns only. */
 static void particle_enter(struct columns *c, const struct boundary *b, const struct particles *p, int64_t i, bool put)
 {
     const bool make = p->body[i] == c->body && !put;
@@ -174,21 +180,22 @@ static void particle_enter(struct columns *c, const struct boundary *b, const st
         }
 }
 
-/* Returns the coordinate of particle i along the outward normal [m]. */
+/* Returns the height of particle i: its reference coordinate along the outward normal of the face of boundary b [m]. */
 static real loads_columns_height(const struct boundary *b, const struct particles *p, int32_t i)
 {
     return b->side * p->X[b->face][i];
 }
 
-/* Returns true if particle i is lower than particle j along the outward normal; equal heights are ordered by index. */
+/* Returns true if particle i is lower than particle j along the outward normal of boundary b's face. Equal heights are
+ * ordered by index. */
 static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return loads_columns_height(b, p, i) < loads_columns_height(b, p, j) ||
            (loads_columns_height(b, p, i) == loads_columns_height(b, p, j) && i < j);
 }
 
-/* Sorts a column of n particles by height, by Shell's sort with Knuth's gaps: columns of a lattice are already in
- * order. */
+/* Sorts order[n], the particles of one column, by ascending height along the outward normal of boundary b's face:
+ * Shell's sort with Knuth's gaps, because columns of a lattice are already in order. */
 static void sort_column(const struct boundary *b, const struct particles *p, int32_t *order, int64_t n)
 {
     int64_t gap = 1;
@@ -202,7 +209,9 @@ static void sort_column(const struct boundary *b, const struct particles *p, int
         }
 }
 
-/* Makes the columns and stores the particles in them, ascending. */
+/* Makes the columns of body c->body and stores in c->order the particles of each, ascending in height along the outward
+ * normal of boundary b's face. If b acts on all bodies, particles of other bodies are included where they are in a
+ * column. */
 static void columns_fill(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     for (int others = 0; others < (b->body < 0 ? 2 : 1); others++)
@@ -218,7 +227,8 @@ static void columns_fill(struct columns *c, const struct boundary *b, const stru
     for (int64_t k = 0; k < c->n; k++) sort_column(b, p, c->order + c->start[k], c->start[k + 1] - c->start[k]);
 }
 
-/* Makes the columns of one body. */
+/* Makes the columns of particles of body `body` along the normal of boundary b's face, in *c. spacing: lattice spacing
+ * of the scene [m]. Release with loads_columns_free. */
 static void loads_columns_make(struct columns *c, const struct boundary *b, const struct particles *p, int body,
                                real spacing)
 {
@@ -239,14 +249,17 @@ static void loads_columns_free(struct columns *c)
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of particle j behind particle i [mean of their widths]. */
+/* Returns the distance of particle j behind particle i along the normal of boundary b's face, in units of their mean
+ * width [1]. */
 static real behind(const struct columns *c, const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return (loads_columns_height(b, p, i) - loads_columns_height(b, p, j)) /
            (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
 }
 
-/* Returns the index in c->order of the next exposed particle of a column below `from`, -1: none. */
+/* Returns the index in c->order of the highest exposed particle of column `column` among indices less than `from`, or
+ * -1 if there is none. Exposed particles are selected ones with no particle within GAP widths in front of them.
+ * selected[p->n]: 1 for particles in the region of boundary b. */
 static int64_t exposed_below(const struct columns *c, int64_t column, int64_t from, const struct boundary *b,
                              const struct particles *p, const uint8_t *selected)
 {
@@ -259,8 +272,9 @@ static int64_t exposed_below(const struct columns *c, int64_t column, int64_t fr
     return -1;
 }
 
-/* Returns the index in c->order of the exposed particle of a column, -1: none of this body. An exposed particle of
- * another body belongs to the columns of that body. */
+/* Returns the index in c->order of the first exposed particle of column `column`, seen from outside the face of
+ * boundary b. Returns -1 if the column has none, or if it belongs to another body, whose own columns contain it.
+ * selected[p->n]: 1 for particles in the region of b. */
 static int64_t loads_columns_shown(const struct columns *c, int64_t column, const struct boundary *b,
                                    const struct particles *p, const uint8_t *selected)
 {
@@ -268,7 +282,8 @@ static int64_t loads_columns_shown(const struct columns *c, int64_t column, cons
     return k >= 0 && p->body[c->order[k]] == c->body ? k : -1;
 }
 
-/* Returns the index in c->order of the next particle of the body behind the one at k, -1: none. */
+/* Returns the index in c->order of the next particle of body c->body behind the one at index k of column `column`, at
+ * least BENEATH widths behind it. Returns -1 if the column ends, or has a hole of more than GAP widths there. */
 static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b,
                        const struct particles *p)
 {
@@ -280,11 +295,12 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
     return -1;
 }
 
-/* Adds the area of a column to its exposed particles. A traction acts on the face, half a spacing outside the first
- * particle of the column. This makes no difference for the normal component, but for the tangential ones it would cause
- * a moment: a plate of n particles per side in shear would have 1 + 1.3/n of the stress. So 3/2 of the tangential
- * components act on the first particle and -1/2 on the next: by this linear extrapolation force and first moment are
- * those of the face. The first particle gets all of it if the column has no next one. */
+/* Adds the area of column `column` to the areas f of its first exposed particle and, for tangential components, of the
+ * next one. A traction acts on the face, half a spacing outside the first particle. For tangential components this
+ * offset would cause a moment: in shear, a plate of n particles per side would have 1 + 1.3/n of the stress. So the
+ * first particle gets 3/2 of the tangential area and the next one -1/2: linear extrapolation, which keeps force and
+ * first moment. Without a next particle, or with `two` false, the first one gets all of it. selected[p->n]: 1 for
+ * particles in the region of b; area: of the column [m^2]; 0: volume of its first particle/width. */
 static void face_add(struct exposed_face *f, const struct columns *c, int64_t column, const struct boundary *b,
                      const struct particles *p, const uint8_t *selected, real area, bool two)
 {
@@ -298,8 +314,8 @@ static void face_add(struct exposed_face *f, const struct columns *c, int64_t co
     if (m >= 0) f->along[c->order[m]] += area * -0.5;
 }
 
-/* Returns the area of a column [m^2]: the volume of a cubic particle over its height, as on a lattice; 0 if the
- * boundary has no section. */
+/* Returns the cross-section of a column [m^2]: volume of a cubic particle over its height, as on a lattice, reduced if
+ * columns are finer than particles. Returns 0 if boundary b has no section. */
 static real column_area(const struct columns *c, const struct boundary *b, int dim)
 {
     if (!(b->section > 0)) return 0;
@@ -316,7 +332,9 @@ struct faced {
     struct columns columns;
 };
 
-/* Advances to the columns of the next body. Returns false at the end. */
+/* Makes in f->columns the columns of the next body that has a selected particle, and frees the previous ones. f: zero
+ * at first. selected[p->n]: 1 for particles in the region of boundary b; spacing: lattice spacing [m]. Returns false,
+ * with all columns freed, after the last body. */
 static bool faced_next(struct faced *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                        real spacing)
 {

@@ -7,7 +7,8 @@
 
 #include "loads/loads.h"
 
-/* Computes the rotation by `angle` about the axis of a boundary (Rodrigues' formula). */
+/* Computes the rotation matrix R [dim][dim] for the angle `angle` [rad] about the axis of boundary b (Rodrigues'
+ * formula). In 2D the axis is z. */
 static void rotation_matrix(const struct boundary *b, int dim, real angle, real *R)
 {
     const real plane[DIM_MAX] = {0, 0, 1}, *n = dim == 3 ? b->axis_of : plane;
@@ -82,7 +83,9 @@ struct prescribed_motion loads_prescribed_motion(const struct loads *l, int whic
     return prescribed_motion_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
 }
 
-/* Returns component d of the change of an arm by the rotation from the start of the step to its end. */
+/* Returns component d of the change of `arm` in a step with prescribed rotation: (R_to R_from^T - 1) arm [m]. arm:
+ * present position relative to the centre of rotation [dim] [m]; s holds the rotations R_from and R_to at start and end
+ * of the step. */
 static real rotation_increment(const struct prescribed_motion *s, const real *arm, int d)
 {
     real own[DIM_MAX] = {0}, sum = -arm[d];
@@ -113,7 +116,8 @@ real prescribed_velocity_at(const struct prescribed_motion *s, const real *X, in
 
 enum { MOMENTS = 1000, PLACES = 64 };
 
-/* Returns the largest speed of one particle, by differences between sampled times [m/s]. */
+/* Returns the largest speed that load l prescribes for its particle number k between times 0 and t [s], by differences
+ * between MOMENTS + 1 sampled times [m/s]. */
 static real formula_speed(const struct load *l, const struct particles *p, int64_t k, real t)
 {
     real before[DIM_MAX], u[DIM_MAX], most = 0;
@@ -139,7 +143,8 @@ real load_displacement_speed(const struct load *l, const struct particles *p, re
     return most;
 }
 
-/* Returns the difference between the prescribed velocity of the k-th particle of a load and its own [m/s]. */
+/* Returns the difference between the velocity that load l prescribes for its particle number k and the present velocity
+ * of the particle [m/s]; for rotations the difference of speeds. by: the prescribed motion. */
 static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k,
                              const struct prescribed_motion *by)
 {
@@ -175,8 +180,9 @@ real load_driven_speed(const struct load *l, const struct particles *p, real t)
 
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
 
-/* Returns the change of the velocity of the k-th particle of a load between two times; before 0 it has its own velocity
- * [m/s]. */
+/* Returns the change of the prescribed velocity of particle number k of load l between two times [m/s]; for rotations
+ * the change of speed. by[0], by[1]: prescribed motion at the earlier and the later time. At times <= 0 the particle
+ * has its initial velocity. */
 static real velocity_change_at(const struct load *l, const struct particles *p, int64_t k,
                                const struct prescribed_motion by[2])
 {

@@ -6,11 +6,10 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* Returns the step to which positions along `axis` of particles with images are rounded [m]; 0: none. Along a mirror
- * the force of i on the image of j cancels that of j on the image of i if both bonds are equal to the last bit, that is
- * if reflection causes no rounding; else the round-off of bond lengths moves slow bodies. Positions across mirrors are
- * therefore multiples of one step, the last bit of twice the farthest position. Mirrors at 0 only change a sign and
- * need no step. */
+/* Returns the step to which coordinates along `axis` of particles with images are rounded [m], or 0 if all mirrors of
+ * this axis are at 0. It is the last bit of twice the farthest coordinate (plus `reach` [m]), so that reflection causes
+ * no rounding. The force of particle i on the image of j then cancels that of j on the image of i to the last bit;
+ * otherwise round-off of bond lengths would move slow bodies. boundary: the n boundaries of the scene. */
 static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
 {
     real farthest = 0;
@@ -22,15 +21,16 @@ static real place_step(const struct boundary *boundary, int n, const struct part
     return scalbn(1, ilogb(farthest + reach) + 2 - DBL_MANT_DIG);
 }
 
-/* Returns the nearest multiple of the step along `axis` [m]. */
+/* Returns the multiple of l->place_step[axis] nearest to coordinate `place` [m], or `place` itself if the step is 0. */
 static real stepped(const struct loads *l, int axis, real place)
 {
     const real step = l->place_step[axis];
     return step > 0 ? step * nearbyint(place / step) : place;
 }
 
-/* Adds the images of mirror `which`: of all particles within `reach` [m] of its plane, including images of earlier
- * mirrors, for corners. Particles on the plane have none: each is its own image. */
+/* Appends to p and l->image the images of mirror `which`: of all particles and earlier images (for corners) of its body
+ * that are within `reach` [m] of the plane. Particles on the plane have no image: each is its own. Sources are rounded
+ * to l->place_step. optional: optional particle arrays, as in particles_make. */
 static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
 {
     const struct boundary *b = l->load[which].boundary;
@@ -80,7 +80,8 @@ void loads_update_images(const struct loads *l, struct particles *p)
     }
 }
 
-/* Returns REFUSED for a mirror with particles of its body on both sides: images would coincide with particles. */
+/* Returns REFUSED, with a message, if particles of the mirror's body are on both sides of its plane: their images would
+ * coincide with particles. b: the mirror; spacing: lattice spacing [m]. */
 static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
 {
     bool below = false, above = false;
@@ -95,7 +96,8 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
                       b->name, "xyz"[b->axis], b -> at);
 }
 
-/* Returns the side of a mirror without body: -1 below, +1 above. */
+/* Returns the side of mirror b on which there is no body: -1 below the plane, +1 above it. The body is where the mean
+ * of its particles is. */
 static int mirror_outside(const struct boundary *b, const struct particles *p)
 {
     real sum = 0;
@@ -104,9 +106,10 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
     return sum > 0 ? -1 : 1;
 }
 
-/* Returns REFUSED for parallel mirrors closer than the reach of bonds: a particle between them would have bonds to
- * images of images on both sides, of which only one exists. The forces would have no potential, and no time step would
- * be small enough. */
+/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide or are closer than the reach of bonds
+ * [m]. A particle between close mirrors would have bonds to images of images on both sides, of which only one exists;
+ * the forces would have no potential, and no time step would be stable. b: the n boundaries of the scene; spacing:
+ * lattice spacing [m]. */
 static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
 {
     for (int k = 0; k < n; k++)

@@ -8,13 +8,14 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* Returns the formula of component d. */
+/* Returns the formula of component d of boundary b. A pressure has one formula for all components. */
 static const struct expression *formula_of(const struct boundary *b, int d)
 {
     return &b->formula[b->kind == BOUNDARY_PRESSURE ? 0 : d];
 }
 
-/* Returns the formula of component d at particle i and time t, 1 if there is none [unit of the value]. */
+/* Returns the value of boundary b's formula for component d, at the reference position of particle i and time t [s], in
+ * the unit of the boundary's value. Returns 1 if there is no formula. */
 static real formula_at(const struct boundary *b, int d, const struct particles *p, int32_t i, real t)
 {
     real X[DIM_MAX];
@@ -25,7 +26,8 @@ static real formula_at(const struct boundary *b, int d, const struct particles *
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Refuses, with status `fault`, a formula without a finite value at t. */
+/* Checks that the formulas of load l have finite values at all of its particles at time t [s]. Returns status `fault`,
+ * with a message, if one has not. */
 static status formula_finite(const struct load *l, const struct particles *p, real t, status fault)
 {
     const struct boundary *b = l->boundary;
@@ -49,8 +51,8 @@ status loads_check_finite(const struct loads *l, const struct particles *p, real
     return OK;
 }
 
-/* Replaces the arrays of shares of a load, which components may have in common, by a copy for each component. with: the
- * copies are multiplied by the formula of the component at time t. */
+/* Gives each component of load l its own array of shares (areas, volumes, masses), in place of arrays that components
+ * have in common. with: multiply the new shares by the formula of the component at time t [s]. */
 static void shares_part(struct load *l, const struct particles *p, bool with, real t)
 {
     for (int d = p->dim; d-- > 0;) {
@@ -86,8 +88,9 @@ void load_time_shares_free(struct load *l)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Updates the shares of component d for the kick from t - dt to t: base shares times the mean of function of time and
- * formula at both times. The result is weighted by `half` and the previous shares by 1 - half. */
+/* Updates the shares of component d of load l for the velocity update (kick) from t - dt to t [s]: base share times the
+ * mean of (function of time)*(formula) at both times. This new value is weighted by `half`, the previous share by 1 -
+ * half. */
 static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
 {
     const struct boundary *b = l->boundary;
@@ -100,7 +103,9 @@ static void moving_shares(struct load *l, const struct particles *p, int d, real
         });
 }
 
-/* Updates the shares of all loads that change in time. */
+/* Updates the shares of all loads that change in time, for the velocity update (kick) from t - dt to t [s]. half:
+ * weight of the new shares; the previous ones have the weight 1 - half. Areas of following pressures are recomputed
+ * first. */
 static void moving_update(struct loads *l, const struct particles *p, real t, real dt, real half)
 {
     for (int b = 0; b < l->n; b++) {
@@ -117,8 +122,9 @@ void loads_update_shares_for_kick(struct loads *l, const struct particles *p, re
     moving_update(l, p, t, dt_velocity, 1);
 }
 
-/* Replaces the shares by the mean of those for the kicks before and after the drift of a step, at the positions before
- * and after it, so that the work of the drift can be summed. */
+/* Replaces the shares of loads that change in time by the mean of two: the shares of the kick before and of the kick
+ * after the drift of the step of size dt about t [s]. Called after the drift, so that the second ones have the new
+ * positions. Work of the drift can then be summed. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);

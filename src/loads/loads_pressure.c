@@ -23,7 +23,8 @@ struct ends {
     void *context;
 };
 
-/* Returns true if the body continues behind a mirror at this end. */
+/* Returns true if the free end of a column at particle i is in the plane of a mirror, behind which the body
+ * continues. */
 static bool is_mirrored(const struct ends *e, int32_t i)
 {
     const int axis = e->boundary->face;
@@ -35,8 +36,8 @@ static bool is_mirrored(const struct ends *e, int32_t i)
     return false;
 }
 
-/* Calls `found` of the context, a struct ends, for the free face of particle i at an end of a column, unless the face
- * is on a mirror. area: of the face [m^2]. */
+/* Calls the function `found` of a struct ends for the free face of particle i at an end of a column, unless the face is
+ * in a mirror plane. context: the struct ends; area: area of the face [m^2]. */
 static void end_found(void *context, int32_t i, real area)
 {
     const struct ends *e = context;
@@ -54,7 +55,7 @@ void pressure_visit_faces(const struct boundary *all, int n, int which, const st
         }
 }
 
-/* Appends a face. */
+/* Appends the face of particle `particle` with outward normal along `axis` towards `side` (-1 or 1) to the list f. */
 static void surface_face_add(struct surface_faces *f, int32_t particle, int axis, int side)
 {
     GROW("loads.faces", f->face, f->n + 1);
@@ -74,8 +75,9 @@ struct pressed {
     struct surface_faces *faces; /* list for a pressure that follows the surface; NULL: none */
 };
 
-/* Adds a free face of particle i, with its outward normal along `axis` to side `side`, to the areas and, if there is
- * one, to the list of faces. context: a struct pressed. */
+/* Adds a free face of particle i, with its outward normal along `axis` towards `side` (-1 or 1), to the summed areas
+ * and, if there is one, to the list of faces. context: a struct pressed that holds both; area: area of the face
+ * [m^2]. */
 static void face_pressed(void *context, int32_t i, int axis, int side, real area)
 {
     const struct pressed *a = context;
@@ -83,8 +85,9 @@ static void face_pressed(void *context, int32_t i, int axis, int side, real area
     if (a->faces) surface_face_add(a->faces, i, axis, side);
 }
 
-/* Makes a pressure on the reference surface: its shares are the inward areas. Returns false if there is no free
- * face. */
+/* Makes load l a pressure on the reference surface: its particles are those with a free face, their shares the areas
+ * along the inward normal. area: summed areas along the outward normal, [dim][p->n] [m^2]. Returns false if no particle
+ * has a free face. */
 static bool pressure_shares(struct load *l, struct particles *p, real *const *area)
 {
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);

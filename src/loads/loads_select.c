@@ -4,7 +4,8 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* Returns true if particle i is in the region and body of a boundary. */
+/* Returns true if particle i is in the region and body of boundary b, by its reference position. spacing: lattice
+ * spacing, to which the tolerance of the region refers [m]. */
 static bool selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     real X[DIM_MAX];
@@ -13,7 +14,7 @@ static bool selects(const struct boundary *b, const struct particles *p, int64_t
     return region_contains(&b->region, X, p->dim, LOADS_TOLERANCE * spacing);
 }
 
-/* Returns true if a face load has tangential components. */
+/* Returns true if the value of boundary b has a non-zero component tangential to its face. */
 static bool has_tangential(const struct boundary *b, int dim)
 {
     bool found = false;
@@ -23,7 +24,7 @@ static bool has_tangential(const struct boundary *b, int dim)
 
 /* ---- shares ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the factor of the profile at particle i [1]. */
+/* Returns the factor of profile f at the reference position of particle i: 1, or a sine along a direction [1]. */
 static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX], along = 0;
@@ -33,7 +34,8 @@ static real profile_at(const struct profile *f, const struct particles *p, int64
     return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
 }
 
-/* Computes the shares of a body force: volume or mass times profile. */
+/* Computes the shares of body force l: volume, or mass for gravity, of each particle times the profile of the
+ * boundary. */
 static void body_shares(struct load *l, const struct particles *p)
 {
 #pragma omp parallel for schedule(static)
@@ -42,14 +44,15 @@ static void body_shares(struct load *l, const struct particles *p)
                          profile_at(&l->boundary->profile, p, l->particle[k]);
 }
 
-/* Allocates shares, one array for all components of a body force. */
+/* Allocates the shares of load l, [l->n] for each of dim components. All components of a body force have one array. */
 static void shares_allocate(struct load *l, int dim)
 {
     const bool alike = l->boundary->kind == BOUNDARY_BODY_FORCE;
     for (int d = 0; d < dim; d++) l->share[d] = d > 0 && alike ? l->share[0] : NEW("loads.share", l->n, real);
 }
 
-/* Returns true if the boundary acts on an exposed face. */
+/* Returns true if boundary b acts on the exposed face of a body: a traction, an absorbing boundary, or a prescribed
+ * velocity with a face. */
 static bool needs_face(const struct boundary *b)
 {
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING ||
@@ -68,7 +71,9 @@ void load_set_particles(struct load *l, const uint8_t *taken, struct particles *
     if (boundary_applies_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
-/* Lists the particles of the exposed face of a traction; their shares are areas. */
+/* Sets the particles of traction l to those on its exposed face, and their shares to areas: face.normal for the normal
+ * component, face.along for the tangential ones [m^2]. selected[p->n]: 1 for particles in its region; spacing: lattice
+ * spacing [m]. */
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;
@@ -83,7 +88,8 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     exposed_face_free(&face);
 }
 
-/* Lists the particles of an absorbing face and their areas. */
+/* Sets the particles of absorbing boundary l to those on its exposed face and behind it, and stores their areas
+ * l->outer and l->edge [m^2]. selected[p->n]: 1 for particles in its region; spacing: lattice spacing [m]. */
 static void select_absorbing(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;
@@ -98,7 +104,8 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
     exposed_face_free(&face);
 }
 
-/* Lists the particles of a driven layer behind a face. */
+/* Sets the particles of load l with prescribed motion to those in a layer of depth boundary->depth behind its face.
+ * selected[p->n]: 1 for particles in its region; spacing: lattice spacing [m]. */
 static void select_layer(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     uint8_t *taken = NEW("loads.layer", p->n, uint8_t);
@@ -117,7 +124,8 @@ bool load_mark_particles_in_region(const struct boundary *b, const struct partic
     return any;
 }
 
-/* Returns true if particle i is in the plane of a clamped mirror; it is its own image and stays at rest. */
+/* Returns true if particle i is in the plane of the clamped mirror b and in its body. Such a particle is its own image
+ * and stays at rest. spacing: lattice spacing [m]. */
 static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;

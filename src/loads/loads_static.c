@@ -24,11 +24,12 @@ void loads_make_static_boundaries(struct boundary *to, const struct boundary *fr
     }
 }
 
-/* Returns true if the work of the support must be summed over its particles, because their displacements differ. */
+/* Returns true if boundary b of a static problem prescribes different displacements to its particles, so that the work
+ * of the support must be summed over particles. */
 static bool works_by_place(const struct boundary *b) { return b->frozen && boundary_motion_varies_in_space(b); }
 
-/* Returns the final displacement of component d of the k-th particle of a load; k < 0: of a load without particles
- * [m]. */
+/* Returns component d of the final prescribed displacement of particle number k of load l [m]; for k < 0 that at X = 0,
+ * for loads without particles. by: displacement that the load prescribes at the end. */
 static real static_displacement(const struct prescribed_displacement *by, const struct load *l,
                                 const struct particles *p, int64_t k, int d)
 {
@@ -60,8 +61,8 @@ void static_displacements_compute(struct loads *l, const struct particles *p, re
     }
 }
 
-/* Computes the moment of the applied forces about the centre of mass in 2D, and the largest moment that forces of this
- * size could have there [N m]. */
+/* Computes the moment of the applied forces about the centre of mass in 2D, *turning, and its upper bound *most, the
+ * sum of |arm| |force| [N m]. */
 static void moment(const struct loads *l, const struct particles *p, real *turning, real *most)
 {
     *turning = *most = 0;

@@ -1,13 +1,11 @@
 /* Pressure that follows the surface of a body of lattice cubes.
  *
- * The free faces of the cubes meet in corners. A corner moves with the particles around it: its position is a weighted
- * mean of theirs, x = sum w x_i, with sum w = 1 and sum w X_i = X, so that it is exact in every uniform deformation.
- * The faces between corners (in 2D segments; in 3D quadrilaterals, divided along either diagonal, the mean of both)
- * enclose a volume V. A pressure p does the work -p dV: the force on a corner is -p dV/dx, half of each of its
- * segments, a third of each of its triangles, and the force on a particle follows from the weights. So the forces of a
- * closed surface have the energy p V, no resultant and no moment, whatever the deformation, and rotate with the body;
- * on part of a surface each face contributes its own share.
- *
+ * The free faces of the cubes meet in corners. A corner moves with the particles around it: x = sum w x_i, with sum w =
+ * 1 and sum w X_i = X, so that it is exact in every uniform deformation. The faces between corners (in 2D segments; in
+ * 3D quadrilaterals, divided along either diagonal, the mean of both) enclose a volume V. A pressure p does the work -p
+ * dV: the force on a corner is -p dV/dx, half of each of its segments, a third of each of its triangles, and the force
+ * on a particle follows from the weights. So the forces of a closed surface have the energy p V, no resultant and no
+ * moment, whatever the deformation, and rotate with the body; on part of a surface each face contributes its own share.
  * Near a mirror a corner also moves with images, whose displacement is that of their sources with some components
  * reversed. V is that of the part on this side; its derivative by a source is the force of the whole surface on it. */
 #include <math.h>
@@ -70,7 +68,8 @@ static int by_key(const void *a, const void *b)
     return p->key != q->key ? (p->key > q->key) - (p->key < q->key) : (p->value > q->value) - (p->value < q->value);
 }
 
-/* Returns the key of a site of a body at steps k from its first particle, -1 if too far away. */
+/* Returns the key of a lattice site of body `body`: body number and site indices in one integer. k: site indices, steps
+ * from the first particle of the body along each of dim axes. Returns -1 if an index needs more than SITE_BITS bits. */
 static int64_t site_key(int body, const int64_t *k, int dim)
 {
     int64_t key = body;
@@ -82,8 +81,7 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Computes the lattice position k of particle i, in spacings from the first particle of its body. Returns false if the
- * particle is not on the lattice. */
+/* Computes the site k[dim] of particle i, from its body's first particle. Returns false if it is off the lattice. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -95,7 +93,7 @@ static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
     return on;
 }
 
-/* Returns the particle at the site with this key, or -1. */
+/* Returns the particle at the site with key `key`, by binary search in the sorted sites, or -1 if the site is empty. */
 static int32_t site_find(const struct sites *s, int64_t key)
 {
     const struct site wanted = {key, 0};
@@ -110,7 +108,7 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Lists the sites of all particles of bodies that have faces. REFUSED if a particle is not on a lattice. */
+/* Makes the sorted list s->site of sites of all bodies with faces in f. Returns REFUSED if one is off the lattice. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
@@ -130,13 +128,13 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     return OK;
 }
 
-/* Returns twice the distance of a mirror from the first particle of a body, along its axis [spacings]. */
+/* Returns twice the distance of mirror m from the first particle of a body [spacings]; odd if midway between sites. */
 static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
 {
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
 }
 
-/* Returns REFUSED for a mirror that is not midway between sites of a body with faces nearby. */
+/* Returns REFUSED if a mirror plane within BESIDE spacings of a face of f is not midway between lattice sites. */
 static status mirrors_between(const struct sites *s, const struct surface_faces *f)
 {
     for (int m = 0; m < s->boundaries; m++)
@@ -155,8 +153,8 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
     return OK;
 }
 
-/* Returns the particle of a body at a lattice site or, beyond mirrors, the particle whose image is there; -1: none.
- * *turned: components of the displacement that the mirrors reverse, one bit each. */
+/* Returns the particle of body `body` at lattice site `site` or, beyond mirrors, the particle whose image is there; -1
+ * if the site is empty. *turned: bit d is set if the mirrors reverse component d of the displacement. */
 static int32_t site_or_image_find(const struct sites *s, int body, const int64_t *site, uint8_t *turned)
 {
     int64_t k[DIM_MAX];
@@ -175,7 +173,7 @@ static int32_t site_or_image_find(const struct sites *s, int body, const int64_t
 
 /* ---- corners ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the site above corner c of face q; corners are in order around the face. */
+/* Computes the lattice site k[dim] above corner c of face f (c = 0 .. 1 in 2D, 0 .. 3 in 3D, around the face). */
 static void corner_site(const struct sites *s, const struct surface_face *f, int c, int64_t *k)
 {
     const int dim = s->p->dim, u = dim == 2 ? 1 - f->axis : (f->axis + 1) % 3, v = (f->axis + 2) % 3;
@@ -185,7 +183,8 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Numbers the corners of all faces. Returns their sites in the order of the numbers; release with memory_free. */
+/* Numbers the corners of all faces of f without duplicates: sets a->corners and a->corner. Returns the corners of all
+ * faces, sorted by site, with value = 4 face + position in the face; release with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -206,7 +205,7 @@ static struct site *corners_number(struct surface *a, const struct sites *s, con
     return all;
 }
 
-/* Lists in a->part the faces that meet in each corner. all [n]: corners of all faces, sorted by site. */
+/* Lists in a->part the faces that meet in each corner. all[n]: corners of all faces, as corners_number returns them. */
 static void parts_make(struct surface *a, const struct site *all, int64_t n)
 {
     a->face_first = NEW("loads.face_first", a->corners + 1, int64_t);
@@ -225,8 +224,8 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds the particle or image at a site, `off` steps from the site above the corner, to *t with weight `counts`, unless
- * it is there already. Returns false if the site is empty. */
+/* Adds to *t the particle (or source of an image) at lattice site `site` with weight `counts`, unless it is in *t or *t
+ * is full. off[dim]: steps from the site above the corner to this site. Returns false if the site is empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -243,7 +242,8 @@ static bool corner_reach(struct around *t, const struct sites *s, int body, cons
     return true;
 }
 
-/* Lists the particles whose cubes meet in a corner and, along each axis, those behind them, with smaller weight. */
+/* Fills *t with the particles that determine the corner below lattice site `site` of body `body`. They are those whose
+ * cubes meet in the corner, with weight 1, and those behind them along each axis, with weight SECOND_LAYER. */
 static void corner_around(struct around *t, const struct sites *s, int body, const int64_t *site)
 {
     const int dim = s->p->dim;
@@ -262,7 +262,7 @@ static void corner_around(struct around *t, const struct sites *s, int body, con
         }
 }
 
-/* Solves C y = b by elimination; C is symmetric and positive definite with SINGULAR on its diagonal. */
+/* Solves C y = b for y[n] by elimination, n <= DIM_MAX. C is symmetric, positive definite, and overwritten. */
 static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
 {
     array_copy(y, b, n, sizeof *y);
@@ -278,8 +278,8 @@ static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
     }
 }
 
-/* Computes the weights of least weighted square with sum w = 1 and sum w r = 0: w = counts (1 - (r - mean) . C^-1
- * mean), C being the variance. Directions in which a thin body has no extent are left out. */
+/* Computes the weights w[t->n] of the particles of a corner, of least weighted square with sum w = 1 and sum w r = 0: w
+ * = counts (1 - (r - mean) . C^-1 mean)/sum counts. C: variance of r; SINGULAR on its diagonal for thin bodies. */
 static void corner_weights(const struct around *t, int dim, real *w)
 {
     real C[DIM_MAX][DIM_MAX] = {{0}}, mean[DIM_MAX] = {0}, y[DIM_MAX], all = 0;
@@ -301,8 +301,8 @@ static void corner_weights(const struct around *t, int dim, real *w)
     }
 }
 
-/* Computes the reference position of corner c at a site, the weighted mean of the positions of particles and images, to
- * the last digit, so that forces have no moment. first: a particle of its body. */
+/* Computes the reference position of corner c, the weighted mean of the positions of its particles and images t, to the
+ * last digit, so that its forces have no moment. first: first particle of the body; site: the site above the corner. */
 static void corner_place_make(struct surface *a, int64_t c, const struct sites *s, int32_t first, const int64_t *site,
                               const struct around *t)
 {
@@ -315,7 +315,7 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     }
 }
 
-/* Computes particles and weights of all corners, from the sorted corners of faces. */
+/* Computes the stencil and the reference position of every corner. all: corners of all faces f, sorted by site. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                          const struct surface_faces *f)
 {
@@ -340,7 +340,7 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
     }
 }
 
-/* Lists the corners that depend on each particle of the load. */
+/* Lists for each particle of load l the corners that depend on it. particles: number of particles of the scene. */
 static void shares_transpose(struct surface *a, const struct load *l, int64_t particles)
 {
     int32_t *place = NEW("loads.place", particles, int32_t);
@@ -359,7 +359,8 @@ static void shares_transpose(struct surface *a, const struct load *l, int64_t pa
     memory_free(place);
 }
 
-/* Makes the surface of a load from its free faces, lists the particles on which it acts, and computes their areas. */
+/* Fills surface a of load l from its free faces f: corners, stencils and working memory. The particles of all stencils
+ * become those of l, and their inward reference areas its shares. s: sorted lattice sites. */
 static void surface_fill(struct surface *a, struct load *l, const struct sites *s, const struct surface_faces *f,
                          struct particles *p)
 {
@@ -418,7 +419,7 @@ void load_surface_free(struct surface *s)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if an edge of a face is so long that its corners belong to different fragments. */
+/* Returns true if an edge of a face is longer than s->longest: its corners x[corners] belong to different fragments. */
 static bool is_torn(const struct surface *s, const real *const *x, int corners)
 {
     bool torn = false;
@@ -430,8 +431,7 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes for each end of a segment half of its area vector, to [2][2]. x: positions of both ends; sign:
- * orientation. */
+/* Computes half the area vector of a 2D segment for each end, to[2][2] [m^2]. x: its ends [m]; sign: orientation. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -440,7 +440,8 @@ static void segment_area(const struct surface *s, const real *const *x, real sig
     }
 }
 
-/* Adds to its corners a sixth of the area of a triangle each: a third, halved because both diagonals count half. */
+/* Adds a sixth of the area vector of triangle a, b, c to each of its corners in to[4][3] [m^2]: a third, halved because
+ * the triangles of both diagonals count. x: corners of the face [m]; sign: orientation, +-1. */
 static void triangle_add(const real *const *x, int a, int b, int c, real sign, real *to)
 {
     real u[DIM_MAX], v[DIM_MAX];
@@ -452,7 +453,8 @@ static void triangle_add(const real *const *x, int a, int b, int c, real sign, r
     }
 }
 
-/* Computes the areas of the corners of a quadrilateral, as mean over both diagonals. */
+/* Computes the area vectors of the corners of a quadrilateral, to[4][3], zero before [m^2]: mean of both diagonals. x:
+ * corners in order around it [m]; sign: orientation, +-1. */
 static void quadrilateral_area(const real *const *x, real sign, real *to)
 {
     triangle_add(x, 0, 1, 2, sign, to);
@@ -461,7 +463,7 @@ static void quadrilateral_area(const real *const *x, real sign, real *to)
     triangle_add(x, 1, 2, 3, sign, to);
 }
 
-/* Computes the areas of the corners of face q. */
+/* Computes in s->face_area the area vector of each corner of face q at present positions [m^2]; zero if it is torn. */
 static void surface_face_area(struct surface *s, int64_t q)
 {
     const int corners = s->dim == 2 ? 2 : FACE_CORNERS;
@@ -476,7 +478,7 @@ static void surface_face_area(struct surface *s, int64_t q)
         quadrilateral_area(x, s->sign[q], to);
 }
 
-/* Computes the present position of corner c. */
+/* Computes in s->x the present position of corner c: reference position plus weighted displacements of particles. */
 static void surface_corner_place(struct surface *s, const struct particles *p, int64_t c)
 {
     for (int d = 0; d < s->dim; d++) {
@@ -489,7 +491,7 @@ static void surface_corner_place(struct surface *s, const struct particles *p, i
     }
 }
 
-/* Sums the areas of corner c over its faces. */
+/* Sums in s->area the area vector of corner c over the faces that meet there [m^2]. */
 static void surface_corner_area(struct surface *s, int64_t c)
 {
     for (int d = 0; d < s->dim; d++) {
@@ -500,7 +502,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area [m^2] along d that the corners give to the k-th particle of the load. */
+/* Returns the inward area along axis d of particle number k of the load [m^2], summed over its corners. */
 static real surface_share(const struct surface *s, int64_t k, int d)
 {
     real area = 0;
@@ -510,8 +512,8 @@ static real surface_share(const struct surface *s, int64_t k, int d)
     return area;
 }
 
-/* Computes the inward areas [m^2] of all particles of the load at their present positions. Each pass gathers: equal
- * bits on any number of threads. */
+/* Computes the inward areas of all particles of the load, area[dim][s->particles] [m^2], equal on any number of
+ * threads. */
 void surface_compute_areas(struct surface *s, const struct particles *p, real *const *area)
 {
     const bool many = s->corners > SUM_BLOCK;

@@ -8,15 +8,16 @@
 
 /* ---- walls of the grid ------------------------------------------------------------------------------------------- */
 
-/* Appends component `component` of a node, constrained by load number `load`, to the set. */
+/* Appends to set s the component `component` of node `node`, constrained by load number `load`. */
 static void constrained_add(struct constrained_set *s, int64_t node, int component, int load)
 {
     GROW("loads.held", s->held, s->n + 1);
     s->held[s->n++] = (struct held){(int32_t)node, (uint8_t)component, (uint8_t)load};
 }
 
-/* Returns true if a load constrains this component of any node at position x: in a driven region, on a mirror plane or
- * beyond it. False for layers behind a face, whose particles determine the driven nodes. */
+/* Returns true if a load constrains component `component` of every node at position x[dim] [m]: in the region of a
+ * prescribed motion, on a mirror plane or beyond it. False for layers behind a face, whose particles determine the
+ * driven nodes. tolerance: of region and plane [m]. */
 static bool node_constrained(const struct load *load, const struct grid *g, const real *x, real tolerance,
                              int component)
 {
@@ -35,8 +36,9 @@ bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spaci
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
-/* Reflects node k (indices in the box) at a mirror plane if it is beyond it, within reach of the widest shape function,
- * and changes the signs of its components in f. Returns false if it is beyond the plane but has no image. */
+/* Replaces the box indices k[dim] of a node beyond the mirror plane of `load` by those of its mirror image, and
+ * reverses the signs of its components in f. Nodes not beyond the plane are left unchanged. Returns false if a node
+ * beyond the plane has no image in the box. spacing: lattice spacing, to which tolerances refer [m]. */
 static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct mirror_node *f)
 {
     const struct boundary *b = load->boundary;
@@ -51,7 +53,8 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
 }
 
-/* Returns true if node I is beyond mirrors and moves as the mirror image of another node, described in f. */
+/* Returns true if node I is beyond mirror planes and moves as the mirror image of another node. Image, signs and mirror
+ * are stored in *f. */
 static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I, struct mirror_node *f)
 {
     int64_t k[DIM_MAX] = {0}, image = 0;
@@ -73,8 +76,8 @@ static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I
     return image != I;
 }
 
-/* Returns true if the load may constrain nodes of this grid: where bodies have separate grids, a driving load acts only
- * on grids of bodies that have particles in its region. */
+/* Returns true if the load may constrain nodes of grid g. Where bodies have separate grids, a load with prescribed
+ * motion acts only on grids of bodies that have particles in its list. */
 static bool load_holds(const struct load *load, const struct grid *g, const struct particles *p)
 {
     bool holds = g->body == 0 || load->boundary->kind != BOUNDARY_VELOCITY;
@@ -82,16 +85,17 @@ static bool load_holds(const struct load *load, const struct grid *g, const stru
     return holds;
 }
 
-/* Computes the position of node I [m]. mesh: that of the grid, NULL: none. */
+/* Computes the position x[dim] of node I [m]. mesh: the mesh whose grid g is, or NULL. Nodes doubled by slits are at
+ * the position of their regular node. */
 static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, real *x)
 {
     const int64_t at = mesh ? mesh_regular_node_of(mesh, I) : I;
     for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
-/* Returns true if the position of node I must not be used to decide whether the load constrains it: nodes doubled by
- * slits are driven by the material of their cells, and on a mirror some have material that a slit separates from its
- * image. */
+/* Returns true if the position of node I of the mesh must not decide whether `load` constrains it. Nodes doubled by
+ * slits are driven by the material of their cells; on a mirror, some have material that a slit separates from its
+ * image. False without mesh or slits. */
 static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
 {
     if (!mesh || !mesh->slits.split) return false;
@@ -99,9 +103,10 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
     return mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
 }
 
-/* Lists in *s the components of nodes that regions and mirrors constrain by the position of the node, and adds the
- * mirror nodes to the grid; once for each box of the grid. Extra nodes of a mesh have no mirror nodes: slits are not
- * allowed where a mirror is between nodes. */
+/* Lists in *s the components of nodes of g that regions and mirrors constrain by position, and adds the mirror nodes to
+ * g. Done once for each box of nodes. mesh: the mesh whose grid g is, or NULL. reference: nodes move with the material,
+ * so that regions of rotating loads count too. Extra nodes of slits have no mirror nodes: slits are refused where a
+ * mirror is between nodes. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p, bool reference)
 {
@@ -127,7 +132,7 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     }
 }
 
-/* Returns true if constrained_find has already listed this component of node I. */
+/* Returns true if constrained_find has listed component `component` of mesh node I for this load, by its position. */
 static bool constrained_by_region(const struct loads *l, const struct load *load, const struct mesh *mesh, int64_t I,
                                   int component)
 {
@@ -137,7 +142,7 @@ static bool constrained_by_region(const struct loads *l, const struct load *load
            node_constrained(load, &mesh->grid, x, LOADS_TOLERANCE * l->spacing, component);
 }
 
-/* Returns true if the set was found for the present box of nodes. */
+/* Returns true if set s was found for the present box of nodes of g (first index and count along each axis). */
 static bool constrained_is_current(const struct constrained_set *s, const struct grid *g)
 {
     for (int d = 0; d < g->dim; d++)
@@ -145,15 +150,16 @@ static bool constrained_is_current(const struct constrained_set *s, const struct
     return true;
 }
 
-/* Returns true if particle i is a point of this grid. */
+/* Returns true if particle i is a material point of grid g, not of a mesh. */
 static bool point_is_on(const struct grid *g, const struct particles *p, int32_t i)
 {
     return particle_moves_with_nodes(p, i) && !(p->flag[i] & FLAG_MESHED) &&
            (g->body == 0 || g->body == p->body[i] + 1);
 }
 
-/* Maps the mass of a load's driven material points to the nodes, into l->share [kg]. Returns the number of these
- * points. */
+/* Maps the mass of the material points of `load` that are on grid g to its nodes, in l->share [g->n] [kg]. k: kernels;
+ * half_width: half the reference edge of a particle [m]. Returns the number of these points; with 0, l->share is not
+ * set. */
 static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
                             const struct kernels *k, real half_width)
 {
@@ -180,8 +186,9 @@ struct driven_by {
     struct prescribed_motion now, before;
 };
 
-/* Adds a wall for component d of node I at x. Its change of velocity is that of the material at the node, which a
- * rotation carries away. For a mesh, a displacement also prescribes the nodal displacement at the end of the step. */
+/* Adds a wall (prescribed velocity) for component d of node I at x [m], with its change of velocity since the previous
+ * step. That change is the one of the material at the node. which: number of the load; reference: nodes move with the
+ * material, as on a mesh, where a displacement also prescribes the nodal displacement at the end of the step. */
 static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, const real *x, int d, int which,
                      bool reference)
 {
@@ -197,8 +204,9 @@ static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, cons
     grid_add_wall(g, &(struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0});
 }
 
-/* Adds walls at the nodes that have at least half of their mass from driven points, except those already constrained by
- * the load's region: a second wall would count the inertia of the node as a reaction. */
+/* Adds walls (prescribed velocities) of load number `which` at the nodes that have at least half of their mass from its
+ * points, by l->share. Nodes already constrained by the load's region are skipped: a second wall would count the
+ * inertia of the node as a reaction. by: motion that this load prescribes. */
 static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by,
                          const struct particles *p)
 {
@@ -215,7 +223,8 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
     }
 }
 
-/* Evaluates the motion that all loads prescribe in the step about t. */
+/* Evaluates the motion that all loads prescribe in the step of size dt about t [s] and in the previous step: by[l->n].
+ * In the first step both are equal. */
 static void driven_by_all(const struct loads *l, int dim, real t, real dt, struct driven_by *by)
 {
     for (int b = 0; b < l->n; b++) {
@@ -224,7 +233,8 @@ static void driven_by_all(const struct loads *l, int dim, real t, real dt, struc
     }
 }
 
-/* Adds walls at the nodes of a constrained set that have mass. */
+/* Adds walls (prescribed velocities) to grid g for all components in set s whose nodes have mass. mesh: the mesh whose
+ * grid g is, or NULL; by[load]: prescribed motion; reference: nodes move with the material. */
 static void constrained_walls(const struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                               const struct driven_by *by, bool reference)
 {
@@ -255,7 +265,8 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *he
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Computes the mass that points of a load contribute to nodes: share [grid.n] [kg]; marks the nodes that have any. */
+/* Adds the mass that the points of `load` contribute to each node to share[mesh->grid.n] [kg], and sets mark[I] = 1 for
+ * these nodes I. Both arrays are zeroed by the caller. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {
@@ -269,7 +280,8 @@ static void driven_masses(const struct load *load, const struct mesh *mesh, cons
     }
 }
 
-/* Constrains the nodes of the mesh that have at least half of their mass from points of a load. */
+/* Adds to l->constrained_mesh the nodes that have at least half of their mass from points of load number `which`, for
+ * each component that it prescribes. */
 static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
 {
     const struct load *load = &l->load[which];
@@ -306,7 +318,8 @@ void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set
     if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p, true);
 }
 
-/* Sets the walls of a mesh from its constrained set. */
+/* Replaces the walls (prescribed velocities) of g by those of the constrained set `held`, for the step of size dt about
+ * t [s]. g: a grid whose nodes move with the material; mesh: the mesh whose grid g is, or NULL. */
 static void reference_walls(const struct loads *l, const struct constrained_set *held, struct grid *g,
                             const struct mesh *mesh, real t, real dt)
 {
