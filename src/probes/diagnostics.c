@@ -18,8 +18,9 @@ void diagnostics_make(struct diagnostics *w)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Computes the momentum of all particles and grid nodes, and its error: the part that differs from the initial
- * momentum plus the impulse supplied since, over the largest momentum so far. */
+/* Computes the momentum of all particles and of the nodes of the `grids` grids nodes[], and the momentum error:
+ * |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]: impulse supplied by loads
+ * and supports since the start [N s]. */
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse)
 {
@@ -40,7 +41,8 @@ real diagnostics_energy_change(const struct diagnostics *w)
     return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
 }
 
-/* Computes the error of the energy balance, relative to the largest energy or work so far. */
+/* Computes w->now.balance_error = (energy - initial energy - external work)/(largest energy or work so far) [1], 0
+ * while that is 0. */
 static void balance_of(struct diagnostics *w)
 {
     struct energy_balance *l = &w->now;
@@ -62,8 +64,9 @@ void diagnostics_energy_balance(struct diagnostics *w, real t, const struct ener
 
 /* ---- the first break --------------------------------------------------------------------------------------------- */
 
-/* Finds the separate groups of bonds that break in this step, returns their number, and stores the position of the
- * middle of one. */
+/* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
+ * distances up to the horizon. list[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the middle of one
+ * group in middle[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
 int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle)
 {
     const real along[DIM_MAX] = {0};
@@ -81,8 +84,8 @@ int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, 
     return ends;
 }
 
-/* Returns true if a driven particle has just lost a bond. Evaluates all particles, without an early exit, so that the
- * loop is compiled to vector instructions. */
+/* Returns true if a particle with prescribed motion has just lost a bond. Examines all particles without an early exit,
+ * so that the loop is compiled to vector instructions. */
 static bool driven_breaks(const struct particles *p)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
@@ -107,14 +110,16 @@ bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p,
 
 /* ---- stability check --------------------------------------------------------------------------------------------- */
 
-/* Returns true if particle i has diverged (particles_diverged with one particle). */
+/* Returns true if particle i has diverged: its position or velocity is not finite, or its speed exceeds `limit`
+ * [m/s]. */
 static bool diagnostics_particle_diverged(const struct particles *p, int64_t i, real limit)
 {
     const int32_t alone[1] = {(int32_t)i};
     return particles_diverged(p, alone, 1, limit);
 }
 
-/* Returns FAILED, with the position of particle i, the step and the cause. */
+/* Returns FAILED with a message that contains particle i, its position, the step, the time t [s] and the cause: a speed
+ * above `limit` [m/s], or a value that is not finite. */
 static status divergence_report(const struct particles *p, int64_t i, real limit, int64_t step, real t)
 {
     real speed2 = 0;
@@ -140,7 +145,8 @@ real diagnostics_largest_speed(const struct particles *p, const int32_t *list, i
     return sqrt(most);
 }
 
-/* Returns the first of the listed particles that has diverged, n_all if none has. */
+/* Returns the first of the particles list[n] that has diverged, or p->n_all if none has. limit: largest speed that a
+ * stable particle can have [m/s]. */
 static int64_t first_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit)
 {
     if (!particles_diverged(p, list, n, limit)) return p->n_all;

@@ -6,7 +6,8 @@
 #include "probes/diagnostics.h"
 #include "run/part.h"
 
-/* Writes the energies, the external work, and the errors of the balances of energy and momentum. */
+/* Writes the energies, the external work, and the errors of the balances of energy, momentum and angular momentum to
+ * JSON object j. */
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
@@ -31,7 +32,8 @@ static void put_when(struct json *j, const struct scene *scene, const struct run
         json_count(j, key, (int64_t)floor(t / clock->dt + 0.5));
 }
 
-/* Writes position, growth, times and speeds of a crack tip. */
+/* Writes body, origin, position, growth, angle, times and speeds of a crack tip as an element of a JSON array. Runs in
+ * load steps have step numbers instead of times, and no speeds. */
 static void put_tip(struct json *j, const struct scene *s, const struct run_clock *clock, const struct crack_tip *tip)
 {
     const int dim = s->dim;
@@ -48,7 +50,7 @@ static void put_tip(struct json *j, const struct scene *s, const struct run_cloc
     json_close(j, '}');
 }
 
-/* Returns the number of directed bonds of driven particles that loads have broken. */
+/* Returns the number of broken bonds of particles with prescribed motion; a bond between two of them counts twice. */
 static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
 {
     int64_t broken = 0;
@@ -57,7 +59,8 @@ static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
     return broken;
 }
 
-/* Writes time and position of the first breaks, the length of the longest crack, and every crack tip. */
+/* Writes the JSON object "crack": time and place of the first breaks, growth, angle and speeds of the longest crack,
+ * and the list of all crack tips. */
 static void put_crack(struct json *j, const struct run *e)
 {
     const struct crack_tip *longest = tips_longest(&e->fracture->tips);

@@ -10,13 +10,13 @@ static real wave_speed(const struct exact *e) { return sqrt(e->young / e->densit
 static real plastic_speed(const struct exact *e) { return sqrt(e->tangent / e->density); }
 static real length(const struct exact *e) { return e->right - e->left; }
 
-/* Returns the distance of position X from the loaded end [m]. */
+/* Returns the distance of coordinate X from the loaded end of the bar [m]. */
 static real depth(const struct exact *e, real X) { return e->loaded > 0 ? e->right - X : X - e->left; }
 
-/* Returns the position at distance s from the loaded end [m]. */
+/* Returns the coordinate of the point at distance s from the loaded end of the bar [m]. */
 static real exact_position(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
 
-/* Returns the reflection factor of the end opposite to the loaded one. */
+/* Returns the reflection factor of the end opposite to the loaded one: 1 at a fixed end, -1 at a free one. */
 static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
 
 /* Adds the jumps of a stress front to the values at a position. jump: stress behind minus stress ahead [Pa]; sign: 1
@@ -35,8 +35,8 @@ static void add_front(struct exact_values *v, const struct exact *e, real jump, 
 
 /* ---- loaded bars ------------------------------------------------------------------------------------------------- */
 
-/* Returns the values at distance s from the loaded end of an elastic bar and time t: the sum of all fronts that have
- * passed, with their reflections at both ends. */
+/* Returns displacement, velocity, stress and strain at distance s [m] from the loaded end of an elastic bar at time t
+ * [s]: the sum of all fronts that have passed, with their reflections at both ends. */
 static struct exact_values step_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -48,11 +48,13 @@ static struct exact_values step_bar(const struct exact *e, real s, real t)
     return v;
 }
 
-/* Returns the stress of the elastic precursor [Pa]: the load, limited by the yield stress. */
+/* Returns the stress of the elastic precursor [Pa]: the load, limited by the yield stress, with the sign of the
+ * load. */
 static real precursor(const struct exact *e) { return copysign(real_min(fabs(e->load), e->yield), e->load); }
 
-/* Returns the values in an elastic-plastic bar at distance s from the loaded end and time t, as the sum of elastic
- * precursor and plastic front. Valid until the precursor reaches the other end; NAN afterwards. */
+/* Returns displacement, velocity, stress and strain at distance s [m] from the loaded end of an elastic-plastic bar at
+ * time t [s]: the sum of elastic precursor and plastic front. All values are NAN once the precursor has reached the
+ * other end. */
 static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -66,8 +68,9 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 
 /* ---- pulses ------------------------------------------------------------------------------------------------------ */
 
-/* Adds a wave pulse in an infinite bar to v, at a distance eta ahead of the centre of the pulse [m]. sign: direction
- * of travel along x; factor: sign of its displacement after all reflections. */
+/* Adds displacement, velocity and strain of wave pulse p in an infinite bar to v, at distance eta [m] ahead of the
+ * centre of the pulse. sign: direction of travel along x, 1 or -1; factor: sign of the displacement after all
+ * reflections. */
 static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int sign,
                       real factor)
 {
@@ -79,8 +82,8 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
     v->strain += factor * sign * wave.strain;
 }
 
-/* Adds a pulse and its reflections at the ends of the bar to v, as images of the pulse at distances of the bar's
- * length. The displacement changes its sign at a fixed end. */
+/* Adds pulse p and its reflections at the ends of the bar to v, at coordinate X [m] and time t [s]. The reflections are
+ * images of the pulse at distances of the bar's length; the displacement changes its sign at a fixed end. */
 static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;
@@ -94,7 +97,8 @@ static void one_pulse(struct exact_values *v, const struct exact *e, const struc
     }
 }
 
-/* Returns the values at position X and time t: the sum of all initial pulses and their reflections. */
+/* Returns displacement, velocity, stress and strain at coordinate X [m] and time t [s]: the sum of all initial pulses
+ * and their reflections at the ends. */
 static struct exact_values pulses(const struct exact *e, real X, real t)
 {
     struct exact_values v = {0};
@@ -103,7 +107,8 @@ static struct exact_values pulses(const struct exact *e, real X, real t)
     return v;
 }
 
-/* Returns the values of the manufactured solution at position X and time t. */
+/* Returns the manufactured solution at coordinate X [m] and time t [s]: displacement u = amplitude sin^2(pi t/period)
+ * sin(k (X - origin)) with k = 2 pi/wavelength, its velocity, strain and elastic stress. */
 static struct exact_values manufactured(const struct exact *e, real X, real t)
 {
     real k = 2 * pi / e->wavelength, phase = k * (X - e->origin), grown = square(sin(pi * t / e->period));
@@ -132,8 +137,8 @@ struct exact_values exact_solution_at(const struct exact *e, real X, real t)
 
 /* ---- fronts and plateaus ----------------------------------------------------------------------------------------- */
 
-/* Returns position and stresses of the front in a step bar at time t. The front is reflected at both ends; the stress
- * behind it is the sum of the jumps of all its passages. */
+/* Returns position, direction and stresses of the elastic front in a step-loaded bar at time t [s]. The front is
+ * reflected at both ends; the stress behind it is the sum of its jumps in all passages. */
 static struct exact_front step_front(const struct exact *e, real t)
 {
     real L = length(e), gone = wave_speed(e) * t, m = floor(gone / L);

@@ -13,7 +13,7 @@ const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-/* Adds a column `<probe>.<quantity>` to the history. */
+/* Appends a column named `<probe>.<quantity>` with this unit to the columns of the history that belong to probe q. */
 static void column_add(struct probes *s, struct probe *q, const char *quantity, const char *unit)
 {
     GROW("probes.column", s->column, s->columns + 1);
@@ -23,7 +23,7 @@ static void column_add(struct probes *s, struct probe *q, const char *quantity, 
     q->columns++;
 }
 
-/* Adds a column to the history for each component of a vector, named by the prefix and the axis. */
+/* Appends a history column for each of the dim components of a vector, named by `prefix` and the axis (x, y, z). */
 static void columns_by_axis(struct probes *s, struct probe *q, const char *prefix, int dim, const char *unit)
 {
     for (int d = 0; d < dim; d++) {
@@ -33,7 +33,8 @@ static void columns_by_axis(struct probes *s, struct probe *q, const char *prefi
     }
 }
 
-/* Adds the columns of the history that a probe of this kind has, and stores the index of the first one. */
+/* Appends the history columns of probe q, which depend on its kind, and stores the index of the first one in q->first.
+ * Some kinds have no columns, only figures in the summary. */
 static void columns_add(struct probes *s, struct probe *q, const struct particles *p)
 {
     const int dim = p->dim;
@@ -83,7 +84,7 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
-/* Returns the largest distance of a position in the body from the nearest particle [m]: half the diagonal of a
+/* Returns the largest distance of a position inside a body from the nearest particle [m]: half the diagonal of a
  * lattice cell, times 1.5 for irregular particles. */
 static real nearest_reach(const struct observed_run *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 
@@ -111,7 +112,8 @@ void station_position(const struct probe *q, int dim, int k, real *X)
     for (int d = 0; d < dim; d++) X[d] = r->from[d] + s * (r->to[d] - r->from[d]);
 }
 
-/* Finds the particle nearest to the point of a POINT probe. Returns REFUSED if the point is outside the body. */
+/* Sets the particle list of a POINT probe to the particle nearest to its point. Returns REFUSED, with a message, if the
+ * point is outside the bodies. */
 static status bind_point(struct probe *q, const struct observed_run *o)
 {
     q->list = NEW("probes.list", 1, int32_t);
@@ -121,7 +123,8 @@ static status bind_point(struct probe *q, const struct observed_run *o)
                       position_text(q->request.at, o->part->dim, 6).text);
 }
 
-/* Finds the particles nearest to the stations of a LINE probe. Returns REFUSED if all stations are outside the body. */
+/* Sets the particle list of a LINE probe to the particles nearest to its stations (equidistant points from one end to
+ * the other), -1 for stations outside the bodies. Returns REFUSED, with a message, if all are outside. */
 static status bind_line(struct probe *q, const struct observed_run *o)
 {
     int dim = o->part->dim, inside = 0;
@@ -139,8 +142,8 @@ static status bind_line(struct probe *q, const struct observed_run *o)
     return status_set(REFUSED, "probe \"%s\": the whole line is outside the bodies", q->request.name);
 }
 
-/* Lists the particles of the probe's region, including those on its surface within round-off. REFUSED if there is
- * none. */
+/* Sets the particle list of a probe to the particles in its region, including those on its surface within round-off.
+ * Returns REFUSED, with a message, if there is none. */
 static status bind_region(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -154,8 +157,8 @@ static status bind_region(struct probe *q, const struct observed_run *o)
     return status_set(REFUSED, "probe \"%s\": its region holds no particle", q->request.name);
 }
 
-/* Returns REFUSED unless the named boundary prescribes a motion or, in load steps, a force; the message lists those
- * that do. */
+/* Returns REFUSED, with a message, unless the boundary that a REACTION probe names prescribes a motion or, in load
+ * steps, a force. If no boundary has this name, the message lists those that a probe can name. */
 static status bind_support(const struct probe *q, const struct observed_run *o)
 {
     char known[512] = "";
@@ -177,7 +180,8 @@ static status bind_support(const struct probe *q, const struct observed_run *o)
                       q->request.boundary, used > 0 ? known : "none");
 }
 
-/* Finds the growing crack that a GROWTH probe measures by its name, or the first one if the probe names none. */
+/* Sets q->growth to the index of the growing crack that a GROWTH probe measures: the one of its name, or the first if
+ * the probe names none. */
 static status bind_growth(struct probe *q, const struct observed_run *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
@@ -185,7 +189,8 @@ static status bind_growth(struct probe *q, const struct observed_run *o)
     return OK; /* the scene reader has checked that the boundary exists */
 }
 
-/* Binds a probe to its particles, by its kind. */
+/* Binds probe q to the particles, supports or cracks that it measures, by its kind. Returns REFUSED, with a message, if
+ * there are none or the probe does not fit the scene. */
 static status probe_bind(struct probe *q, const struct observed_run *o)
 {
     switch (q->request.kind) {
@@ -252,8 +257,8 @@ void probes_free(struct probes *s)
 
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
-/* Stores time, position and number of the first bonds that break in the region of a BREAK probe, if any break in this
- * step. Bonds of driven particles do not count. */
+/* Stores time, load step, position and number of separate groups of the first bonds that break in the region of a BREAK
+ * probe. Changes nothing but the number if none break in this step; bonds of driven particles do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
     q->memory.ends = diagnostics_first_break(o->part, q->list, q->n, o->horizon, q->memory.position);
@@ -262,7 +267,8 @@ static void step_break(struct probe *q, const struct observed_run *o)
     q->memory.first_step = o->load_step;
 }
 
-/* Updates the largest reaction and the sum of squared reactions of a REACTION probe. */
+/* Updates the largest reaction force of a REACTION probe, with its step and displacement, and the sum of squared forces
+ * over all steps. */
 static void step_reaction(struct probe *q, const struct observed_run *o)
 {
     const int dim = o->part->dim;
@@ -276,7 +282,7 @@ static void step_reaction(struct probe *q, const struct observed_run *o)
     q->memory.steps++;
 }
 
-/* Returns true if a particle has just lost a bond. */
+/* Returns true if any particle has lost a bond in this step. */
 static bool any_cut(const struct particles *p)
 {
     uint8_t any = 0;
@@ -310,7 +316,8 @@ void probes_update_every_step(struct probes *s, const struct observed_run *o)
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
 
-/* Stores position and growth of the tip; NAN and 0 without a tip. */
+/* Stores position and growth of the tip that a TIP probe follows in value[dim + 1] [m]; NAN and 0 if there is no
+ * tip. */
 static void sample_tip(const struct probe *q, const struct observed_run *o, real *value)
 {
     const struct crack_tip *tip = probe_tip(q, o->tips);
@@ -319,7 +326,7 @@ static void sample_tip(const struct probe *q, const struct observed_run *o, real
     value[dim] = tip ? tip->growth : 0;
 }
 
-/* Stores kinetic, strain and fracture energy of the region. */
+/* Stores kinetic, strain and fracture energy of the particles of an ENERGY probe in value[3] [J]. */
 static void probes_sample_energy(const struct probe *q, const struct observed_run *o, real *value)
 {
     struct energies e = probe_energies(q, o);
@@ -364,8 +371,8 @@ void probes_sample_begin(struct probes *s, const struct observed_run *o)
     }
 }
 
-/* Returns true for kinds of probes whose values depend on velocities, which leap-frog provides only between
- * samples. */
+/* Returns true if the values of probe q depend on velocities. Leap-frog provides velocities half a step before and
+ * after a sample only, so they are interpolated. */
 static bool has_motion(const struct probe *q)
 {
     const enum probe_kind kind = q->request.kind;
@@ -380,21 +387,22 @@ void probes_store_motion(struct probes *s, const struct observed_run *o)
     }
 }
 
-/* Computes and stores the stress-intensity factors of a SIF probe. */
+/* Computes K_I, K_II, J and their spread between contours for a SIF probe and stores them in value[SIF_FIGURES].
+ * t_velocity: time of the present velocities [s]. */
 static void sample_sif(struct probe *q, const struct observed_run *o, real t_velocity, real *value)
 {
     sif_probe_sample(q, o, t_velocity);
     for (int f = 0; f < SIF_FIGURES; f++) value[f] = q->memory.factors[f];
 }
 
-/* Stores the components of the reaction force in value[dim]. The forces are those of the step just made. */
+/* Stores the reaction force of a REACTION probe's boundary in value[dim] [N], as computed in the step just made. */
 static void sample_force(const struct probe *q, const struct observed_run *o, real *value)
 {
     real displacement[DIM_MAX];
     probe_reaction(q, o->loads, o->part->dim, value, displacement);
 }
 
-/* Stores the velocity of the particle of a POINT probe. */
+/* Stores the velocity of the particle of a POINT probe, at the time of the sample, in value[dim .. 2 dim - 1] [m/s]. */
 static void sample_velocity(const struct probe *q, const struct particles *p, real *value)
 {
     for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_velocity(q, p, d, 0);
@@ -436,7 +444,8 @@ void probes_sample_end(struct probes *s, const struct observed_run *o, const str
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the state of all probes to an archive, or restores it. */
+/* Saves the state of all probes (their memories and the values of the last sample) to archive a, or restores it from
+ * there. Returns FAILED or REFUSED, with a message, if the archive does. */
 status probes_save_or_load(struct probes *s, struct archive *a)
 {
     if (s->n == 0) return OK;

@@ -13,18 +13,17 @@
 
 /* ---- stress and strain ------------------------------------------------------------------------------------------- */
 
-/* Returns the rank of particle i, its position in the order from left to right. For image particles beyond the ends
- * returns -1 (left) or n (right). */
+/* Returns the rank of particle i: its index in the order of the bar's particles from left to right. Mirror images
+ * beyond the ends have the rank -1 (left) or b->n (right). */
 static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, int32_t i)
 {
     if (i < p->n) return b->rank[i];
     return p->X[0][i] < b->exact.left ? -1 : b->n;
 }
 
-/* Adds the forces of all intact bonds for the computation of the stress in a bar. between[n + 1]: each bond's force
- * is added behind its left and subtracted at its right particle, so that prefix sums are the forces of the bonds
- * across each particle. end[n]: half the force of the bonds that end at each particle [N]. Each bond is added
- * once. */
+/* Adds the forces of all intact bonds, for the stress in a bar; each bond is added once. between[n + 1]: the force of a
+ * bond is added after its left particle and subtracted at its right one, so that prefix sums are the forces of the
+ * bonds that cross each particle [N]. end[n]: half the force of the bonds that end at each particle [N]. */
 static void add_bonds(const struct bar *b, const struct observed_run *o, real *between, real *end)
 {
     const struct bonds *bonds = o->bonds;
@@ -57,7 +56,8 @@ void bar_bond_flux(const struct bar *b, const struct observed_run *o, real *flux
     memory_free(end);
 }
 
-/* Computes the strain by central differences over the neighbours, one-sided at the ends. */
+/* Computes b->strain of each particle: central differences of displacement over its neighbours in the bar, one-sided at
+ * the ends. */
 static void measure_strain(struct bar *b, const struct particles *p)
 {
     for (int64_t k = 0; k < b->n; k++) {
@@ -179,7 +179,8 @@ struct column bar_result_column(enum exact_form form, int k)
     return c;
 }
 
-/* Computes the L1 and L2 errors of stress, E x strain and velocity, and the L2 error of displacement. */
+/* Computes the L1 and L2 errors of stress, E x strain and velocity, and the L2 error of displacement, against the
+ * closed form, and stores them at their indices in value[FIGURES]. */
 static void errors(const struct bar *b, const struct observed_run *o, real *value)
 {
     real sum[7] = {0};
@@ -200,9 +201,10 @@ static void errors(const struct bar *b, const struct observed_run *o, real *valu
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Returns the position at which a field times `factor` passes the mean of the values before and behind a front, with
- * interpolation between particles [m]; NAN if there is none. Of several positions, takes the one nearest to the exact
- * front. The outermost particles are left out, since the load acts on them and their bonds carry only half of it. */
+/* Returns the coordinate at which factor * field passes the mean of the stresses before and behind front f,
+ * interpolated between particles [m]; NAN if it does not. Of several such coordinates, the one nearest to the exact
+ * front is returned. field: [b->n] by rank. The outermost particles are left out: the load acts on them and their bonds
+ * transmit only half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
 {
@@ -216,7 +218,8 @@ static real front_of(const struct bar *b, const struct particles *p, const struc
     return found;
 }
 
-/* Returns the mean of a field over the particles between two positions [m]; NAN if there are none. */
+/* Returns the mean of field[b->n] (by rank) over the particles with coordinates from `from` to `to` [m]; NAN if there
+ * are none. */
 static real mean_between(const struct bar *b, const struct particles *p, const real *field, real from, real to)
 {
     real sum = 0, tolerance = 1e-9 * (b->exact.right - b->exact.left);
@@ -228,7 +231,8 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
     return n > 0 ? sum / (real)n : NAN;
 }
 
-/* Computes figures at fronts and plateaus; those that do not exist at this time stay NAN. */
+/* Computes the figures of fronts and plateaus and stores them at their indices in value[FIGURES]. Those that do not
+ * exist at this time keep their value. */
 static void fronts(const struct bar *b, const struct observed_run *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];

@@ -9,7 +9,7 @@
 
 static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};
 
-/* Returns REFUSED with the name of the probe and the reason `what`. */
+/* Returns REFUSED, with a message that contains the name of probe q, its closed form, and the reason `what`. */
 static status refuse(const struct probe *q, const char *what)
 {
     return status_set(REFUSED, "probe \"%s\": %s: %s", q->request.name, form_names[q->request.form], what);
@@ -22,7 +22,7 @@ struct located {
     int32_t i;
 };
 
-/* Compares two particles by their position, for sorting. */
+/* Compares two struct located by position X, then by particle number, for sorting. */
 static int probes_bar_make_by_position(const void *a, const void *b)
 {
     const struct located *p = a, *q = b;
@@ -30,7 +30,8 @@ static int probes_bar_make_by_position(const void *a, const void *b)
     return p->i < q->i ? -1 : 1;
 }
 
-/* Sorts the particles from left to right. */
+/* Computes b->order, the particles of the bar from left to right, and b->rank, the index of each particle in that
+ * order. */
 static void find_order(struct bar *b, const struct particles *p)
 {
     struct located *sorted = NEW("probes.place", p->n, struct located);
@@ -40,7 +41,8 @@ static void find_order(struct bar *b, const struct particles *p)
     memory_free(sorted);
 }
 
-/* Finds the particles of the bar. Returns REFUSED unless it has one material and is one row of particles without a
+/* Finds the particles of the bar of an EXACT probe, allocates its arrays, and stores its ends and material constants.
+ * Returns REFUSED, with a message, unless the scene is one row of particles in 1D, of one material and without a
  * gap. */
 static status find_bar(struct probe *q, const struct observed_run *o)
 {
@@ -72,7 +74,7 @@ static status find_bar(struct probe *q, const struct observed_run *o)
 
 /* ---- ends and loads ---------------------------------------------------------------------------------------------- */
 
-/* Returns true if the list of particles of a load contains the particle. */
+/* Returns true if load l acts on particle number `particle`, i.e. if it is in the load's particle list. */
 static bool acts_on(const struct load *l, int32_t particle)
 {
     for (int64_t k = 0; k < l->n; k++)
@@ -80,7 +82,8 @@ static bool acts_on(const struct load *l, int32_t particle)
     return false;
 }
 
-/* Finds the kind of each end: fixed at a mirror or where the outermost particle is constrained, else free. */
+/* Stores the reflection factor of both ends of the bar: 1 (fixed) at a mirror or where the outermost particle is
+ * constrained, else -1 (free). Returns REFUSED, with a message, if a boundary drives the bar with a velocity. */
 static status find_ends(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;
@@ -101,7 +104,7 @@ static status find_ends(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-/* Returns true if no particle moves at the start. */
+/* Returns true if all particles have zero velocity and are at their reference positions. */
 static bool probes_bar_make_at_rest(const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++)
@@ -109,8 +112,8 @@ static bool probes_bar_make_at_rest(const struct particles *p)
     return true;
 }
 
-/* Returns true if the initial velocities equal the sum of the pulses of the scene, to a relative 1e-6. They do not if
- * a pulse is cut off by its region or by an end, or if there is other motion. */
+/* Returns true if the initial velocities of all particles equal the sum of the scene's pulses, within 1e-6 of the sum
+ * of their amplitudes. They do not if a pulse is cut off by its region or by an end, or if there is other motion. */
 static bool starts_with_pulses(const struct exact *e, const struct particles *p)
 {
     real scale = 0;
@@ -120,7 +123,7 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
     return true;
 }
 
-/* Returns the number of loads of a kind. *found: the last of them; unchanged if there is none. */
+/* Returns the number of loads of this kind. *found: the last of them; unchanged if there is none. */
 static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_kind kind, const struct load **found)
 {
     int n = 0;
@@ -129,8 +132,9 @@ static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_
     return n;
 }
 
-/* Finds the traction on one end of the bar and stores its stress, positive in tension. REFUSED unless there is
- * exactly one, on a free end and constant in time. */
+/* Finds the traction on one end of the bar and stores the end in exact.loaded and the stress in exact.load, positive in
+ * tension [Pa]. Returns REFUSED, with a message, unless there is exactly one traction, on a free end, constant in time
+ * and not 0. */
 static status find_traction(struct probe *q, const struct observed_run *o)
 {
     struct bar *b = q->bar;
@@ -150,7 +154,8 @@ static status find_traction(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-/* Checks and stores the loads of the bar. Returns REFUSED for loads that the closed form does not describe. */
+/* Stores ends, traction or pulses of the bar for its closed form. Returns REFUSED, with a message, for loads, initial
+ * motion or materials that the closed form does not describe. */
 static status find_load(struct probe *q, const struct observed_run *o)
 {
     const struct load *other = NULL;

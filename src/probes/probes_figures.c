@@ -16,13 +16,15 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [3] = {"xx", "yy", "zz", "xy", "yz", "zx"},
 };
 
-/* Returns the number of stress readings; in plane strain zz is last. */
+/* Returns the number of stress components that a probe reports of a particle; in plane strain zz is added, as the last
+ * one. */
 static int stresses_count(const struct particles *p)
 {
     return symmetric_component_count(p->dim) + (p->plane_strain != NULL);
 }
 
-/* Returns the number of readings where materials yield: plastic strain, and the temperature of those that heat. */
+/* Returns the number of values that yielding adds to the report of a particle: plastic strain, and temperature if
+ * materials heat. */
 static int law_readings_count(const struct particles *p)
 {
     return (p->plastic_work != NULL) + (p->temperature != NULL);
@@ -53,7 +55,8 @@ struct column reading_column(const struct particles *p, int k)
     return c;
 }
 
-/* Returns the plastic strain of particle i: of a peridynamic one the mean plastic path of its bonds, as in frames. */
+/* Returns the plastic strain of particle i [1]: of a peridynamic particle the mean plastic path of its bonds, as in
+ * frames, else that of the material point. */
 static real plastic_strain_reading(const struct observed_run *o, int64_t i)
 {
     const struct bonds *b = o->bonds;
@@ -84,7 +87,9 @@ void growing_crack_readings(const struct growing_crack *g, real *value)
 
 /* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
-/* Returns the crack tip that a TIP probe follows at present; NULL if there is none. */
+/* Returns the crack tip that a TIP probe follows at present: the one with its origin nearest to the probe's position
+ * `at`, or without `at` that of the longest crack, or the first one if none has grown. NULL if there are no tips. The
+ * tip belongs to *t. */
 const struct crack_tip *probe_tip(const struct probe *q, const struct crack_tips *t)
 {
     if (t->n == 0) return NULL;
@@ -123,14 +128,15 @@ struct region_sum {
     int component;
 };
 
-/* Returns a component of the momentum of the k-th particle of the region. */
+/* Returns a component of the momentum of particle number k of a probe [kg m/s]. context: a struct region_sum, with the
+ * probe, the run and the component. */
 static real momentum_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
     return s->o->part->mass[s->q->list[k]] * probe_velocity(s->q, s->o->part, s->component, k);
 }
 
-/* Returns the kinetic energy of the k-th particle of the region [J]. */
+/* Returns the kinetic energy of particle number k of a probe [J]. context: a struct region_sum. */
 static real kinetic_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -140,14 +146,14 @@ static real kinetic_term(const void *context, int64_t k)
     return 0.5 * p->mass[s->q->list[k]] * speed2;
 }
 
-/* Returns the row of bonds of the k-th particle of the region, -1 if it has none. */
+/* Returns the row of bonds of particle number k of the probe of s, or -1 if it has none. */
 static int64_t row_at(const struct region_sum *s, int64_t k)
 {
     const struct bonds *b = s->o->bonds;
     return b && b->rows > 0 ? b->row_of[s->q->list[k]] : -1;
 }
 
-/* Returns half the energy of all intact bonds of the k-th particle [J]. */
+/* Returns half the energy of all intact bonds of particle number k of a probe [J]. context: a struct region_sum. */
 static real bond_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -161,7 +167,7 @@ static real bond_term(const void *context, int64_t k)
     return 0.5 * sum;
 }
 
-/* Returns the fracture energy of the bonds of the k-th particle [J]. */
+/* Returns the fracture energy of the bonds of particle number k of a probe [J]. context: a struct region_sum. */
 static real fracture_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -169,8 +175,8 @@ static real fracture_term(const void *context, int64_t k)
     return row >= 0 ? s->o->bonds->fracture_energy[row] : 0;
 }
 
-/* Returns the number of broken bonds of the k-th particle of the region; a bond counts at both of its ends. 0 for
- * driven particles. */
+/* Returns the number of broken bonds of particle number k of a probe; a bond is counted at both of its particles. 0 for
+ * particles with prescribed motion. context: a struct region_sum. */
 static real broken_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -212,18 +218,22 @@ struct emitter {
     const real *sampled; /* columns of the probe at a sample of this time; NULL if there is none */
 };
 
-/* Reports a value of the probe to the receiver of the figures, unless it is not finite. */
+/* Passes `value` as figure `quantity` of the probe of e to e->emit, which receives the figures. Values that are not
+ * finite are left out. */
 static void probes_figures_put(const struct emitter *e, const char *quantity, real value)
 {
     if (isfinite(value)) e->emit(e->context, e->q->request.name, quantity, value);
 }
 
-/* Reports the components of a position or vector as figures x, y, z. */
+/* Passes the components of a position or vector X[dim] as figures x, y, z of the probe of e to the receiver of
+ * figures. */
 static void put_position(const struct emitter *e, const real *X)
 {
     for (int d = 0; d < e->o->part->dim; d++) probes_figures_put(e, axis_name[d], X[d]);
 }
 
+/* Reports the crack tip of a TIP probe: start, arrest, growth, angle, speeds, position, and the number of tips that are
+ * equally long. Reports nothing without a tip. */
 static void figures_tip(const struct emitter *e)
 {
     const struct crack_tip *tip = probe_tip(e->q, e->o->tips);
@@ -239,7 +249,8 @@ static void figures_tip(const struct emitter *e)
     probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_count_longest(e->o->tips)));
 }
 
-/* Reports time and position of the first break and broken bonds; each bond is counted once, not by its two entries. */
+/* Reports time (or load step) and position of the first break in the region of a BREAK probe, and the number of broken
+ * bonds, each counted once. Reports nothing before the first break. */
 static void figures_break(const struct emitter *e)
 {
     if (isnan(e->q->memory.first_time)) return;
@@ -253,6 +264,8 @@ static void figures_break(const struct emitter *e)
                        0.5 * reproducible_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
 }
 
+/* Reports the largest and the root-mean-square reaction force of a REACTION probe [N] and the present displacement of
+ * its boundary [m]. */
 static void figures_reaction(const struct emitter *e)
 {
     const struct probe_memory *m = &e->q->memory;
@@ -268,7 +281,8 @@ static void figures_reaction(const struct emitter *e)
     probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }
 
-/* Reports the residual nodal force over the force of the stress on the face of a grid cell. */
+/* Reports residual_max of a PATCH probe: the largest nodal force of the first step over the force of the stress on one
+ * face of a grid cell [1]. */
 static void figures_patch(const struct emitter *e)
 {
     const struct observed_run *o = e->o;
@@ -277,6 +291,8 @@ static void figures_patch(const struct emitter *e)
     probes_figures_put(e, "residual_max", reference > 0 ? o->residual_step0 / reference : NAN);
 }
 
+/* Reports position and time of the separation that a SPALL probe has found, and the mean speeds of both parts. Reports
+ * nothing before separation. */
 static void figures_spall(const struct emitter *e)
 {
     real speed, rest;
@@ -297,7 +313,7 @@ static void figures_point(const struct emitter *e)
     for (int k = 0; k < readings_count(p); k++) probes_figures_put(e, reading_column(p, k).name, value[k]);
 }
 
-/* Reports the least and largest value of each reading over the stations inside the bodies. */
+/* Reports the least and the largest value of each quantity of a LINE probe over its stations inside the bodies. */
 static void figures_line(const struct emitter *e)
 {
     const struct particles *p = e->o->part;

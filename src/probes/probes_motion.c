@@ -3,7 +3,8 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* Copies a vector field of the probe's particles, allocating the arrays on the first call. */
+/* Copies the vector field from[dim][particles] at the particles of probe q to to[dim][q->n], whose arrays are allocated
+ * if they are NULL. */
 static void copy_listed(const struct probe *q, real *const *from, real **to, int dim)
 {
     for (int d = 0; d < dim; d++) {

@@ -6,7 +6,8 @@
 #include "base/memory_stream.h"
 #include "probes_parts.h"
 
-/* Writes the header of a LINE profile. */
+/* Writes the header line of a LINE profile to file: distance s along the line, coordinates, and the quantities of a
+ * particle, each with its unit. */
 static void profile_header(FILE *file, const struct particles *p)
 {
     fprintf(file, "s [m]");
@@ -18,7 +19,8 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Writes a row of the profile of a LINE probe for each station inside a body. */
+/* Writes a CSV row for each station of a LINE probe inside a body: distance from the first station [m], position, and
+ * the values of the nearest particle. */
 static void profile_rows(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -53,7 +55,7 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed_ru
     }
 }
 
-/* Writes the profile of a LINE or EXACT probe as CSV, with a header. */
+/* Writes the profile of a LINE or EXACT probe to file as CSV, with a header line. */
 static void profile_text(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     if (q->request.kind == PROBE_EXACT) {
@@ -64,8 +66,8 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
     profile_rows(file, q, o);
 }
 
-/* Writes the file name `<probe>_NNNNNN.csv` of the profile at a frame. A slash in the name of the probe becomes an
- * underscore. */
+/* Writes the file name `<probe>_NNNNNN.csv` of the profile of probe q at a frame to name[PROFILE_NAME]. A slash in the
+ * name of the probe becomes an underscore. */
 static void profile_name(char *name, const struct probe *q, int frame)
 {
     snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
@@ -73,7 +75,7 @@ static void profile_name(char *name, const struct probe *q, int frame)
         if (*c == '/') *c = '_';
 }
 
-/* Returns true for kinds of probes that have profiles. */
+/* Returns true if probe q has profiles: it is a LINE or an EXACT probe. */
 static bool has_profile(const struct probe *q)
 {
     return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT;
@@ -89,8 +91,8 @@ bool probes_profile_name(const struct probes *s, int which, int frame, char *nam
     return false;
 }
 
-/* Composes the profile of a probe at a frame and passes name and text to put(context, ...), which writes them. FAILED
- * if memory is exhausted or put fails. */
+/* Composes the profile of probe q at a frame and passes file name and text to put(context, name, text, length), which
+ * writes them. Returns FAILED, with a message, if memory is exhausted; else the status of put. */
 static status profile_put(const struct probe *q, const struct observed_run *o, probe_file_fn *put, void *context,
                           int frame)
 {

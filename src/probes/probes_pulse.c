@@ -12,7 +12,7 @@ static real ahead(const struct probe *q, const struct particles *p, int64_t i)
     return distance;
 }
 
-/* Returns the speed of particle i, or of its difference from the baseline if that is not NULL [m/s]. */
+/* Returns the speed of particle i [m/s]: |v - v_baseline|, with v_baseline = 0 if `baseline` is NULL. */
 static real speed(const struct particles *p, const struct baseline *baseline, int64_t i)
 {
     real speed2 = 0;
@@ -20,7 +20,8 @@ static real speed(const struct particles *p, const struct baseline *baseline, in
     return sqrt(speed2);
 }
 
-/* Returns the largest speed on one side of the interface [m/s]: before it (side -1), beyond it (+1), or on both (0). */
+/* Returns the largest speed of the particles on one side of the interface of a PULSE probe [m/s]: before it (side -1),
+ * beyond it (+1), or on both (0). baseline: velocities to be subtracted; NULL: none. */
 static real probes_pulse_fastest(const struct probe *q, const struct particles *p, const struct baseline *baseline,
                                  int side)
 {

@@ -54,8 +54,9 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-/* Returns the angle of the best-fit rotation R, which minimises sum m |x - R X|^2 (Kabsch 1976, in the plane) [rad].
- * Computes angular momentum and its scale sum |m r x v| [kg m^2/s] and the kinetic energy [J], too. */
+/* Returns the angle of the best-fit rotation R of the particles of a probe, which minimises sum m |x - R X|^2 (Kabsch
+ * 1976, in the plane) [rad]. X and x are relative to the centres of mass. Also computes the angular momentum *spin, its
+ * scale *spin_scale = sum |m x x v| [kg m^2/s], and the kinetic energy *kinetic [J]. */
 static real probes_rigid_turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale,
                               real *kinetic)
 {
@@ -77,8 +78,8 @@ status rigid_probe_start(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-/* Computes the largest absolute principal stress and the largest in-plane shear stress of the particles of a probe
- * [Pa]. */
+/* Computes the largest absolute principal stress, *stress, and the largest in-plane shear stress, *shear, of the
+ * particles of a probe [Pa]. */
 static void stresses(const struct probe *q, const struct particles *p, real *stress, real *shear)
 {
     *stress = *shear = 0;
@@ -93,15 +94,16 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
 
 enum { RIGID_PLACES = 3 }; /* number of figures that depend on positions only */
 
-/* Updates m->most[k], the largest absolute value so far of figure k, for k = first..end-1. It becomes NAN with the
- * value. */
+/* Updates m->most[k], the largest absolute value so far of value[k], for k = first .. end - 1. It becomes NAN if
+ * value[k] is. */
 static void rigid_most(struct rigid_memory *m, const real *value, int first, int end)
 {
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Computes the rotation angle of a RIGID probe's body and its largest stresses. The angle is continued beyond half a
- * turn, provided that the body rotates by less than half a turn between samples. */
+/* Computes the rotation angle of a RIGID probe's body and its largest stresses: value[0] [rad], value[1] and value[2]
+ * [Pa]. The angle is continued beyond half a turn, provided that the body rotates by less than half a turn between
+ * samples. */
 void rigid_probe_sample(struct probe *q, const struct observed_run *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;

@@ -37,13 +37,14 @@ struct sif_tracked {
     real *body[2];                   /* [n_all] forces of loads over masses [m/s^2] */
 };
 
-/* Returns true for a value that the scene gives: it is positive, not NAN. */
+/* Returns true if the scene gives this value: it is positive, not NAN. */
 static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
-/* Sets the contour from which the figures are computed, then contours to compare it with: those of the request, or
- * 0.6, 0.8 and 1 times its outer radius. */
+/* Sets the integration contours of a SIF probe: first the one from which the results are computed, then those to
+ * compare it with (radii of request r, or 0.6, 0.8 and 1 times the outer radius). w->reach becomes the largest outer
+ * radius. spacing: lattice spacing [m]. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, real spacing)
 {
     const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
@@ -56,8 +57,8 @@ static void make_contours(struct sif_tracked *w, const struct probe_request *r, 
     for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
 }
 
-/* Returns the index of the crack tip that a request refers to: the tip nearest to the position `at`, or the first tip
- * if there is no `at`; -1 if there is none. */
+/* Returns the index of the crack tip of the run that request r refers to: the tip whose origin is nearest to position
+ * `at`, within SAME_TIP spacings, or the first tip if there is no `at`. Returns -1 if there is none. */
 static int tip_meant(const struct probe_request *r, const struct observed_run *o)
 {
     int nearest = -1;
@@ -71,7 +72,8 @@ static int tip_meant(const struct probe_request *r, const struct observed_run *o
     return nearest;
 }
 
-/* Returns the index of the growing crack that starts at the tip of the probe; -1 if none. */
+/* Returns the index of the growing crack of the run that starts within SAME_TIP spacings of the tip of the probe, or -1
+ * if there is none. */
 static int growth_meant(const struct sif_tracked *w, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -81,8 +83,8 @@ static int growth_meant(const struct sif_tracked *w, const struct observed_run *
     return -1;
 }
 
-/* Returns REFUSED if this probe controls the growth of another crack than the one whose tip it measures; the key `at`
- * must then be given. */
+/* Returns REFUSED, with a message, if probe r controls the growth of another crack than the one whose tip it measures.
+ * The scene must then give the key `at`. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -97,7 +99,9 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Finds position and direction of the tip, and the growth that starts there. */
+/* Finds position and direction of the crack tip of a SIF probe, from the request r or from a pre-crack, and the growing
+ * crack that starts there. Returns REFUSED, with a message, if position or direction is unknown, or if the probe
+ * controls the growth of another crack. */
 static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     w->follows = tip_meant(r, o);
@@ -119,8 +123,9 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
     return own_growth(w, r, o);
 }
 
-/* Lists the cracks across which particles do not see each other: the pre-cracks and, unless one of them ends at the
- * tip, a straight crack behind the tip. Sets on which face of the crack particles exactly on it are. */
+/* Lists the cracks across which particles must not contribute to each other's gradients: the pre-cracks of the scene
+ * and, unless one of them ends at the tip, a straight crack behind the tip. Sets w->tip.face, the crack face to which
+ * particles exactly on the crack belong. */
 static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct sif_tip *t = &w->tip;
@@ -145,8 +150,9 @@ static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
     w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 
-/* Returns true if a circle around the tip is not completely inside the body. position: a point of the circle without
- * a particle nearby. */
+/* Returns true if a circle of this radius around tip t is not completely inside the body. The part near the crack
+ * faces, which may be open, is left out. position: set to a point of the circle without a particle nearby, if there is
+ * one [m]. */
 static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed_run *o, real position[2])
 {
     const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
@@ -159,8 +165,8 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
-/* Returns REFUSED for a ring that leaves the body at `position`, with an outer radius that fits: the largest number of
- * tenths of the present one. */
+/* Returns REFUSED with a message: the largest contour leaves the body at `position` [m]. The message proposes an outer
+ * radius that fits, the largest number of tenths of the present one. name: name of the probe. */
 static status refuse_leaving(const struct sif_tracked *w, const char *name, const struct observed_run *o,
                              const real position[2])
 {
@@ -174,7 +180,8 @@ static status refuse_leaving(const struct sif_tracked *w, const char *name, cons
                       name, w->reach, w->tip.place[0], w->tip.place[1], position[0], position[1], fits);
 }
 
-/* Returns REFUSED for contours that are too narrow, leave the body, or contain another tip. */
+/* Returns REFUSED, with a message, for contours that are narrower than NARROWEST spacings, leave the body, or contain
+ * another crack tip. r: request of the probe. */
 static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     real position[2], narrowest = INFINITY;
@@ -200,7 +207,8 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Finds the material around the tip. Returns REFUSED if another material or body is within the contours. */
+/* Stores the body and the elastic constants of the material around the tip. Returns REFUSED, with a message, if no
+ * particle is ahead of the tip, or if another material or body is within the contours. */
 static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -258,7 +266,8 @@ void sif_probe_free(struct sif_tracked *w)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates position, speed and direction of the tip; returns true if it has moved. */
+/* Updates position, speed and direction of the tip of SIF probe q. Returns true if it follows a crack tip that has
+ * grown, false for growing cracks, whose tip is known exactly, and for tips at rest. */
 static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
 {
     struct sif_tracked *w = q->sif;
@@ -286,13 +295,14 @@ static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
 
 /* ---- samples ----------------------------------------------------------------------------------------------------- */
 
-/* Allocates an array of n entries, once. */
+/* Allocates *array with n zeroed entries if it is NULL. */
 static void room(real **array, int64_t n)
 {
     if (!*array) *array = NEW("sif.motion", n, real);
 }
 
-/* Stores the displacement of all particles in the plane. */
+/* Copies the in-plane displacements of all particles to w->u and, if stresses of particles are used, their stresses to
+ * w->stress. */
 static void keep_displacement(struct sif_tracked *w, const struct particles *p)
 {
     for (int d = 0; d < 2; d++) {
@@ -317,9 +327,9 @@ void sif_probe_store_motion(struct probe *q, const struct observed_run *o)
     }
 }
 
-/* Computes velocity and acceleration of all particles at the time of the sample from the velocities before and after
- * it, which leap-frog provides. After the last sample there is no step, and the values of one step earlier are
- * used. */
+/* Computes velocity and acceleration of all particles at the time of the sample from the velocities half a step before
+ * and after it. t_velocity: time of the present velocities [s]. After the last sample no step follows, and the
+ * velocities of one step earlier are used. */
 static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)
@@ -329,8 +339,9 @@ static void find_inertia(struct sif_tracked *w, const struct particles *p, real 
         }
 }
 
-/* Computes the forces of loads divided by the masses [m/s^2] into w->body, with the inertia relief of static bodies.
- * Returns true if such forces act within the largest contour. */
+/* Computes the forces of loads on particles divided by their masses into w->body [m/s^2]. In static problems this
+ * includes the inertia relief, by which a free body is in equilibrium. Returns true if such forces act within the
+ * largest contour. */
 static bool find_body_force(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct particles *p = o->part;

@@ -6,10 +6,12 @@
 #include "output/output_files.h"
 #include "probes/probes_part.h"
 
-/* First columns of the header of such a file (probes_profiles.c). */
+/* Beginnings of the header line of a profile, of a LINE and of an EXACT probe (probes_profiles.c), by which such files
+ * are recognised. */
 static const char *const profile_begin[] = {"s [m],", "x [m],"};
 
-/* Writes a profile into a folder, but does not overwrite a file that is no profile. */
+/* Writes the profile `text` of this length to file `name` in folder `folder`, a string. A file of this name that is no
+ * profile is not overwritten. Returns FAILED or REFUSED, with a message, if the file is not written. */
 static status profiles_put(void *folder, const char *name, const char *text, size_t length)
 {
     const struct path path = path_join(folder, name);
@@ -41,7 +43,7 @@ void profiles_check(const struct probes *s, const struct output *out, struct war
     warnings_add_and_print(to, text);
 }
 
-/* Removes the profile at `path`; a file of this name that is no profile is left alone. Returns false if there is no
+/* Removes the profile at `path`; a file of this name that is no profile is left unchanged. Returns false if there is no
  * such file or it cannot be removed. */
 static bool profile_remove(const char *path)
 {

@@ -14,8 +14,8 @@ struct turning {
 /* least scale of angular momentum, over the most that motion of this kinetic energy and inertia can have */
 #define LEAST_TURN 0.01
 
-/* Adds a particle with its mass, position x and velocity v to the moments of its body: mass, first moments, momentum,
- * angular momentum about the origin, m x^2 and m v^2. */
+/* Adds a particle or node with its mass [kg], position x[DIM_MAX] and velocity v[DIM_MAX] to the moments of its body:
+ * mass, first moments, momentum, angular momentum about the origin, m x^2 and m v^2. */
 static void turning_add(struct turning *to, real mass, const real *x, const real *v)
 {
     to->mass += mass, to->inertia += mass * dot(x, x, DIM_MAX), to->twice_kinetic += mass * dot(v, v, DIM_MAX);
@@ -26,8 +26,8 @@ static void turning_add(struct turning *to, real mass, const real *x, const real
     }
 }
 
-/* Computes the angular momentum of a body relative to a point that moves with a velocity, from its moments: spin -
- * position x momentum - moment x velocity + mass position x velocity. */
+/* Computes the angular momentum of a body about `position` in a frame that moves with `velocity`, from its moments t:
+ * spin - position x momentum - moment x velocity + mass position x velocity. spin: result, [DIM_MAX] [kg m^2/s]. */
 static void turning_about(const struct turning *t, const real *position, const real *velocity, real *spin)
 {
     for (int d = 0; d < DIM_MAX; d++) {
