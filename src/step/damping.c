@@ -30,10 +30,12 @@ struct damped {
     const uint8_t *flag;
 };
 
-/* Returns true unless entry i is a point of the mesh, whose mass moves with the nodes. */
+/* Returns true if entry i is damped with its own mass: false for points of the mesh, whose mass moves with the
+ * nodes. */
 static bool moves_itself(const struct damped *a, int64_t i) { return !(a->flag && a->flag[i] & FLAG_MESHED); }
 
-/* Adds the energy that entries first .. end - 1 have lost since the previous step to sum[0] [J]. */
+/* Adds the energy that bulk damping has taken from entries first .. end - 1 since the previous step to sum[0] [J].
+ * context: a struct damped, with the previous velocities `before`. */
 static void loss_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
@@ -45,8 +47,8 @@ static void loss_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-/* Multiplies the velocities of entries first .. end - 1 by the factor. Adds the momentum that they lose to sum[0 ..
- * dim - 1] [N s], and their kinetic energy before to sum[DIM_MAX] [J]. */
+/* Multiplies the velocities of entries first .. end - 1 by a factor. Adds the momentum that they lose to sum[0 .. dim -
+ * 1] [N s], and their kinetic energy before that to sum[DIM_MAX] [J]. context: a struct damped. */
 static void slow_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
@@ -60,13 +62,13 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-/* Returns c dt of a step, at most EXPONENT_MOST [1]. */
+/* Returns c dt of bulk damping in a step (`decay`), limited to EXPONENT_MOST [1]. */
 static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_factor(real decay) { return exp(-0.5 * capped(decay)); }
 
-/* Fills all[0] with the particles and all[1] with the nodes of the mesh; returns 2, or 1 if the mesh has no points.
- * factor: of their velocities [1]. */
+/* Describes what is damped: the particles in all[0], the nodes of the mesh in all[1]. factor: factor on their
+ * velocities [1]. Returns the number of entries used: 2, or 1 if the mesh has no points. */
 static int damped_find(const struct particles *p, const struct mesh *mesh, real factor, struct damped all[2])
 {
     all[0] = (struct damped){.n = p->n, p->dim, factor, p->mass, p->v, .flag = p->flag};
@@ -74,8 +76,8 @@ static int damped_find(const struct particles *p, const struct mesh *mesh, real 
     return mesh->points > 0 ? 2 : 1;
 }
 
-/* Multiplies all velocities by the factor, and subtracts the lost momentum from the impulse of the loads. Returns
- * the kinetic energy before [J]. */
+/* Multiplies all velocities, also APIC velocity gradients and mirror images, by `factor` [1], and subtracts the lost
+ * momentum from the impulse of the loads. Returns the kinetic energy before that [J]. */
 static real slow_all(struct particles *p, const struct mesh *mesh, struct loads *l, real factor)
 {
     struct damped all[2];

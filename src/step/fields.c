@@ -21,7 +21,7 @@ struct gradient_sum {
     real K[3][3], M[3][3];
 };
 
-/* Adds neighbour j of particle i to the sums. */
+/* Adds the bond vector from particle i to neighbour j, and their relative displacement, to the sums K and M of s. */
 static void gradient_add(struct gradient_sum *s, const struct particles *p, int64_t i, int64_t j)
 {
     real xi[DIM_MAX], u[DIM_MAX];
@@ -33,7 +33,8 @@ static void gradient_add(struct gradient_sum *s, const struct particles *p, int6
         for (int b = 0; b < p->dim; b++) s->K[a][b] += xi[a] * xi[b], s->M[a][b] += u[a] * xi[b];
 }
 
-/* Stores the displacement gradient H of particle i; 0 if its neighbours do not span the space. */
+/* Computes the displacement gradient of particle i, H = M K^-1, from its sums s, and stores it in H[dim dim][i]. H is 0
+ * if the neighbours do not span the space. s->K is changed in unused directions. */
 static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const *H)
 {
     real mean = 0, C[3][3];
@@ -54,7 +55,7 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
         }
 }
 
-/* Computes the displacement gradient of a peridynamic particle from its intact bonds. */
+/* Computes the displacement gradient of peridynamic particle i from its intact bonds, in H[dim dim][i]. */
 static void gradient_of_bonds(const struct bonds *bonds, const struct particles *part, int64_t i, real *const *H)
 {
     struct gradient_sum sum = {{{0}}, {{0}}};
@@ -63,8 +64,9 @@ static void gradient_of_bonds(const struct bonds *bonds, const struct particles 
     gradient_fit(&sum, part->dim, i, H);
 }
 
-/* Computes the displacement gradient of a material point on the grid from near points of its body on its side of
- * pre-cracks. Peridynamic neighbours with broken bonds are left out: a crack may separate them. */
+/* Computes the displacement gradient of material point i on the grid, in H[dim dim][i], from the points `near` it that
+ * are of its body and not separated from it by pre-cracks or voids. Peridynamic neighbours with broken bonds are left
+ * out: a crack may separate them. */
 static void gradient_of_points(const struct particles *p, const struct bond_source *source,
                                const struct neighbour_list *near, int64_t i, real *const *H)
 {
@@ -80,13 +82,14 @@ static void gradient_of_points(const struct particles *p, const struct bond_sour
     gradient_fit(&sum, p->dim, i, H);
 }
 
-/* Returns true if particle i is a point of the mesh of the reference frame. */
+/* Returns true if particle i is a point of the mesh of the reference frame, with a cell. */
 static bool in_mesh(const struct reference_frame *frame, int64_t i)
 {
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
 
-/* Computes the displacement gradients of all particles into H [dim dim][n], which it allocates. */
+/* Allocates H [dim dim][n] and computes the displacement gradients of all particles there: from mesh nodes, bonds or
+ * near points. The caller frees the arrays. */
 static void gradients_make(const struct run *e, real **H)
 {
     const struct particles *p = &e->part;
@@ -109,8 +112,8 @@ static void gradients_make(const struct run *e, real **H)
 
 /* ---- plastic work and levels ------------------------------------------------------------------------------------- */
 
-/* Returns the plastic work per volume [n, J/m^3], NULL if nothing yields: of material points the work that their steps
- * have booked, of peridynamic particles the work of their bonds over their volume. The caller frees it. */
+/* Returns the plastic work per volume of every particle [n] [J/m^3]: of material points the stored work, of peridynamic
+ * particles the plastic work of their bonds over their volume. Returns NULL if nothing yields. The caller frees it. */
 static real *plastic_work_make(const struct particles *p, const struct bonds *b)
 {
     if (!p->plastic_strain && !b->plastic_path) return NULL;
@@ -126,8 +129,8 @@ static real *plastic_work_make(const struct particles *p, const struct bonds *b)
     return work;
 }
 
-/* Returns the equivalent plastic strain [n]: that of material points, and the mean plastic path of the bonds of
- * peridynamic particles. Returns NULL if no bond yields. The caller frees it. */
+/* Returns the equivalent plastic strain of every particle [n] [1]: that of material points, and the mean plastic path
+ * of the bonds of peridynamic particles. Returns NULL if no bond yields. The caller frees it. */
 static real *plastic_strain_make(const struct particles *p, const struct bonds *bonds)
 {
     if (!bonds->plastic_path) return NULL;
@@ -141,8 +144,8 @@ static real *plastic_strain_make(const struct particles *p, const struct bonds *
     return strain;
 }
 
-/* Returns the damage [n]: the volume share of broken bonds, and of those that soften the share of stiffness that they
- * have lost. Returns NULL if no bond softens. The caller frees it. */
+/* Returns the damage of every particle [n] [1]: the volume fraction of its broken bonds, plus for softening bonds the
+ * fraction of stiffness that they have lost. Returns NULL if no bond softens. The caller frees it. */
 static real *damage_make(const struct particles *p, const struct bonds *bonds)
 {
     if (!bonds->soft.curve) return NULL;
@@ -152,7 +155,8 @@ static real *damage_make(const struct particles *p, const struct bonds *bonds)
     return damage;
 }
 
-/* Returns the level of the cell of every particle [n]; 0 outside meshes. The caller frees it. */
+/* Returns the refinement level of the mesh cell of every particle [n], 0 for particles outside meshes. The caller frees
+ * it. */
 static uint8_t *cell_levels_make(const struct reference_frame *frame, const struct particles *part)
 {
     const struct mesh *mesh = &frame->mesh;
@@ -162,7 +166,8 @@ static uint8_t *cell_levels_make(const struct reference_frame *frame, const stru
     return level;
 }
 
-/* Returns the levels of points of coarse cells: the spacing doubles from level to level. The caller frees it. */
+/* Returns the refinement level of every point that shows a coarse cell in frames [number of these points]; the spacing
+ * doubles from level to level. The caller frees it. */
 static uint8_t *point_levels_make(const struct reference_frame *frame, const struct scene *scene)
 {
     uint8_t *level = NEW("report.level", frame->shown.part.n, uint8_t);

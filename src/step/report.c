@@ -27,15 +27,15 @@
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the step nearest to `step` after which all levels of coarse cells, whose time steps differ, are at the same
- * time. */
+/* Returns the step nearest to `step` after which all levels of coarse cells are at the same time: a multiple of
+ * clock->stride, because coarser levels have longer time steps. */
 static int64_t common_step(const struct run_clock *clock, int64_t step)
 {
     return (step + clock->stride / 2) / clock->stride * clock->stride;
 }
 
-/* Returns the step of event k of n events spread evenly over the run: k steps / n, rounded. The product k steps is
- * avoided: it can exceed 64 bits. */
+/* Returns the step of event k of n events spread evenly over the run: k steps/n, rounded. The product k steps is
+ * avoided, since it can exceed 64 bits. If n <= 0, the last step is returned. */
 static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
 {
     if (n <= 0) return clock->steps;
@@ -48,9 +48,9 @@ int64_t report_count_frames(const struct scene *s, const struct run_clock *clock
     return s->frames < most ? s->frames : most;
 }
 
-/* Returns the step after which frame k of the body is written: the step nearest to its time or, if the scene gives no
- * times, that of evenly spread frames. A step writes at most one frame: frames closer together than a step are moved
- * apart and keep their number. */
+/* Returns the step after which frame k of the body is written: the step nearest to its time in scene s or, if the scene
+ * gives no times, that of evenly spread frames. A step writes at most one frame: frames closer together than a step are
+ * moved to other steps, and their number does not change. */
 int64_t report_step_of_frame(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
@@ -70,8 +70,8 @@ bool report_sample_due(const struct scene *s, const struct run_clock *clock)
 
 /* ---- frames and checkpoints -------------------------------------------------------------------------------------- */
 
-/* Returns FAILED if stress, position or velocity of a particle is not finite. The stability check covers positions and
- * speeds in every step and the energy check samples; this check covers the stresses, which only frames show. */
+/* Returns FAILED, with a message, if stress, position or velocity of a particle is not finite. The stability check
+ * covers positions and speeds in every step and the energy check samples; this check adds the stresses. */
 static status frame_sound(const struct run_clock *clock, const struct particles *p)
 {
     int64_t first = p->n;
@@ -99,7 +99,7 @@ struct run_seconds report_seconds(const struct run_report *r, const struct timer
     return s;
 }
 
-/* Returns true if frame number `frames` of the body is due after `step` steps. */
+/* Returns true if frame number `frames` of the body, counted from 0, is due after `step` steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
     return frames <= report_count_frames(s, clock) && step >= report_step_of_frame(s, clock, frames);
@@ -128,15 +128,16 @@ unsigned report_frame_series_due(const struct output *out, const struct scene *s
     return due;
 }
 
-/* Returns the fields that are written to frames of series k (bits ASK_...): those of the series, else those of the
- * scene. */
+/* Returns the fields that frames of series k contain, as bits ASK_...: those given for the series, else those of the
+ * scene. Series 0 is the body, series 1, 2, .. are regions. */
 static unsigned asked_of(const struct scene *scene, int k)
 {
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* Writes a frame of each series that is due (bits of report_frame_series_due). Frames at t = 0 have no contact forces.
- */
+/* Writes a frame of each series in `due`, and for the body also rigid bodies and profiles. due: bits of
+ * report_frame_series_due. Frames at t = 0 have no contact forces. Returns FAILED, with a message, if a value is not
+ * finite or a file cannot be written. */
 static status write_frames(struct run *e, unsigned due)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_can_crack(e->scene);
@@ -168,7 +169,8 @@ static status write_frames(struct run *e, unsigned due)
     return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
 }
 
-/* Writes a checkpoint and stores the time that it took, without that of waiting for a frame. */
+/* Writes a checkpoint of the run and stores the time that this took, without the time of waiting for a frame. Returns
+ * FAILED, with a message, if the file cannot be written. */
 static status write_checkpoint(struct run *e)
 {
     struct run_report *r = e->report;
@@ -183,8 +185,8 @@ static status write_checkpoint(struct run *e)
     return OK;
 }
 
-/* Returns true if a checkpoint is due after a step or load step: by the interval of the scene (0: each time; load
- * steps: each time), or else as rarely as CHECKPOINT_SECONDS and CHECKPOINT_SHARE require. */
+/* Returns true if a checkpoint is due after a step or load step. If the scene gives an interval, it is due when this
+ * has passed, in load steps always; otherwise as rarely as CHECKPOINT_SECONDS and CHECKPOINT_SHARE require. */
 static bool checkpoint_due(const struct run_report *r, const struct scene *s)
 {
     const bool in_steps = scene_has_load_steps(s);
@@ -194,14 +196,15 @@ static bool checkpoint_due(const struct run_report *r, const struct scene *s)
     return cheap && (in_steps || since > CHECKPOINT_SECONDS);
 }
 
-/* Returns true if the wall time left is less than twice the time of the longest checkpoint. */
+/* Returns true if the wall time that the scene allows is over: the rest is less than twice the time of the longest
+ * checkpoint. */
 static bool wall_is_over(const struct scene *s, const struct run_report *report)
 {
     return wall_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;
 }
 
-/* Warns of frames and profiles that a resumed run should have but are missing. Returns FAILED if the frames cannot be
- * read. */
+/* Adds warnings for frames and profiles that a resumed run should have, but whose files are missing. Returns FAILED,
+ * with a message, if the list of frames cannot be read. */
 static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
     char text[2 * PATH_NAME_ROOM + 300];
@@ -235,7 +238,7 @@ status report_start(struct run *e)
 
 /* ---- progress ---------------------------------------------------------------------------------------------------- */
 
-/* Prints a duration [s] to text in s, min or h. */
+/* Writes a duration to text[size], in s, min or h depending on its size. seconds: the duration [s]. */
 static void duration_text(char *text, size_t size, double seconds)
 {
     if (seconds < 100)
@@ -246,7 +249,8 @@ static void duration_text(char *text, size_t size, double seconds)
         snprintf(text, size, "%.1f h", seconds / 3600);
 }
 
-/* Prints the progress line if it is due. last: after the last step. */
+/* Prints the progress line on stderr if PROGRESS_SECONDS (in a file PROGRESS_SECONDS_FILE) have passed since the
+ * previous one. last: after the last step, where it is always printed on a terminal. */
 static void progress(struct run *e, bool last)
 {
     bool terminal = isatty(STDERR_FILENO);
@@ -274,8 +278,8 @@ static void progress(struct run *e, bool last)
 
 /* ---- after a step ------------------------------------------------------------------------------------------------ */
 
-/* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]: peridynamic
- * particles by the bonds b, material points by the mesh. */
+/* Returns the fraction of all particles that are still at rest, which time steps skip (data/active_set.h) [1]:
+ * peridynamic particles by row blocks of the bonds b, material points by the mesh. */
 real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, const struct particles *p)
 {
     real at_rest = active_set_inactive_fraction(&b->active) * (real)p->n_of[KIND_PD];

@@ -45,8 +45,8 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           [20] = {"mpm_share", ""},
                                                           {"inactive_share", ""}};
 
-/* Returns the mean share of the body that was at rest, over the steps since the last call [1]; 0 if there was no step.
- * Starts the next mean. */
+/* Returns the mean fraction of the body at rest over the steps since the last call [1], 0 without steps; starts a new
+ * mean. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
 {
     const int64_t steps = clock->step - report->sampled.step;
@@ -55,15 +55,16 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
     return share;
 }
 
-/* Returns true if angular momentum must be conserved: no boundary, rigid body or damping acts on the bodies. False
- * also with coarse cells, whose nodes diagnostics_angular_momentum does not read. */
+/* Returns true if angular momentum must be conserved: nothing acts on the bodies, i.e. no boundary, rigid body or
+ * damping. Returns false also with coarse cells, whose nodes diagnostics_angular_momentum does not read. */
 static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
     return s->dim > 1 && scene_is_dynamic(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
            frame->levels.n == 0;
 }
 
-/* Writes the columns of the angular momentum of free bodies if column is not NULL. Returns their number. */
+/* Describes the history columns of angular momentum in column[], if that is not NULL. Returns their number, 0 if bodies
+ * are not free. */
 static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
@@ -73,7 +74,7 @@ static int spin_columns(const struct scene *s, const struct reference_frame *fra
     return n;
 }
 
-/* Fills the record, one line of history.csv, with the sample that is complete. */
+/* Fills e->report->record, one line of history.csv, from the completed sample. */
 static void fill_record(struct run *e)
 {
     const struct energy_balance *l = &e->diagnostics->now;
@@ -111,8 +112,8 @@ static void fill_record(struct run *e)
     for (int c = 0; c < spin_columns(e->scene, e->frame, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
 }
 
-/* Writes the columns of probes, of the parts of a run and of the angular momentum if column is not NULL. Returns
- * their number. */
+/* Describes the history columns of probes, of the parts of a run and of angular momentum in column[], if that is not
+ * NULL. Returns their number. */
 static int own_columns(const struct run *e, struct column *column)
 {
     const struct probes *probes = &e->probing->probes;
@@ -144,7 +145,7 @@ status sample_open_history(struct run *e, bool resume)
 
 /* ---- samples ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a probe reads stresses of peridynamic particles, which are computed on demand. */
+/* Returns true if a probe of scene s reads stresses of peridynamic particles, which are computed only on demand. */
 static bool wants_stress(const struct scene *s)
 {
     for (int k = 0; k < s->probes; k++) {
@@ -161,8 +162,8 @@ void run_update_particles(struct run *e)
     compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
 }
 
-/* Returns true if a probe reads the motion of particles, so that points of a mesh are synchronised. Damage and bonds
- * are always current. */
+/* Returns true if a probe of scene s reads positions or velocities of particles, so that points of a mesh must be
+ * updated. */
 static bool wants_motion(const struct scene *s)
 {
     bool motion = false;
@@ -173,13 +174,14 @@ static bool wants_motion(const struct scene *s)
     return motion;
 }
 
-/* Returns the kinetic energy of particles and of nodes of meshes [J]. */
+/* Returns the present kinetic energy of particles and of nodes of meshes [J]. */
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
 {
     return particles_kinetic_energy(p) + frame_kinetic_energy(reference);
 }
 
-/* Lists the grids of the reference frame and of its coarse cells, whose nodes carry momentum; returns their number. */
+/* Stores the grids of the reference frame and of its coarse cells, whose nodes carry momentum, in nodes[]; returns
+ * their number. */
 static int meshes(const struct reference_frame *frame, const struct grid *nodes[LEVELS_MAX + 1])
 {
     const struct mesh_levels *levels = &frame->levels;
@@ -188,7 +190,7 @@ static int meshes(const struct reference_frame *frame, const struct grid *nodes[
     return 1 + levels->n;
 }
 
-/* Computes the present momentum of all bodies [dim, kg m/s]. */
+/* Computes the present momentum of all bodies, momentum[dim] [kg m/s]. */
 static void momentum_now(const struct particles *p, const struct reference_frame *frame, real *momentum)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
@@ -196,15 +198,16 @@ static void momentum_now(const struct particles *p, const struct reference_frame
     particles_linear_momentum(p, nodes, grids, momentum);
 }
 
-/* Replaces the momentum after the step by that at the time t [s] of a sample, by linear interpolation between the
- * velocities before and after t [dim, kg m/s]. */
+/* Replaces momentum[dim], that after the step, by that at time t [s] of a sample: s->momentum before t and the one
+ * after t are interpolated linearly. now: time of the present velocities, and a factor on the result [kg m/s]. */
 static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
     const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
     for (int d = 0; d < dim; d++) momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * momentum[d]);
 }
 
-/* Samples stress, momentum, tips and probes: all quantities except energies. */
+/* Samples stress, momentum, crack tips and probes at the present positions: all quantities of a sample except
+ * energies. */
 static void sample_state(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
@@ -227,7 +230,8 @@ real sample_strain_energy(struct run *e)
            frame_strain_energy(e->frame, &e->part);
 }
 
-/* Computes the energies of a sample at the present positions, except the kinetic energy [J]. */
+/* Computes the energies of a sample at the present positions, except the kinetic energy, in e->report->sampling.energy
+ * [J]. */
 static void sample_energies(struct run *e)
 {
     const struct material *m = e->scene->material;
@@ -243,8 +247,8 @@ static void sample_energies(struct run *e)
     };
 }
 
-/* Completes a sample and writes its line of history.csv. now: time of the present velocities; kinetic, work: of the
- * sample [J]. */
+/* Completes a sample with velocities and writes its line of history.csv. now: time of the present velocities; kinetic:
+ * kinetic energy, work: external work at the time of the sample [J]. */
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
@@ -264,8 +268,8 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
         e->report->history_status = output_write_history(e->report->out, e->report->record);
 }
 
-/* Stores the velocities at the start of a step if points are on the grid: grid forces reach points only as changes
- * of velocity. */
+/* Stores the velocities at the start of a step in sampling->before if points are on the grid: grid forces reach points
+ * only as changes of velocity. kind: coupling method. */
 static void keep_velocities(struct sampling *sampling, const struct particles *p, enum coupling kind)
 {
     if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;
@@ -275,8 +279,8 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns the mean of the kinetic energies before and after the kick of a step minus 1/2 m v_before . v_after [J]. The
- * part of absorbing faces, whose dashpots act during the kick, is subtracted. */
+/* Returns the mean of the kinetic energies before and after the kick of a step minus m v_before . v_after/2 [J],
+ * without the part of absorbing dashpots, which act during the kick. */
 static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
@@ -317,7 +321,8 @@ void sample_compute_energies(struct run *e)
     e->report->sampling.rigid_work = rigids_energy(e->rigid, e->clock.dt).work;
 }
 
-/* Returns true if a boundary drives particles at a speed, so that velocities jump in the first step. */
+/* Returns true if a boundary of scene s prescribes a velocity other than 0, so that velocities jump in the first
+ * step. */
 static bool velocity_jumps(const struct scene *s)
 {
     bool drives = false;
@@ -327,8 +332,8 @@ static bool velocity_jumps(const struct scene *s)
     return drives;
 }
 
-/* Returns true if the first step changes velocities by forces alone. Not so with APIC, with material points beside
- * driven ones, and with bodies in contact on the grid. */
+/* Returns true if the first step changes velocities by forces alone. False with APIC, and for material points beside
+ * driven particles or with bodies in contact on the grid. */
 static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
@@ -365,8 +370,7 @@ void sample_take_in_equilibrium(struct run *e)
                  e->loads.work + e->loads.constraint_work + rigids_energy(e->rigid, e->clock.dt).work);
 }
 
-/* Returns the sum of v . f over particles that bonds move and over nodes of the reference frame [W]. Serial, since
- * it is called once a run. */
+/* Returns the power v . f of the forces on particles that bonds move and on nodes of the reference frame [W]. */
 static real power_now(const struct particles *p, const struct reference_frame *reference)
 {
     const struct grid *g = &reference->mesh.grid;
@@ -380,7 +384,7 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power(&reference->levels);
 }
 
-/* Returns the part of power_now on nodes that loads hold or drive [W]: work of the loads, not a change of velocity. */
+/* Returns the part of power_now on nodes whose motion loads prescribe [W], which is work of the loads. */
 static real power_of_walls(const struct reference_frame *reference)
 {
     const struct mesh_levels *levels = &reference->levels;
@@ -396,15 +400,15 @@ static real power_of_walls(const struct reference_frame *reference)
     return power;
 }
 
-/* Adds the forces on held nodes to the reactions of their loads. */
+/* Adds the forces on nodes with prescribed motion to the reactions of their loads: reaction -= force [N]. */
 static void reactions_add(struct loads *l, const struct grid *g)
 {
     for (int64_t k = 0; k < g->walls; k++)
         l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
 }
 
-/* Adds the forces on nodes after the last step to the reactions of the loads, which have the forces on particles
- * already. grid: NULL if no particle is on the grid. */
+/* Adds the forces on nodes after the last step to the reactions of the loads; those on particles are in them already.
+ * grid: NULL if no particle is on the grid. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
@@ -415,9 +419,9 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
-/* Returns the power v . f of the forces after the last step, which no motion follows [W]. No bond breaks, and the
+/* Returns the power v . f of the forces after the last step [W], which no motion follows. No bond breaks, and the
  * accounts of the loads, except reactions, are restored. *held: receives the work that walls of grids and meshes would
- * do in that step [J]; it is no part of the power, while the work of driven particles is. */
+ * do in that step [J]. The power contains the work on driven particles, but not that of walls. */
 static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
@@ -444,8 +448,8 @@ static real power_last(struct run *e, real *held)
     return power - walls;
 }
 
-/* Takes the sample after the last step and writes its line. As in all samples, the kinetic energy is 1/2 m v- . v+; v+
- * is the velocity after a kick by the forces at the end, which no motion follows. */
+/* Takes the sample after the last step and writes its line. As in all samples, the kinetic energy is m v- . v+/2. v+ is
+ * the velocity after a kick by the forces at the end, which no motion follows. */
 void sample_take_final(struct run *e)
 {
     real held = 0;
@@ -472,8 +476,8 @@ void sample_update_probes(struct run *e)
     probes_update_every_step(&e->probing->probes, &o);
 }
 
-/* Warns that the first bonds of driven particles break, and names the first boundary that drives such particles.
- * when: the time, as "at 1 s" or "in load step 1". */
+/* Warns that the first bonds of particles with prescribed motion break, and names the first boundary that drives such
+ * particles. when: the time, as "at 1 s" or "in load step 1". */
 static void say_torn(struct warnings *to, const struct loads *loads, const struct particles *p, const char *when)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;

@@ -19,7 +19,8 @@
 #define DAMPED_DOUBTFUL                                                                                                \
     0.1 /* share of energy taken by interface damping that is reported: 3 times the largest in inputs/ */
 
-/* Warns that breaking bonds released more energy than they had stored. */
+/* Warns that breaking bonds released more energy than they had stored, if the excess is above ENERGY_DOUBTFUL of the
+ * largest energy. */
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
@@ -34,8 +35,8 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
 
 #define SPIN_DOUBTFUL 0.01 /* relative error of angular momentum that is reported */
 
-/* Warns that the bodies gained or lost angular momentum although no load acts on them. apic: points on the grid use
- * APIC. */
+/* Warns that the bodies gained or lost angular momentum although no load acts on them, if the relative error exceeds
+ * SPIN_DOUBTFUL. apic: points on the grid use APIC. */
 static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to)
 {
     const real error = w->now.spin_error;
@@ -49,13 +50,14 @@ static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to
     warnings_add_and_print(to, text);
 }
 
-/* Returns true if interface damping acts and nothing else in a moving scene damps. */
+/* Returns true if interface damping is the only damping in a dynamic scene, and points are in its zone. */
 static bool zone_damps(const struct scene *s, const struct coupling_state *coupling)
 {
     return coupling->damping_share > 0 && coupling->zone.points > 0 && !(s->damping > 0) && scene_is_dynamic(s);
 }
 
-/* Warns that interface damping dissipated more than high-frequency noise. share: of the largest energy [1]. */
+/* Warns that interface damping dissipated much energy, if share > DAMPED_DOUBTFUL. share: dissipated energy over the
+ * largest energy of the run [1]. */
 static void say_damped(real share, struct warnings *to)
 {
     char text[320];
@@ -68,8 +70,8 @@ static void say_damped(real share, struct warnings *to)
     warnings_add_and_print(to, text);
 }
 
-/* Writes to text a warning that the first bonds broke in a collision at a speed at which the numerical fronts
- * oscillate. Returns false, without text, if no such collision was expected or no bond broke. */
+/* Writes to text[capacity] a warning that the first bonds broke in a collision so fast that the numerical fronts
+ * oscillate. Returns false, without text, if no such collision was expected, no bond broke, or the scene accepts it. */
 static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t capacity)
 {
     const struct shock shock = fastest_collision_expected(s);
@@ -106,8 +108,8 @@ void warn_of_fast_tips(const struct crack_tips *t, const struct scene *s, struct
     warnings_add_and_print(to, text);
 }
 
-/* Warns of an error of the energy balance [1] of material points that flow on the grid, with what makes it smaller. dt:
- * time step [s]. */
+/* Warns of the energy balance error of material points that yield on the grid, and how to reduce it, if |error| is from
+ * FLOW_DOUBTFUL to ENERGY_DOUBTFUL. error: relative error [1]; dt: time step [s]. */
 static void say_flow_error(const struct particles *p, const struct scene *s, real dt, real error, struct warnings *to)
 {
     char text[360];

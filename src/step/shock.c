@@ -5,8 +5,8 @@
 
 #define SHOCK 0.1 /* least reported collision speed, over the speed at which a front breaks or yields a body */
 
-/* Returns the smallest particle speed of a front that breaks or yields a material: its strain limit times its wave
- * speed [m/s]; INFINITY without limits. */
+/* Returns the smallest particle speed behind a front that breaks or yields a material of the scene: strain limit times
+ * wave speed [m/s]; INFINITY without limits. */
 static real speed_limit(const struct scene *s)
 {
     real least = INFINITY;
@@ -19,8 +19,8 @@ static real speed_limit(const struct scene *s)
     return least;
 }
 
-/* Writes the initial velocity of body b at X [dim, m/s]: `bodies.velocity`, or the last entry of `initial` that sets
- * it there. */
+/* Computes the initial velocity of body b at position X[dim] [m], velocity[dim] [m/s]: `bodies.velocity`, or the last
+ * entry of `initial` that sets it there. */
 static void start_speed(const struct scene *s, int b, const real *X, real *velocity)
 {
     for (int d = 0; d < s->dim; d++) velocity[d] = s->body[b].velocity[d];
@@ -36,8 +36,8 @@ static void start_speed(const struct scene *s, int b, const real *X, real *veloc
     }
 }
 
-/* Returns the speed at which bodies a and b approach along the axis on which their bounding boxes are apart [m/s]; 0
- * if they do not meet within the duration, or if the box of one is unknown. */
+/* Returns the speed at which bodies a and b approach along the axis with the largest gap between their bounding boxes
+ * [m/s]. Returns 0 if they do not meet within the duration, or if the box of one is unknown. */
 static real closing_speed(const struct scene *s, int a, int b)
 {
     const int body[2] = {a, b};
@@ -58,7 +58,8 @@ static real closing_speed(const struct scene *s, int a, int b)
     return speed > 0 && gap <= speed * s->duration ? speed : 0;
 }
 
-/* Returns what a scene can do against oscillations behind a front: bulk viscosity where its keys allow that. */
+/* Returns advice, as text, for a scene whose stress oscillates behind a front: bulk viscosity, or what the scene must
+ * change so that viscosity is possible. */
 static const char *remedy_of(const struct scene *s)
 {
     if (s->space == SPACE_PLANE_STRESS)

@@ -32,7 +32,8 @@ enum { MOMENTS = 256 };        /* samples of a function of time */
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the largest speed of particles, or the largest velocity component of a node of the reference frame [m/s]. */
+/* Returns the largest speed of peridynamic particles, of points on the grid, and of nodes of the reference frame (there
+ * by component) at present [m/s]. */
 static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
     const real moving = real_max(diagnostics_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
@@ -49,7 +50,7 @@ void stability_store_start_speed(struct stability *s, const struct particles *p)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Computes largest value and mean of the absolute value of a time function between `from` and `to` [s], from MOMENTS
+/* Computes the largest value *most and the mean *mean of |f| between times `from` and `to` [s], from MOMENTS
  * samples. */
 static void factors(const struct time_function *f, real from, real to, real *most, real *mean)
 {
@@ -61,8 +62,8 @@ static void factors(const struct time_function *f, real from, real to, real *mos
     }
 }
 
-/* Returns the speed to which a load alone accelerates the fastest of its particles in the last `steps` steps [m/s];
- * for a driving boundary, its largest prescribed speed. */
+/* Returns the speed to which a load alone accelerates the fastest of its particles in the last `steps` steps [m/s]. For
+ * a prescribed motion it is its largest speed, for mirrors and absorbing faces 0. */
 static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
 {
     const struct boundary *b = load->boundary;
@@ -81,15 +82,16 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     return mean * (clock->t - from) * sqrt(fast2);
 }
 
-/* Returns true if the energy at the start plus the work of the loads (`given` [J]) is at least LOAD_SHARE_LEAST times
- * the kinetic energy, so that no instability is needed to explain the motion. */
+/* Returns true if the loads explain the motion, i.e. no instability is needed: given >= LOAD_SHARE_LEAST times the
+ * kinetic energy. given: energy at the start plus work of the loads [J]. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
     const real kinetic = particles_kinetic_energy(p) + frame_kinetic_energy(frame);
     return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
 
-/* Returns the largest component of the displacement gradients of the initial states [1]. */
+/* Returns the largest absolute component of the displacement gradients that the initial states of scene s prescribe
+ * [1]. */
 static real start_strain(const struct scene *s)
 {
     real most = 0;
@@ -99,8 +101,8 @@ static real start_strain(const struct scene *s)
     return most;
 }
 
-/* Writes to text which load or initial state explains the motion. steps: number of steps in which the square of the
- * speed last grew tenfold. Returns false, without text, if none explains it. */
+/* Writes to text[capacity] which load or initial state explains the motion of a diverged run. steps: number of steps in
+ * which the squared speed last grew tenfold; INFINITY: unknown. Returns false, without text, if none explains it. */
 static bool load_explanation(const struct run *e, real steps, char *text, size_t capacity)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};
@@ -152,7 +154,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
 
 /* ---- remedy ------------------------------------------------------------------------------------------------------ */
 
-/* Advises a smaller time step; returns the length of the text. */
+/* Writes to text[capacity] the advice to choose a smaller time step; returns the length of this text. */
 static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t capacity)
 {
     return snprintf(text, capacity, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
@@ -160,7 +162,7 @@ static int say_step(const struct scene *s, const struct run_clock *clock, char *
                     clock->dt_critical);
 }
 
-/* Returns true if a mirror of the scene also prevents tangential motion on its plane. */
+/* Returns true if a mirror of scene s also prevents tangential motion on its plane. */
 static bool holds_images(const struct scene *s)
 {
     for (int b = 0; b < s->boundaries; b++)
@@ -168,7 +170,8 @@ static bool holds_images(const struct scene *s)
     return false;
 }
 
-/* Lists alternatives for a scene that gains energy: another choice for each option that the scene can do without. */
+/* Writes to text[capacity] the alternatives for a scene that gains energy: another choice for each option that the
+ * scene can do without, such as `method: pd`. */
 static void say_others(const struct scene *s, const struct reference_frame *reference, enum coupling coupling,
                        char *text, size_t capacity)
 {
@@ -195,7 +198,7 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
 
 #define SQUEEZED 0.4 /* ratio of a bond's length to its reference length below which the bond laws are not valid */
 
-/* Returns the smallest ratio of an intact bond's length to its reference length, at most 1. */
+/* Returns the smallest ratio of present to reference length of an intact bond, at most 1 [1]. */
 static real shortest_bond(const struct bonds *b, const struct particles *p)
 {
     real least2 = 1;
@@ -208,7 +211,8 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
     return sqrt(least2);
 }
 
-/* Writes to text how far bonds are compressed; returns false if not so far that it explains the divergence. */
+/* Writes to text[capacity] how far bonds are compressed, with a remedy. Returns false, without text, if no bond is
+ * shorter than SQUEEZED times its reference length. */
 static bool squeeze_explanation(const struct bonds *b, const struct particles *p, const struct run_clock *clock,
                                 char *text, size_t capacity)
 {
@@ -265,8 +269,9 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
 
 /* ---- divergence and inversion ------------------------------------------------------------------------------------ */
 
-/* Checks whether a particle moves faster than the fastest wave, or has a position or velocity that is not finite.
- * peridynamic: check the peridynamic particles too; meshed: check the material points of a mesh too. */
+/* Returns FAILED, with a message and a remedy, if a particle is faster than the fastest wave, or has a position or
+ * velocity that is not finite. peridynamic: check the peridynamic particles too; meshed: check the material points of a
+ * mesh too. */
 status divergence_check(const struct run *e, bool peridynamic, bool meshed)
 {
     char remedy[REMEDY_LENGTH];
@@ -279,8 +284,8 @@ status divergence_check(const struct run *e, bool peridynamic, bool meshed)
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
-/* Returns FAILED if a cell of the mesh is inverted. It resists deformation like an intact one, so that neither energy
- * nor speed shows it. */
+/* Returns FAILED, with a message, if a cell of the mesh is inverted; tested every INVERSION_STEPS steps and at the end.
+ * An inverted cell resists deformation like an intact one, so that neither energy nor speed reveals it. */
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
                               const struct reference_frame *reference)
 {
@@ -299,9 +304,9 @@ static status inversion_check(const struct run_clock *clock, const struct partic
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
-/* Returns FAILED if a formula of a load had a value that is not finite in the last step. A step evaluates formulas at
- * its ends and middle and at those of its neighbours; a value that is not finite makes the impulse not finite. After
- * the last step all formulas are evaluated once. */
+/* Returns FAILED, with a message, if a formula of a load had a value that is not finite in the last step: the impulse
+ * of the loads is then not finite, and the formulas are evaluated at the times of the last steps. After the last step
+ * of the run all formulas are evaluated once. */
 static status formula_check(const struct loads *l, const struct particles *p, const struct run_clock *clock)
 {
     const real *impulse = l->impulse;
@@ -327,7 +332,7 @@ status stability_check(struct run *e)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the fastest particle. */
+/* Returns the index of the particle with the largest speed. */
 static int64_t fastest_particle(const struct particles *p)
 {
     int64_t fastest = 0;
@@ -345,13 +350,14 @@ bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed
     return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
 }
 
-/* Returns the energy that breaking bonds released beyond what they had stored [J], i.e. a negative fracture energy.
- * State-based models can do so: when a bond breaks, the dilatation of the particle changes, and its other bonds may
- * store more. */
+/* Returns the energy that breaking bonds released beyond what they had stored [J], i.e. max(0, -fracture energy). It
+ * can be positive in state-based models: a broken bond changes the dilatation of its particles, and their other bonds
+ * may store more. */
 real energy_released_in_excess(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
 
-/* Returns true if the body has more energy than a stable run can gain. The first steps are left out, in which half a
- * step of a load is a large share of all energy, unless the step is above the critical one. */
+/* Returns true if the body has gained more energy than a stable run can: balance error > ENERGY_FROM_NOWHERE, or energy
+ * released in excess > RELEASED_FROM_NOWHERE. The balance of the first ENERGY_STEPS steps is left out, since half a
+ * step of a load is then a large share, unless the time step is above the critical one. */
 static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
@@ -359,14 +365,15 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *w)
            energy_released_in_excess(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
 }
 
-/* Returns true if the time step is above the critical one and velocities change sign in every step. */
+/* Returns true if the time step is above the critical one and velocities change sign in every step: kinetic energy <
+ * KINETIC_LEAST times strain energy. */
 static bool swings(const struct run_clock *clock, const struct energy *energy)
 {
     return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
 }
 
-/* Returns FAILED with a message that names step, time and the fastest particle. what: completes the words "a body ...";
- * remedy: advice at the end. */
+/* Returns FAILED with a message that contains step, time and the fastest particle. what: completes the words "a body
+ * ..."; remedy: advice, at the end of the message. */
 static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {
     const int64_t i = fastest_particle(p);
@@ -379,8 +386,8 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
  * strains above 0.09 with every shape function and transfer (tests/scenes/test_frame.sh). */
 #define STRETCH_MOST 0.08
 
-/* Warns that the point at x [m] on the grid has a strain beyond STRETCH_MOST at time t [s], with a remedy that the
- * scene allows. */
+/* Warns that a point on the grid has a strain beyond STRETCH_MOST, with a remedy that scene s allows. strain: of the
+ * point [1]; t: time [s]; x: first coordinate of the point [m]. */
 static void warn_of_stretched(const struct scene *s, real strain, real t, real x, struct warnings *to)
 {
     char text[560], remedy[200] = "use mpm.frame: reference";
@@ -395,8 +402,8 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, real x
     warnings_add_and_print(to, text);
 }
 
-/* Warns of the first point on the grid with a strain above STRETCH_MOST, unless the scene accepts it; returns true if
- * there is one. t: present time [s]. */
+/* Warns of the first elastic point on the grid with a strain above STRETCH_MOST, unless scene s accepts it. t: present
+ * time [s]. Returns true if there is one. */
 static bool say_stretched(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
     const int n = symmetric_component_count(p->dim);
@@ -419,8 +426,8 @@ static bool say_stretched(const struct particles *p, const struct scene *s, real
  * the rotated cell, which is short of the logarithm of the stretch by half its square. */
 #define FLOW_MOST 0.05
 
-/* Warns of the first point of a mesh with a plastic strain above FLOW_MOST; returns true if there is one. t: present
- * time [s]. */
+/* Warns of the first point of a mesh with a plastic strain above FLOW_MOST. t: present time [s]. Returns true if there
+ * is one. */
 static bool say_flowed(const struct particles *p, real t, struct warnings *to)
 {
     char text[300];
@@ -441,8 +448,8 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
  * the back stress of Prager's law by Jaumann's rate, (C/3) sin g, is 12 % below C g/3 (Nagtegaal & de Jong 1981). */
 #define TURNED_MOST 0.5
 
-/* Warns of the first point on the grid whose back stress may oscillate; returns true if there is one. t: present time
- * [s]. */
+/* Warns of the first point on the grid whose back stress may oscillate: one with kinematic hardening and a plastic
+ * strain above TURNED_MOST. t: present time [s]. Returns true if there is one. */
 static bool say_turned(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
     char text[360];
@@ -460,9 +467,9 @@ static bool say_turned(const struct particles *p, const struct scene *s, real t,
     return false;
 }
 
-/* Returns FAILED if the energy shows that the run is unstable, although no particle is faster than waves: a body that
- * breaks all its bonds, or one whose velocities change sign in every step. Bodies whose energy is round-off are not
- * tested. */
+/* Returns FAILED, with a message and a remedy, if the energy shows that the run is unstable although no particle is
+ * faster than waves: a body that gains energy, e.g. by breaking all its bonds, or whose velocities change sign in every
+ * step. Tested at samples and at the end. Bodies whose energy is round-off are not tested. */
 status energy_check(struct run *e)
 {
     if (e->stability->lost)

@@ -26,8 +26,8 @@ struct step {
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
 };
 
-/* Returns the quantities that the phases of the next step share: times, damping factors, length of the kick of
- * velocities. */
+/* Returns the quantities that the phases of the next step share: middle of the step, damping factors, length of the
+ * velocity update. Also stores that length in the grid method. */
 static struct step step_begin(struct run *e)
 {
     const real dt = e->clock.dt, decay = e->scene->damping * dt, share = damping_factor(decay);
@@ -36,7 +36,8 @@ static struct step step_begin(struct run *e)
     return (struct step){.middle = e->clock.t + 0.5 * dt, decay, share, dt_velocity};
 }
 
-/* Records broken bonds and converts material points near them to peridynamic particles. */
+/* Records the bonds broken in this step and converts material points near them to peridynamic particles.
+ * now->converted: receives their number. */
 static void conversion(struct run *e, struct step *now)
 {
     const bool marked = conversion_prepare(e);
@@ -45,7 +46,8 @@ static void conversion(struct run *e, struct step *now)
     timer_add_elapsed(&e->timers, TIMER_CONVERT);
 }
 
-/* Updates the pairs that may be in contact, and sets how peridynamic particles move in this step. */
+/* Updates the pairs of particles that may be in contact, and sets in now->motion how peridynamic particles move in this
+ * step. */
 static void motion_begin(struct run *e, struct step *now)
 {
     contact_update_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
@@ -56,7 +58,8 @@ static void motion_begin(struct run *e, struct step *now)
     timer_add_elapsed(&e->timers, TIMER_CONVERT);
 }
 
-/* Sorts the points on the grid into cells. FAILED if points have left the grid and diverged. */
+/* Sorts the points on the grid into cells. Returns FAILED, with a message, if points have left the grid and
+ * diverged. */
 static status sort(struct run *e)
 {
     bool lost;
@@ -64,7 +67,8 @@ static status sort(struct run *e)
     return lost ? divergence_check(e, true, false) : OK;
 }
 
-/* Applies the first half of interface damping, before the forces. */
+/* Applies the first half of interface damping to the velocities, before the forces, and books the energy it takes. Sets
+ * now->damps if interface damping acts. */
 static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
@@ -73,8 +77,8 @@ static void zone_damp(struct run *e, struct step *now)
     loads_update_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
 }
 
-/* Stores the velocities before bulk damping. In the first step it also damps them by half a step; samples of t = 0
- * show the undamped velocities. */
+/* Stores the velocities before bulk damping, from which its loss is computed. In the first step velocities are also
+ * damped by half a step; samples of t = 0 use the undamped ones. */
 static void damping_begin(struct run *e, const struct step *now)
 {
     real *const *before = e->report->sampling.before;
@@ -87,16 +91,17 @@ static void damping_begin(struct run *e, const struct step *now)
     damping_store_velocities(e->damping, &e->part, &e->frame->mesh);
 }
 
-/* Returns true if nothing reads positions between forces and motion, as samples, growing cracks and viscosity do.
- * Then one sweep computes forces and moves each particle once the sweep no longer reads its position
- * (kernels/pd/sweep.h), with bit-identical results. It saves 38 % of a step with 1.7 million particles, which exceed
- * the cache. */
+/* Returns true if the sweep over bonds may also move the particles, because nothing reads positions between forces and
+ * motion; samples, growing cracks and viscosity would. The sweep moves each particle when it no longer reads its
+ * position (kernels/pd/sweep.h), with bit-identical results. This saves 38 % of a step with 1.7 million particles,
+ * which exceed the cache. */
 static bool sweep_moves(const struct scene *s, const struct run_report *report)
 {
     return !report->sampling.due && s->growths == 0 && !scene_viscous(s);
 }
 
-/* Computes the forces of bonds and breaks the bonds beyond their limit; may move particles in the same sweep. */
+/* Computes the forces of bonds and breaks the bonds beyond their limit; now->broken receives their number. If
+ * sweep_moves allows it, particles without loads are moved in the same sweep. */
 static void push_bonds(struct run *e, struct step *now)
 {
     loads_clear_forces(&e->loads, &e->part);
@@ -105,7 +110,7 @@ static void push_bonds(struct run *e, struct step *now)
                               sweep_moves(e->scene, e->report) ? &now->motion : NULL);
 }
 
-/* Computes the contact forces; records them if a frame follows the step. */
+/* Computes the contact forces on particles, and records them for output if a frame follows this step. */
 static void push_contact(struct run *e)
 {
     e->contact->recorded =
@@ -114,7 +119,8 @@ static void push_contact(struct run *e)
     contact_update_times(e->contact, e->clock.t);
 }
 
-/* Moves the peridynamic particles that the sweep of bond forces has not moved: the loaded ones, or all. */
+/* Moves the peridynamic particles that the sweep of bond forces has not moved: the loaded ones, or all if sweep_moves
+ * is false. Sets motion->diverged if one is faster than waves. */
 static void move_peridynamic(struct run *e, struct pd_motion *motion)
 {
     struct particles *p = &e->part;
@@ -125,7 +131,8 @@ static void move_peridynamic(struct run *e, struct pd_motion *motion)
     e->stability->diverged = motion->diverged;
 }
 
-/* Moves the grids and their points; numbers are steps of the algorithm. */
+/* Moves the grids and their material points. Numbers in the code are the steps of the algorithm listed at the function
+ * `step`. */
 static void move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
@@ -140,7 +147,8 @@ static void move_grid(struct run *e, const struct step *now)
     if (now->damps) e->damped += interface_damped_second_half(&e->coupling->zone, &e->part);
 }
 
-/* Moves the nodes of bodies in the reference frame. */
+/* Computes the forces on nodes of bodies in the reference frame and moves these nodes. Does nothing without such
+ * bodies. */
 static void move_frame(struct run *e, const struct step *now)
 {
     if (e->frame->mesh.points == 0) return;
@@ -150,7 +158,8 @@ static void move_frame(struct run *e, const struct step *now)
     frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
-/* Adds the reactions of walls of the grids to supports, and sets the velocities of driven particles. */
+/* Adds the reactions of prescribed nodal velocities to their supports, and sets velocities and positions of particles
+ * with prescribed motion to their values at the end of the step. */
 static void step_hold(struct run *e, const struct step *now)
 {
     for (int k = 0; k < e->grid->fields; k++)
@@ -160,7 +169,7 @@ static void step_hold(struct run *e, const struct step *now)
     timer_add_elapsed(&e->timers, TIMER_GRID);
 }
 
-/* Ends the sample of t_n, applies bulk damping, and advances time and the step number. */
+/* Completes the sample of t_n, applies bulk damping and books its loss, and advances time and step number. */
 static void finish(struct run *e, const struct step *now)
 {
     const bool damps = now->decay > 0;

@@ -34,7 +34,8 @@ struct probe_sink {
     bool open;
 };
 
-/* Writes one figure of a probe; context: struct probe_sink. Figures that are not finite are omitted. */
+/* Writes one figure of a probe to a JSON object named after the probe. Figures that are not finite are omitted.
+ * context: a struct probe_sink; probe: name of the probe; quantity: name of the figure. */
 static void put_figure(void *context, const char *probe, const char *quantity, real value)
 {
     struct probe_sink *sink = context;
@@ -57,8 +58,8 @@ static void put_probes(struct json *j, const struct probes *s, const struct obse
     json_close(j, '}');
 }
 
-/* Writes the half-widths of the uncertainty of figures as object `uncertainty`, if a study of this scene has found
- * them. */
+/* Writes the JSON object `uncertainty` with the half-widths of the uncertainty of figures, if a study of this scene has
+ * found them. */
 static void put_error_bars(struct json *j, const struct run_report *r)
 {
     if (r->bars == 0) return;

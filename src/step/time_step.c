@@ -12,15 +12,14 @@
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Returns true if cells have about two points per direction. */
+/* Returns true if cells of the grid have about two points per direction (1.7 to 2.3). */
 static bool two_per_cell(const struct scene *s) { return fabs(s->cell - 2) < 0.3; }
 
-/* Returns the critical step of points on a grid over h/(c + |v|), for n points per cell and direction [1].
- * Empirical: slightly below the least limit measured over all positions of the points in their cells, which a moving
- * body passes through. With FLIP and MUSL the limit hardly depends on the mass of nodes beyond an edge; with APIC,
- * whose strains follow from the updated velocity, it decreases with the size of the points. Linear shapes are
- * limited by points on nodes, where round-off decides the cell (measured over 1500 steps); elsewhere the limit is
- * three times as large. */
+/* Returns the critical step of points on a grid over h/(c + |v|) [1], with n points per cell and direction. Empirical:
+ * slightly below the least limit measured over all positions of the points in their cells, through which a moving body
+ * passes. With FLIP and MUSL the limit hardly depends on the mass of nodes beyond an edge. With APIC, whose strains
+ * follow from the updated velocity, it decreases with the size of the points. Linear shapes are limited by points on
+ * nodes, where round-off decides the cell (measured over 1500 steps); elsewhere the limit is three times as large. */
 static real points_share(const struct scene *s)
 {
     const real n = s->cell;
@@ -38,12 +37,13 @@ static real points_share(const struct scene *s)
     }
 }
 
-/* Returns the factor for nearly incompressible materials [1]. Nodes that move against each other in all directions
- * have the stiffness c11 + (dim - 1) c12, waves have c11: the ratio approaches 2 in the plane and 3 in space as nu
- * approaches 1/2. The limits of points_share were measured up to a ratio of 5/3 (nu = 1/4 in space); beyond, they
- * are reduced by the root of the ratio. From nu = 0.25 to 0.499 in space, measured limits fall to 0.80 (FLIP) and
- * 0.76 (APIC), and the root gives 0.75. Linear shapes with two points per cell and direction are limited by points on
- * nodes at any ratio: 1.01 to 1.07 h/c in space from nu = 0.25 to 0.499, 0.84 to 0.88 in plane strain. */
+/* Returns the factor on the critical step of points for nearly incompressible materials: min(1, sqrt((5/3)/r)) with the
+ * stiffness ratio r = 1 + (dim - 1) c12/c11 [1]. Nodes that move against each other in all directions have the
+ * stiffness c11 + (dim - 1) c12, waves have c11; r approaches 2 in the plane and 3 in space as nu approaches 1/2. The
+ * limits of points_share were measured up to r = 5/3 (nu = 1/4 in space). From nu = 0.25 to 0.499 in space, measured
+ * limits fall to 0.80 (FLIP) and 0.76 (APIC), and this factor to 0.75. Linear shapes with two points per cell and
+ * direction are limited by points on nodes at any ratio, so their factor is 1: 1.01 to 1.07 h/c in space from nu = 0.25
+ * to 0.499, 0.84 to 0.88 in plane strain. */
 static real volume_share(const struct scene *s, const struct material_tables *tables)
 {
     const real observed = 5.0 / 3;
@@ -54,7 +54,8 @@ static real volume_share(const struct scene *s, const struct material_tables *ta
     return sqrt(observed / most);
 }
 
-/* Returns the largest speed expected: `speed`, or what boundaries drive [m/s]. */
+/* Returns the largest speed expected in the run [m/s]: the maximum of `speed` and of the speeds that boundaries
+ * prescribe. */
 static real fastest_driven(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
 {
     for (int b = 0; b < s->boundaries; b++)
@@ -65,7 +66,8 @@ static real fastest_driven(const struct scene *s, const struct loads *l, const s
     return speed;
 }
 
-/* Returns the critical step of points on a grid [s]. h: node distance [m]; speed: the largest of the points [m/s]. */
+/* Returns the critical time step of points on a grid [s]. h: node distance [m]; speed: largest speed of the points
+ * [m/s]. */
 static real critical_of_points(const struct scene *s, const struct material_tables *tables, real h, real speed)
 {
     return points_share(s) * volume_share(s, tables) * h / (tables->wave_speed + speed);
@@ -80,7 +82,7 @@ static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4,
  * does not resolve. Measured where few particles share a node, the worst case. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
-/* Returns the factor of the critical step of bonds for a coupling. */
+/* Returns the factor of a coupling method on the critical step of bonds [1]. */
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
@@ -88,14 +90,15 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
     return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
-/* Returns the force kernel of elastic bonds; bonds that yield are not stiffer. */
+/* Returns the force function of elastic bonds of this scene; bonds that yield are not stiffer, so it serves for them
+ * too. */
 static bond_force_fn *elastic_force(const struct scene *s, const struct kernels *kernels)
 {
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
 }
 
-/* Returns the smallest critical step of infinite lattices of each material [s]. *bound: the smallest of the
- * estimates by row sums for these lattices [s]. */
+/* Returns the smallest critical time step of infinite lattices of each material of `all` [s]. force: force function of
+ * bonds. *bound: receives the smallest estimate by row sums for these lattices [s]. */
 static real critical_of_lattices(const struct bond_source *all, const struct particles *p, bond_force_fn *force,
                                  real *bound)
 {
@@ -120,10 +123,10 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
 /* Number of particles up to which the whole body is iterated: an iteration takes about 30 rounds of a few steps each */
 enum { ITERATED_MOST = 15000 };
 
-/* Returns the critical step of bonds [s]. For a small or irregular peridynamic body the largest frequency of the whole
- * body is found by iteration. Else that of a block of its lattice is, and the result is multiplied by the ratio of the
- * row-sum estimates of body and block, which is below 1 for scattered particles, corrected surfaces and heavy
- * neighbours. */
+/* Returns the critical time step of the bonds [s], INFINITY without bonds. For a small or irregular peridynamic body
+ * the largest frequency of the whole body is found by iteration. Otherwise that of a block of its lattice is found. The
+ * result is then multiplied by min(1, row-sum estimate of the body/row-sum estimate of the block), which is below 1 for
+ * scattered particles, corrected surfaces and heavy neighbours. */
 static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -144,8 +147,8 @@ static real critical_of_bonds(struct run *e)
 
 #define STEPS_MOST 1e12 /* limit of scene_check.c */
 
-/* Sets the number of steps and dt, at most `dt` [s], so that steps fill the duration. Returns REFUSED for more than
- * STEPS_MOST steps. */
+/* Sets clock->steps and clock->dt, at most `dt` [s], so that whole steps fill the duration; their number is a multiple
+ * of clock->stride. Returns REFUSED, with a message, for more than STEPS_MOST steps. */
 static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
 {
     if (!(s->duration / dt <= STEPS_MOST))
@@ -161,7 +164,7 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
 }
 
 /* Returns the largest admissible ratio of the time step to the critical step of contact [1]. Contact begins and ends
- * within steps, which changes the energy by up to k/2 times the square of the motion in a step. Measured change per
+ * within steps, which changes the energy by up to k u^2/2 with the displacement u in a step. Measured change per
  * collision: bars of 50 particles in a plane 0.3 % at 0.8 and 0.1 % at 0.5; bars of 100 particles in a line, whose
  * faces meet in one step, 1 % at 0.8 and 0.1 % at 0.35. Crack faces of one body approach slowly: 0.7. If safety is
  * above 1, contact within a body does not limit the step. */
@@ -171,19 +174,20 @@ static real contact_safety(const struct scene *s)
     return real_min(s->safety, s->dim == 1 ? 0.35 : 0.5);
 }
 
-/* Returns the largest step for which motion against bulk damping is within 1 % of c v = f/m (damping.c) [s]. It is a
- * limit of accuracy, not of stability. */
+/* Returns the largest time step for which motion against bulk damping is within 1 % of c v = f/m (damping.c): c dt <=
+ * 0.5 [s]. INFINITY without damping. It is a limit of accuracy, not of stability. */
 static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
 
-/* Returns the stiffness of bond cores that the time step allows (kernels/pd/bond_core.h), at most CORE_STIFFNESS
- * [1]. */
+/* Returns the stiffness of bond cores that the time step allows, (dt_critical/dt)^2 - 1, from 0 to CORE_STIFFNESS [1].
+ * A core resists strong compression of a bond (kernels/pd/bond_core.h). */
 static real core_stiffness(const struct scene *scene, const struct run_clock *clock)
 {
     if (!scene_is_dynamic(scene)) return CORE_STIFFNESS;
     return real_max(0, real_min(CORE_STIFFNESS, square(clock->dt_critical / clock->dt) - 1));
 }
 
-/* Returns the smallest ratio of a particle's mass, if lists prescribe it, to that of its material, at most 1 [1]. */
+/* Returns the smallest ratio of a particle's mass to density times volume, at most 1 [1]. Only particle lists with a
+ * column of masses can make it less than 1. */
 static real lightest_share(const struct scene *s, const struct particles *p)
 {
     real least = 1;
@@ -194,9 +198,9 @@ static real lightest_share(const struct scene *s, const struct particles *p)
     return least;
 }
 
-/* Computes the critical time step and the time step of a run, with the number of steps. The limits of all methods of
- * the scene count, whichever particles exist at the start, since particles convert. Returns REFUSED if the prescribed
- * step is too large for coarse cells, or steps are too many. */
+/* Computes the critical time step and the time step of a run, and the number of steps, in e->clock. The limits of all
+ * methods of the scene apply from the start, because particles convert later. Returns REFUSED, with a message, if the
+ * prescribed step is too large for coarse cells, or the steps are too many. */
 status time_step_choose(struct run *e)
 {
     const struct scene *s = e->scene;

@@ -10,8 +10,8 @@
 #include "run/energies.h"
 #include "run/part.h"
 
-/* Allocates the arrays on the first call. Returns false if no material is viscous. n, nodes: particles; nodes of the
- * mesh. */
+/* Allocates the arrays of v on the first call, if a material is viscous. n: number of particles; nodes: number of nodes
+ * of the mesh. Returns true if the arrays exist. */
 static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n, int64_t nodes)
 {
     if (v->work || !scene_viscous(s)) return v->work != NULL;
@@ -25,16 +25,17 @@ static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n
     return true;
 }
 
-/* Returns the viscous pressure over rho c^2 [1]. linear, quadratic: coefficients of the material [1]; crossing: time
- * h/c in which a wave crosses the resolved length [s]; rate: of compression [1/s]. */
+/* Returns the viscous pressure over rho c^2: linear x + quadratic x^2 with x = crossing * rate [1]. linear, quadratic:
+ * coefficients of the material [1]; crossing: time h/c in which a wave crosses the resolved length h [s]; rate: rate of
+ * compression [1/s]. */
 static real viscous_strain(real linear, real quadratic, real crossing, real rate)
 {
     const real x = crossing * rate;
     return (linear + quadratic * x) * x;
 }
 
-/* Returns the viscous pressure of a material [Pa], 0 in expansion. h: resolved length [m]; rate: growth of the volume
- * over the volume [1/s]. */
+/* Returns the viscous pressure of material m [Pa], 0 in expansion. h: resolved length [m]; rate: growth rate of volume
+ * over volume, negative in compression [1/s]. */
 static real viscous_pressure(const struct material *m, real h, real rate)
 {
     if (!(rate < 0)) return 0;
@@ -46,8 +47,8 @@ static real taken_by(const void *work, int64_t i) { return ((const real *)work)[
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the viscous force of a bond to the force f [dim, N] of its particle i. Bonds between two materials have the
- * mean of their coefficients. stiffness: of the bonds (struct bonds). */
+/* Adds the viscous force of a bond to f[dim], the force on its particle i [N]. It acts in compression only. A bond
+ * between two materials has the mean of their coefficients. stiffness: stiffness of the bonds (struct bonds). */
 static void bond_push(const struct material *material, const struct particles *p, int64_t i, const struct bond *bond,
                       real stiffness, real *f)
 {
@@ -66,8 +67,8 @@ static void bond_push(const struct material *material, const struct particles *p
     for (int d = 0; d < p->dim; d++) f[d] -= stiffness * bond->w * strain * span[d] / length;
 }
 
-/* Adds the viscous forces of bonds to the forces on particles, and the energy that they dissipated since the previous
- * step to v->taken. half: half of the step, 0 in the first one [s]. */
+/* Adds the viscous forces of bonds to the forces on particles, and the energy that they have dissipated since the
+ * previous step to v->taken. half: half of the time step, 0 in the first step [s]. */
 static void bonds_push(struct viscosity *v, const struct bonds *b, struct particles *p, real half)
 {
 #pragma omp parallel for schedule(static)
@@ -87,8 +88,8 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
 
 /* ---- points on the grid ------------------------------------------------------------------------------------------ */
 
-/* Computes the viscous pressure of the points on the grid, and adds the energy dissipated by the change of their
- * volumes over dt to v->taken. */
+/* Computes the viscous pressure v->pressure of the points on the grid from the growth of their volumes in the previous
+ * step of size dt [s], and adds the energy that this dissipated to v->taken. */
 static void points_pressure(struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                             real dt)
 {
@@ -132,7 +133,7 @@ void viscosity_apply_to_stress(struct viscosity *v, const struct particles *p, b
 
 /* ---- cells of the reference frame -------------------------------------------------------------------------------- */
 
-/* Computes the inverse of F [dim dim]; returns its determinant. */
+/* Computes the inverse of the matrix F[dim dim], row by row, and returns the determinant of F, which must not be 0. */
 static real invert_gradient(const real *F, int dim, real *inverse)
 {
     if (dim == 1) {
@@ -155,8 +156,9 @@ static real invert_gradient(const real *F, int dim, real *inverse)
     return J;
 }
 
-/* Replaces the displacement gradient H of point i [1] by its viscous part of the nodal forces, volume0 J q F^-T [dim
- * dim, N m], to be multiplied by the gradients of shape functions. G: velocity gradient [1/s]. */
+/* Replaces the displacement gradient H[dim dim][i] of point i by the tensor of its viscous nodal forces, volume0 J q
+ * F^-T [N m]. Nodal forces follow by multiplication with gradients of shape functions. q: viscous pressure; J:
+ * determinant of F = 1 + H; G: velocity gradients, [dim dim][points] [1/s]. */
 static void viscous_stress(const struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                            int64_t i, real *const *H, real *const *G)
 {
@@ -172,7 +174,8 @@ static void viscous_stress(const struct viscosity *v, const struct particles *p,
         for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
 }
 
-/* Adds the viscous forces of the points of cell I to its nodes. P: from viscous_stress. */
+/* Adds the viscous forces of the points of mesh cell I to its nodes, f[dim][nodes] [N]. P[dim dim][points]: tensors
+ * computed by viscous_stress [N m]. */
 static void cell_push(const struct mesh *mesh, int64_t I, real *const *P, real *const *f)
 {
     const int dim = mesh->grid.dim;
@@ -187,7 +190,8 @@ static void cell_push(const struct mesh *mesh, int64_t I, real *const *P, real *
     }
 }
 
-/* Returns the colour of a cell: cells of one colour share no node. Cells beside slits share one colour of their own. */
+/* Returns the colour of mesh cell I: cells of one colour share no node, so that threads can add to nodes. Cells beside
+ * slits have a common extra colour, 2^dim, and are processed serially. */
 static int cell_colour(const struct mesh *mesh, int64_t I)
 {
     const struct grid *g = &mesh->grid;
@@ -197,7 +201,8 @@ static int cell_colour(const struct mesh *mesh, int64_t I)
     return colour;
 }
 
-/* Adds the viscous forces of all cells to f [grid.n, N], colour by colour; cells beside slits serially. */
+/* Adds the viscous forces of all mesh cells to f[dim][grid.n] [N], colour by colour in parallel; cells beside slits
+ * serially. P[dim dim][points]: tensors computed by viscous_stress [N m]. */
 static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
 {
     const int colours = 1 << mesh->grid.dim;
@@ -210,7 +215,8 @@ static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
         if (mesh->kind[I] && cell_colour(mesh, I) == colours) cell_push(mesh, I, P, f);
 }
 
-/* Adds viscous forces f [grid.n, N] to the nodes, and their work since the previous step to the dissipated energy. */
+/* Adds the viscous forces f[dim][g->n] [N] to the forces on nodes, and the energy that they have dissipated since the
+ * previous step to v->taken. half: half of the time step, 0 in the first step [s]. */
 static void nodes_book(struct viscosity *v, const struct grid *g, real half, real *const *f)
 {
     real *work = NEW("viscosity.node_work", g->n, real);
@@ -249,9 +255,9 @@ void viscosity_add_nodal_forces(struct run *e)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest speed that load l gives to its particles, or 0 if the load is unbounded or of another kind [m/s].
- * A traction moves a face at its size over density times wave speed; impedance: the least of the materials
- * [Pa s/m]. */
+/* Returns the largest speed that load l gives to its particles within `duration` [s], or 0 if this is unbounded or the
+ * load is of another kind [m/s]. A traction or pressure of size s moves a face at s/impedance. impedance: least density
+ * times wave speed of the materials [Pa s/m]. */
 static real speed_of_load(const struct load *l, const struct particles *p, real duration, real impedance)
 {
     const struct boundary *b = l->boundary;
