@@ -15,7 +15,7 @@
 #define FAR_AWAY 1e7 /* largest coordinate of a particle [spacings]; as too_far in fill.c */
 
 /* Checks restored particles before their indices are used in arrays: a checkpoint with a correct checksum may still
- * hold a state that no run produces. FAILED for such a state. */
+ * contain a state that no run of scene s produces. Returns FAILED, with a message, for such a state. */
 static status particles_check(const struct scene *s, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n_all; i++) {
@@ -36,7 +36,8 @@ static status particles_check(const struct scene *s, const struct particles *p)
     return OK;
 }
 
-/* Warns if a checkpoint was written with another set of kernels, whose results differ by round-off. */
+/* Saves the name of the present set of kernels (machine instructions of the loops), or reads that of a checkpoint.
+ * Warns if they differ: results then differ by round-off. Returns the status of the archive. */
 static status kernels_archive(struct warnings *to, struct archive *a)
 {
     char text[256];
@@ -54,7 +55,8 @@ static status kernels_archive(struct warnings *to, struct archive *a)
     return OK;
 }
 
-/* Saves the hollow cells. restore.c reads them before the rest of the checkpoint. */
+/* Saves the hollow cells: mesh cells inside a body that coarse cells replace, and that have no particles. restore.c
+ * reads them before the rest of the checkpoint. Returns the status of the archive. */
 static status hollow_save(const struct cells_without_particles *h, struct archive *a)
 {
     int64_t n = h->absent ? h->box.n : 0;
@@ -62,7 +64,7 @@ static status hollow_save(const struct cells_without_particles *h, struct archiv
     return n > 0 ? a->exchange(a, "hollow/absent", h->absent, (size_t)n) : OK;
 }
 
-/* Saves or restores time, number of steps and time step. */
+/* Saves or restores time, step number, number of steps and time step of a run. Returns the status of the archive. */
 static status clock_archive(struct run_clock *c, struct archive *a)
 {
     ARCHIVE_VALUE(a, "engine/t", c->t);
@@ -72,7 +74,7 @@ static status clock_archive(struct run_clock *c, struct archive *a)
     return OK;
 }
 
-/* Saves particles and bonds. */
+/* Saves hollow cells, particles and bonds of a run. Returns the status of the archive. */
 static status body_save(struct run *e, struct archive *a)
 {
     TRY(hollow_save(&e->frame->hollow, a));
@@ -80,7 +82,8 @@ static status body_save(struct run *e, struct archive *a)
     return bonds_save_or_load(&e->bonds, &e->part, a);
 }
 
-/* Restores particles and bonds, and rebuilds lists, coupling, mesh and coarse cells from them. */
+/* Restores particles and bonds from archive a, and rebuilds lists, coupling, mesh and coarse cells from them. Returns
+ * FAILED, with a message, if an entry is missing or a particle has an impossible state. */
 static status body_restore(struct run *e, struct archive *a)
 {
     TRY(particles_save_or_load(&e->part, e->optional, a));

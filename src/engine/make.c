@@ -25,8 +25,8 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Sets the critical stretch for each pair of materials: that of the weaker material, or that of an interface between
- * two bodies. */
+/* Sets the critical stretch of bonds for each pair of materials: that of the weaker material, or that of an interface
+ * between two bodies. In static problems no bond breaks. tables->pair_stretch [materials][materials] is allocated. */
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
@@ -46,7 +46,8 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
     if (scene_is_single_equilibrium(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
 }
 
-/* Sets how bonds soften for each pair of materials: they begin as those of the material that softens first. */
+/* Sets how bonds soften for each pair of materials: from the stretch at which the material that softens first begins.
+ * Does nothing if no material softens. */
 static void make_softening(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -65,8 +66,9 @@ static void make_softening(const struct scene *s, struct material_tables *tables
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;
 }
 
-/* Sets yield stretch s_y = sigma_y/E and hardening H_b/k_e = H/E for each pair of materials, from the material that
- * yields first. A bar of one material then has its uniaxial stress-strain curve. */
+/* Sets yield stretch s_y = sigma_y/E and hardening H_b/k_e = H/E of bonds for each pair of materials, from the material
+ * that yields first. A bar of one material then has its uniaxial stress-strain curve. Does nothing if no material
+ * yields. */
 static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -87,7 +89,8 @@ static void make_yields(const struct scene *s, struct material_tables *tables, s
     source->yield = (struct bond_yield){tables->pair_yield, tables->pair_hardening, s->materials};
 }
 
-/* Computes the moduli of state-based models, A and B of kernels/pd/state_laws.h. */
+/* Computes the moduli of state-based models for each material, A and B of kernels/pd/state_laws.h, and sets the options
+ * of these models. Does nothing for bond-based models. */
 static void make_states(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     if (s->model == MODEL_BOND) return;
@@ -98,9 +101,10 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
     source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
 }
 
-/* Returns the principal stress at which material points convert [Pa]: alpha times conversion.stress, by default times
- * the stress at s_c, where bonds soften at s_0 (E s_c where nothing yields). With a larger stress points may exceed the
- * strain at which bonds break. INFINITY for no conversion; only adaptive runs convert. */
+/* Returns the principal stress at which points of material m convert to peridynamic particles [Pa]: alpha times
+ * conversion.stress, by default times the stress at s_c, where bonds break (at s_0 if they soften; E s_c where nothing
+ * yields). With a larger stress points may exceed the strain at which bonds break. Returns INFINITY if points do not
+ * convert by stress. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
@@ -108,7 +112,8 @@ static real conversion_trigger(const struct scene *s, const struct material *m)
     return s->conversion.alpha * most;
 }
 
-/* Creates the constants of the materials for the kernels, and the limits of their bonds. */
+/* Creates the constants of all materials for the kernels, tables->elastic [materials], and the limits of their
+ * bonds. */
 static void make_materials(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->elastic = NEW("engine.elastic", s->materials, struct elastic);
@@ -134,7 +139,8 @@ static void make_materials(const struct scene *s, struct material_tables *tables
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Sets the options of families, and computes their constants from horizon and spacing. */
+/* Sets the options of families (neighbours of particles within the horizon) from scene s, and computes their
+ * constants. */
 static void make_family(const struct scene *s, struct bond_source *source)
 {
     struct family *f = &source->family;
@@ -144,7 +150,7 @@ static void make_family(const struct scene *s, struct bond_source *source)
     source->material = s->material, source->materials = s->materials;
 }
 
-/* Creates the planes of symmetry, and the pre-cracks that cut bonds with their mirror images. */
+/* Creates the planes of symmetry, and the mirror images of pre-cracks, which cut bonds across these planes. */
 static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
                          struct bond_source *source)
 {
@@ -166,7 +172,8 @@ static void make_mirrors(const struct scene *s, const struct loads *loads, struc
     source->crack = tables->cracks.crack, source->cracks = tables->cracks.n, source->crack_of = tables->cracks.of;
 }
 
-/* Converts the initial peridynamic particles and creates the bonds. before: run that is continued, or NULL. */
+/* Converts the initial peridynamic particles and creates the bonds. before: run that is continued, or NULL. Returns
+ * REFUSED or FAILED, with a message, if surface weights or pre-cracks cannot be made. */
 static status make_bonds(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
@@ -198,8 +205,8 @@ static status make_bonds(struct run *e, struct predecessor *before)
 
 #define DAMPING_SHARE_MOST (1.0 / 16) /* largest share that is stable, see interface_zone.h */
 
-/* Returns the share of the relative velocity across the interface that is damped in a step [1]. c: wave speed [m/s];
- * dt: time step [s]; h: spacing of the grid [m]. */
+/* Returns the fraction of the relative velocity across the interface that is damped in a step, at most
+ * DAMPING_SHARE_MOST [1]. c: wave speed [m/s]; dt: time step [s]; h: spacing of the grid [m]. */
 static real interface_damping_share(const struct scene *s, real c, real dt, real h)
 {
     return real_min(s->interface_damping * c * dt / h, DAMPING_SHARE_MOST);
@@ -213,7 +220,8 @@ static real interface_damping_share(const struct scene *s, real c, real dt, real
 #define BYTES_PER_BOND_LATTICE 3.0
 #define EXACT_MOST 6000.0 /* [spacings] in longer bodies positions may be rounded (fill.c), and bonds are stored */
 
-/* Returns the share of a box from..to [m] inside a shape, from evenly spaced sample points. */
+/* Returns the fraction of the box from[dim] .. to[dim] [m] that is inside a shape [1], from evenly spaced sample
+ * points. */
 static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
 {
     enum { ACROSS = 24 };
@@ -228,8 +236,8 @@ static real share_filled(const struct region *shape, const real *from, const rea
     return real_max(inside, 1) / all;
 }
 
-/* Estimates the number of particles on lattices. *longest: receives the longest edge of the boxes around bodies
- * [spacings]. */
+/* Estimates the number of particles of bodies on lattices; bodies from files are left out. boxes: use the boxes around
+ * bodies, without their shapes. *longest: receives the longest edge of these boxes [spacings]. */
 static real particles_expected(const struct scene *s, bool boxes, real *longest)
 {
     real n = 0, from[DIM_MAX], to[DIM_MAX];
@@ -246,15 +254,16 @@ static real particles_expected(const struct scene *s, bool boxes, real *longest)
     return n;
 }
 
-/* Returns the number of particles, or before they exist its estimate. *longest: as in particles_expected. */
+/* Returns the number of particles, or its estimate if p has none yet. *longest: receives the longest edge of a box
+ * around a body [spacings]. */
 static real particles_now(const struct scene *s, const struct particles *p, real *longest)
 {
     const real expected = particles_expected(s, false, longest);
     return p->n > 0 ? (real)p->n : expected;
 }
 
-/* Estimates the memory of n particles [byte]. families: all of them have bonds, else about one bond each; longest:
- * longest edge of a box around a body [spacings]. */
+/* Estimates the memory of n particles and their bonds [byte]. families: all particles have bonds to their whole family,
+ * else about one bond each; longest: longest edge of a box around a body [spacings]. */
 static real memory_of(const struct scene *s, const struct bond_source *source, real n, real longest, bool families)
 {
     const real bonds = families ? source->family.full / source->family.cell_volume : 1;
@@ -295,7 +304,8 @@ void engine_announce_long_set_up(const struct scene *s)
             s->spacing, n, longest, n * SECONDS_PER_POSITION / 60);
 }
 
-/* Checks that the memory of a run is available. REFUSED, with the estimate, if not. */
+/* Returns REFUSED, with a message that contains the estimate, if the memory of the machine is smaller than that of the
+ * run. */
 static status make_affordable(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
     const real memory = (real)machine_memory_size(), bytes = run_estimate_memory(s, p, source);
@@ -319,7 +329,7 @@ static void tables_free(struct material_tables *t)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Returns the optional arrays of particles that the law of a material needs (bits WITH_...). */
+/* Returns the optional arrays of particles that the law of a material needs, as bits WITH_... */
 static int law_arrays(const struct law *law)
 {
     if (!law->given) return 0;
@@ -327,7 +337,7 @@ static int law_arrays(const struct law *law)
            (law_heats_material(law) ? WITH_TEMPERATURE : 0);
 }
 
-/* Returns the optional arrays of particles that the scene needs (bits WITH_...). */
+/* Returns the optional arrays of particles that scene s needs, as bits WITH_... */
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
@@ -344,7 +354,8 @@ static int optional_arrays(const struct scene *s)
     return optional;
 }
 
-/* Returns the force law of the peridynamic model. */
+/* Returns the force law of bonds in the peridynamic model of scene s; bonds that yield have precedence over
+ * softening. */
 static enum pd_model law_of(const struct scene *s, const struct bond_source *source)
 {
     if (s->model == MODEL_OSPD) return PD_OSPD;
@@ -352,8 +363,8 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
     return source->yield.stretch ? PD_BOND_PLASTIC : source->limit.softening ? PD_BOND_SOFT : PD_BOND;
 }
 
-/* Computes the critical time step and the time step; takes both from the run that is continued, if `before` is
- * given. */
+/* Computes the critical time step and the time step, or copies both from the run that is continued. before: that run,
+ * or NULL. Returns REFUSED, with a message, if no time step is possible. */
 static status make_time(struct run *e, const struct predecessor *before)
 {
     if (!before) return scene_locate(e->scene, time_step_choose(e));
@@ -363,7 +374,7 @@ static status make_time(struct run *e, const struct predecessor *before)
     return OK;
 }
 
-/* Initialises the contact law of the scene. source and rigid are kept by reference. */
+/* Initialises contact c with the contact law of scene s. source and rigid are kept by reference and must outlive c. */
 static void make_contact(struct contact *c, const struct scene *s, const struct bond_source *source,
                          struct rigid_set *rigid)
 {
@@ -373,7 +384,8 @@ static void make_contact(struct contact *c, const struct scene *s, const struct 
                  s->contact_stiffness, source, rigid->shape, rigid->body, s->rigids);
 }
 
-/* Creates materials, kernels and particles. REFUSED if their memory is not available. */
+/* Creates materials, kernels and particles. Returns REFUSED, with a message, if their memory is not available or a body
+ * cannot be filled. */
 static status make_particles(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -388,7 +400,8 @@ static status make_particles(struct run *e)
     return scene_locate(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
-/* Creates crack tips, crack growth, static solver, diagnostics and probes. */
+/* Creates crack tips, crack growth, static solver, diagnostics and probes. Returns REFUSED, with a message, if growth
+ * or a probe does not fit the scene. */
 static status make_probes(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -407,7 +420,7 @@ static status make_probes(struct run *e)
 }
 
 /* Creates loads, bonds, rigid bodies, contact, coupling and mesh, and computes the time step. before: run that is
- * continued, or NULL. */
+ * continued, or NULL. Returns REFUSED or FAILED, with a message, if one of them does not fit the scene. */
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;

@@ -10,8 +10,9 @@
 #include "step/report.h"
 #include "engine_internal.h"
 
-/* Frees mesh, partial stress, interface zone and neighbour search, which the new run computes from particles and scene,
- * since large bodies have no memory for both. The motion of the nodes is kept. */
+/* Frees mesh, partial stress, interface zone and neighbour search of a run that is replaced. The new run computes them
+ * from particles and scene, and large bodies have no memory for both. Displacements and velocities of nodes are
+ * kept. */
 static void leave_derived(struct run *e)
 {
     struct mesh *mesh = &e->frame->mesh, moved = {.grid = {.n = mesh->grid.n, .dim = mesh->grid.dim}};
@@ -26,6 +27,7 @@ static void leave_derived(struct run *e)
     cells_free(&e->cells);
 }
 
+/* Exchanges the arrays a[0] .. a[dim - 1] with b[0] .. b[dim - 1]. */
 static void swap_arrays(real **a, real **b, int dim)
 {
     for (int d = 0; d < dim; d++) {
@@ -34,7 +36,8 @@ static void swap_arrays(real **a, real **b, int dim)
     }
 }
 
-/* Moves displacements and velocities of all nodes, and the coarse cells, from `old` to e. */
+/* Moves displacements and velocities of all nodes, and the coarse cells, from run `old` to run e, which replaces it.
+ * Both have the same nodes. */
 static void nodes_take(struct run *e, struct run *old)
 {
     struct reference_frame *r = e->frame, *was = old->frame;
@@ -52,8 +55,8 @@ static void nodes_take(struct run *e, struct run *old)
     bonded_points_update_strain(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
-/* Moves what the functions of state in struct part do not describe: motion of nodes, output files, timers and
- * warnings. */
+/* Moves from run `old` to run e what the state functions of struct part do not include: motion of nodes, output files,
+ * timers and warnings. */
 static void rest_take(struct run *e, struct run *old)
 {
     nodes_take(e, old);
@@ -64,7 +67,9 @@ static void rest_take(struct run *e, struct run *old)
     *old->report = (struct run_report){.out = NULL};
 }
 
-/* Creates the run again with the hollow cells of its frame. The parts pass on their state as in checkpoints. */
+/* Replaces the content of run e by a new run with the hollow cells of its frame and the state of the previous one; the
+ * state of parts is transferred through an archive in memory. Returns FAILED or REFUSED, with a message, if the new run
+ * cannot be made. */
 static status run_replace(struct run *e)
 {
     struct run *old = NEW("replace.old", 1, struct run);

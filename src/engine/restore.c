@@ -4,8 +4,8 @@
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 
-/* Creates the run again with the hollow cells of a checkpoint; keeps its report, warnings and timers. absent: marks of
- * the hollow cells, owned by the run from now on. */
+/* Creates the run again with the hollow cells of a checkpoint, and keeps its report, warnings and timers. absent: 1 for
+ * each cell without particles; owned by the run from now on. Returns the status of engine_remake. */
 static status remake(struct run *e, uint8_t *absent)
 {
     struct run_report *const report = e->report;
@@ -24,8 +24,8 @@ static status remake(struct run *e, uint8_t *absent)
     return made;
 }
 
-/* Reads the hollow cells of a checkpoint, and creates the run again with them if there are any. FAILED if they do not
- * fit the bodies. */
+/* Reads the hollow cells of a checkpoint, and creates the run again with them if there are any. Returns FAILED, with a
+ * message, if they do not fit the bodies of the scene. */
 static status hollow_restore(struct run *e, struct archive *a)
 {
     struct cells_without_particles *h = &e->frame->hollow;

@@ -8,7 +8,8 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-/* Stores position and radius of the rings of all sif probes in the frame; cells there are not coarsened. */
+/* Stores position and radius of the contours of all SIF probes in the frame f, where cells are not coarsened. seen:
+ * view of the run for probes. */
 static void rings_find(struct reference_frame *f, struct probes *p, const struct observed_run *seen)
 {
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
@@ -17,8 +18,8 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
         f->rings += probes_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
-/* Adapts the levels of cells to cracks and stress. If refined cells lack particles, the run is first replaced by one
- * that has these. */
+/* Adapts the refinement levels of cells to cracks and stress. If refined cells lack particles, the run is first
+ * replaced by one that has them. Returns FAILED, with a message, if that fails. */
 static status refine(struct run *e)
 {
     if (!frame_levels_may_change(&e->frame->levels, e->clock.step)) return OK;

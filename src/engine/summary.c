@@ -19,7 +19,8 @@
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 
-/* Writes method, status, steps, times and numbers of particles. */
+/* Writes name, method, status, numbers of steps and particles, and times to JSON object j. s, message: result of the
+ * run. */
 static void put_run(struct json *j, const struct run *e, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
@@ -48,14 +49,16 @@ static void put_warnings(struct json *j, const struct warnings *w)
 
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
-/* Returns true for a peridynamic body that has lost bonds, whose fragments are reported. */
+/* Returns true if fragments are reported: for a peridynamic body with broken bonds or pre-cracks, except in static
+ * problems. */
 static bool has_fragments(const struct scene *scene, const struct diagnostics *diagnostics)
 {
     return scene->method == METHOD_PD && !scene_is_single_equilibrium(scene) &&
            (diagnostics->bonds_broken > 0 || scene->cracks > 0);
 }
 
-/* Writes number and masses of the fragments; particles without any bond are counted apart. */
+/* Writes the JSON object "fragments": number and largest mass of the fragments, and particles without any bond, which
+ * are counted separately. */
 static void put_fragments(struct json *j, const struct fragments *f)
 {
     json_open(j, "fragments", '{');
@@ -66,7 +69,8 @@ static void put_fragments(struct json *j, const struct fragments *f)
     json_close(j, '}');
 }
 
-/* Prints fragments.csv, a line for each fragment, the heaviest first. */
+/* Prints fragments.csv to file: a header, and a line with body, particles, mass, position and velocity for each
+ * fragment, the heaviest first. */
 static void fragments_print(FILE *file, const struct particles *part, const struct fragments *f)
 {
     static const char axis[] = "xyz";
@@ -84,7 +88,8 @@ static void fragments_print(FILE *file, const struct particles *part, const stru
     }
 }
 
-/* Writes fragments.csv into the folder of the run. Returns FAILED if it cannot be written. */
+/* Writes fragments.csv into the folder of the run. Returns FAILED, with a message, if memory is exhausted or the file
+ * cannot be written. */
 static status fragments_write(const struct particles *part, const struct run_report *report, const struct fragments *f)
 {
     char *text = NULL;
@@ -101,8 +106,8 @@ static status fragments_write(const struct particles *part, const struct run_rep
 
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
-/* Writes figures that depend on the machine: processor, commit, threads, kernels, times, memory. steps: of the run;
- * spent: its times. */
+/* Writes figures that depend on the machine to JSON object j: processor, commit, threads, kernels, times and memory.
+ * steps: number of steps of the run; spent: times of the run [s]. */
 static void put_machine(struct json *j, const struct run_report *r, int64_t steps, int threads,
                         const struct run_seconds *spent)
 {
@@ -122,7 +127,7 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
     json_number(j, "inactive_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
 }
 
-/* Writes the times of the sections of the loop in this process [s]. */
+/* Writes the times of the timed sections of the time loop in this process to JSON object j [s]. */
 static void put_timers(struct json *j, const struct timers *timers)
 {
     json_open(j, "laps", '{');
@@ -130,7 +135,8 @@ static void put_timers(struct json *j, const struct timers *timers)
     json_close(j, '}');
 }
 
-/* Prints summary.json. s, message: result of the run; threads: for the figures of the machine. */
+/* Prints summary.json to file. s, message: result of the run; fragments: of the bodies at the end; threads: number of
+ * threads. */
 static void summary_print(FILE *file, const struct run *e, const struct fragments *fragments, status s,
                           const char *message, int threads)
 {

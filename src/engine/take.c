@@ -2,8 +2,9 @@
 #include "base/memory.h"
 #include "engine_internal.h"
 
-/* Returns the indices in the new run (p, loads) of particles q and images of its predecessor, -1 where they are absent:
- * an allocated array [q->n_all], released by the caller. In both runs particles are in ascending order of id. */
+/* Returns, for the particles q and then the mirror images of a replaced run, their indices in the new run, -1 where
+ * they are absent: an array [q->n_all], released by the caller. p, loads: of the new run; q, images: particles and
+ * loads of the replaced run. In both runs particles are in ascending order of id. */
 static int32_t *numbers_now(const struct particles *p, const struct loads *loads, const struct particles *q,
                             const struct loads *images)
 {

@@ -10,7 +10,7 @@
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
 
-/* Returns true if a boundary or an initial state rotates a body. */
+/* Returns true if a boundary or an initial state of scene s rotates a body. */
 static bool spins(const struct scene *s)
 {
     bool any = false;
@@ -24,8 +24,8 @@ static bool spins(const struct scene *s)
     return any;
 }
 
-/* Warns of FLIP in rotating bodies on the grid, which does not conserve their angular momentum. Measured with a
- * plate that rotates freely, with edges at 30 m/s and cells of two spacings. */
+/* Warns of FLIP for rotating bodies on the grid: it does not conserve their angular momentum. The figures in the
+ * warning were measured with a plate that rotates freely, with edges at 30 m/s and cells of two spacings. */
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
     if (scene_is_dynamic(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
@@ -34,7 +34,8 @@ static void warn_of_spin(const struct scene *s, const struct grid_method *grid, 
                      "20 x 10 points loses 28 %% of it in half a turn (apic: 0.002 %%); use mpm.transfer: apic");
 }
 
-/* Warns of pre-cracks without bonds, and of couplings that differ from their definition or have no energy. */
+/* Warns of pre-cracks in scenes without bonds, and of coupling methods that differ from their definition or have no
+ * energy. */
 static void warn_of_coupling(const struct scene *s, enum coupling kind, struct warnings *to)
 {
     if (s->method == METHOD_MPM && s->cracks > 0)
@@ -51,7 +52,7 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
                      coupling_name[kind]);
 }
 
-/* Warns of quadratic and cubic shape functions if a boundary drives particles, and of cells with a single point.
+/* Warns of quadratic and cubic shape functions if a boundary prescribes motion, and of cells with a single point.
  * on_grid: material points are on the grid of the current frame. */
 static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *to)
 {
@@ -69,7 +70,7 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
                      s->cell);
 }
 
-/* Warns of keys of coarse cells and slits that have no effect. */
+/* Warns of keys for coarse cells and slits that have no effect in this scene. */
 static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
     const char *why = s->method == METHOD_PD    ? "method pd has no cells"
@@ -90,7 +91,7 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                      s->method == METHOD_PD ? ", whose pre-cracks are cut bonds" : "");
 }
 
-/* Warns of materials that convert at a stress above the one at which bonds break. */
+/* Warns of materials whose points convert at a stress above the one at which bonds break. */
 static void warn_of_materials(const struct scene *s, const struct material_tables *tables, struct warnings *to)
 {
     for (int m = 0; m < s->materials; m++) {
@@ -106,7 +107,8 @@ static void warn_of_materials(const struct scene *s, const struct material_table
     }
 }
 
-/* Returns true if a region contains a particle, or if the run has hollow cells, whose points may be in the region. */
+/* Returns true if a region contains a particle. Also true if the run has hollow cells (cells without particles),
+ * because their points may be in the region. */
 static bool region_is_met(const struct reference_frame *frame, const struct particles *part,
                           const struct region *region)
 {
@@ -119,7 +121,7 @@ static bool region_is_met(const struct reference_frame *frame, const struct part
     return any;
 }
 
-/* Warns of SIF probes in materials that yield, for which their factors have no meaning. */
+/* Warns of SIF probes if a material yields: stress-intensity factors have no meaning there. */
 static void warn_of_probes(const struct scene *s, struct warnings *to)
 {
     bool yields = false;
@@ -132,7 +134,7 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
                          s->probe[k].name);
 }
 
-/* Warns of columns of particle lists that are not read, or that take a default. */
+/* Warns of columns of particle lists that are not read, or for which a default is used. */
 static void warn_of_lists(const struct scene *s, struct warnings *to)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -148,7 +150,7 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
         warnings_add(to, "output.fields: no material yields, so frames will have no plastic_strain");
 }
 
-/* Warns of regions of frames without a particle. */
+/* Warns of output regions that contain no particle. */
 static void warn_of_regions(const struct scene *s, const struct reference_frame *frame, const struct particles *p,
                             struct warnings *to)
 {
@@ -157,7 +159,7 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
             warnings_add(to, "output.regions: %s holds no particle: its frames will be empty", s->series[k].name);
 }
 
-/* Warns of driving boundaries without a particle. */
+/* Warns of boundaries with prescribed motion that contain no particle. */
 static void warn_of_boundaries(const struct scene *s, const struct loads *l, struct warnings *to)
 {
     for (int b = 0; b < l->n; b++)
@@ -166,7 +168,7 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, str
                          s->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
 }
 
-/* Warns of a time step above the critical one. */
+/* Warns of a time step above the critical time step, with which a dynamic run is unstable. */
 static void warn_of_step(const struct scene *s, const struct run_clock *clock, struct warnings *to)
 {
     if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;
@@ -179,7 +181,7 @@ static void warn_of_step(const struct scene *s, const struct run_clock *clock, s
 
 #define HORIZON_LEAST 1.45 /* [spacings] below it a particle of a lattice has no diagonal neighbours, at sqrt(2) */
 
-/* Warns of a horizon that reaches only the neighbours along the axes of the lattice. */
+/* Warns of a horizon so small that a particle has bonds only to its neighbours along the axes of the lattice. */
 static void warn_of_horizon(const struct scene *s, struct warnings *to)
 {
     if (s->method == METHOD_MPM || s->horizon >= (s->dim > 1 ? HORIZON_LEAST : 1.005)) return;

@@ -5,7 +5,7 @@
 
 enum { ALONG = 32 }; /* positions along a segment, or along each of two sides of a triangle, of a crack */
 
-/* Returns true if pre-cracks have cut a bond. */
+/* Returns true if pre-cracks have cut at least one bond. */
 static bool bonds_are_cut(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++)
@@ -14,7 +14,7 @@ static bool bonds_are_cut(const struct bonds *b)
     return false;
 }
 
-/* Returns true if a crack may cut a bond of length `reach` [m] of a particle. */
+/* Returns true if crack c passes within the bond length `reach` [m] of a particle, so that it may cut a bond. */
 static bool crack_meets_particles(const struct crack *c, const struct particles *p, real reach)
 {
     bool meets = false;
@@ -26,7 +26,7 @@ static bool crack_meets_particles(const struct crack *c, const struct particles 
     return meets;
 }
 
-/* Returns the distance of X from its nearest particle [m]. */
+/* Returns the distance of position X[dim] from the nearest particle [m]. */
 static real particle_distance(const struct particles *p, const real *X)
 {
     real least2 = INFINITY;
@@ -39,8 +39,8 @@ static real particle_distance(const struct particles *p, const real *X)
     return sqrt(least2);
 }
 
-/* Returns the least distance of a crack from a particle [m], from positions on the segments of a line, or on the
- * triangles from the first corner of a polygon. */
+/* Returns the least distance of a crack from a particle [m]. It is computed from sample positions on the segments of a
+ * line or, for a polygon in 3D, on the triangles between its first corner and its sides. */
 static real crack_distance(const struct crack *c, const struct particles *p)
 {
     real least = INFINITY;
@@ -58,8 +58,8 @@ static real crack_distance(const struct crack *c, const struct particles *p)
     return least;
 }
 
-/* Warns of the first pre-cracks that are farther from all particles than `reach`, the length of bonds [m]. Of many
- * cracks only boxes are compared. Returns true if there are any. */
+/* Warns of the first pre-cracks that are farther from all particles than `reach`, the length of the longest bonds [m].
+ * For many cracks only bounding boxes are compared. Returns true if there are any. */
 static bool warn_of_far_cracks(const struct scene *s, const struct particles *p, real reach, struct warnings *to)
 {
     enum { SEARCHED = 16, NAMED = 3 };
@@ -80,7 +80,7 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
     return far > 0;
 }
 
-/* Warns of probes of crack tips and first breaks in a run in which no bond can break and no crack is grown. */
+/* Warns of probes of crack tips and first breaks if no bond of the scene can break and no crack is grown. */
 static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
 {
     const bool breaks = s->method != METHOD_MPM && (scene_bonds_break(s) || s->growths > 0);

@@ -13,7 +13,8 @@ struct flight {
     bool known;                              /* the box is finite, and no force acts before the body meets another */
 };
 
-/* Computes the flights of the deformable bodies [bodies + rigids]; joined bodies count as the first of them. */
+/* Computes box and range of velocities, f[b], of each deformable body b; joined bodies count as the first of them. f:
+ * [bodies + rigid bodies]; entries of rigid bodies are not set. */
 static void flights_of_particles(const struct scene *s, const struct particles *p, struct flight *f)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -31,7 +32,8 @@ static void flights_of_particles(const struct scene *s, const struct particles *
     }
 }
 
-/* Computes the flights of the rigid bodies, whose shapes may be unbounded. */
+/* Computes box and velocity, f[b], of each rigid body b, s->bodies <= b < s->bodies + s->rigids. f[b].known is false
+ * for unbounded shapes. */
 static void flights_of_rigids(const struct scene *s, struct flight *f)
 {
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
@@ -41,7 +43,8 @@ static void flights_of_rigids(const struct scene *s, struct flight *f)
     }
 }
 
-/* Returns true if all particles of a body fly along an axis with at least half of the largest speed. */
+/* Returns true if a body flies: along one axis all its particles move in one direction, each with more than half of the
+ * largest speed. */
 static bool flies(const struct flight *f, int dim)
 {
     bool any = false;
@@ -51,8 +54,8 @@ static bool flies(const struct flight *f, int dim)
     return any;
 }
 
-/* Returns the time after which two bodies can meet [s]: when the ranges of their places overlap along every axis;
- * INFINITY if they never do. reach: distance at which they meet [m]. */
+/* Returns the time after which bodies a and b can meet [s], i.e. when their ranges of positions overlap along every
+ * axis; INFINITY if they never do. reach: distance at which they meet [m]. */
 static real time_to_meet(const struct flight *a, const struct flight *b, int dim, real reach)
 {
     real after = 0;
@@ -65,8 +68,8 @@ static real time_to_meet(const struct flight *a, const struct flight *b, int dim
     return after;
 }
 
-/* Returns true if nothing but contact changes the flight of bodies: no force, weight, or motion that a boundary
- * prescribes, and no plane of symmetry, at which a body may meet its own image. */
+/* Returns true if nothing but contact changes the flight of bodies: the scene has no force, weight or prescribed
+ * motion, and no plane of symmetry, at which a body may meet its own image. */
 static bool fly_freely(const struct scene *s)
 {
     bool freely = scene_is_dynamic(s) && dot(s->gravity, s->gravity, s->dim) == 0;
@@ -79,7 +82,7 @@ static bool fly_freely(const struct scene *s)
     return freely;
 }
 
-/* Warns if body a, which flies, meets none of the others within the duration. */
+/* Warns if the flying body a meets no other body within the duration. f: boxes and velocities of all bodies. */
 static void warn_of_flight(const struct scene *s, const struct flight *f, int a, struct warnings *to)
 {
     real soonest = INFINITY;

@@ -12,20 +12,21 @@ struct lone {
     int64_t all, n, first; /* all; without neighbour; index of the first without neighbour */
 };
 
-/* Counts particle i as one without neighbours. */
+/* Counts particle i in *l as one without neighbours. */
 static void lone_add(struct lone *l, int64_t i)
 {
     if (l->n++ == 0) l->first = i;
 }
 
-/* Returns true if a row of bonds is empty. */
+/* Returns true if row `row` of the bonds, that of one particle, has no bond. */
 static bool row_empty(const struct bonds *b, int64_t row)
 {
     struct bond_iterator it = bond_iterator_of_row(b, row);
     return !bond_next(&it);
 }
 
-/* Returns true if a body is made from a list or file, so that its particles may be isolated. */
+/* Returns true if body number `body` is made from a particle list or a shape file, so that its particles may be
+ * isolated. */
 static bool from_file(const struct scene *s, int body)
 {
     bool any = s->body[body].file != NULL;
@@ -36,7 +37,7 @@ static bool from_file(const struct scene *s, int body)
     return any;
 }
 
-/* Counts peridynamic particles without bonds. */
+/* Counts the peridynamic particles without bonds in lone[body]. */
 static void lone_bonds_count(const struct bonds *b, const struct particles *p, struct lone *lone)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -45,7 +46,7 @@ static void lone_bonds_count(const struct bonds *b, const struct particles *p, s
     }
 }
 
-/* Counts material points of bodies from files that have no neighbour within a cell. */
+/* Counts in lone[body] the material points of bodies from files that have no neighbour within a cell. */
 static void lone_points_count(const struct scene *s, const struct cells *cells, const struct particles *p,
                               struct lone *lone)
 {
@@ -68,8 +69,8 @@ enum { SAMPLED = 128 };  /* number of particles of a list that are tested */
 #define ALIKE 0.01
 #define LATTICE_OFF 0.02 /* relative difference of the distance of a lattice from the spacing */
 
-/* Computes the distance of the nearest neighbour of particle i [m], INFINITY if near is empty, and the number of
- * neighbours at that distance. */
+/* Computes the distance *apart of particle i from its nearest neighbour [m], INFINITY if `near` is empty, and the
+ * number *beside of neighbours at that distance. near: neighbours of i. */
 static void surroundings(const struct particles *p, const struct neighbour_list *near, int64_t i, real *apart,
                          real *beside)
 {
@@ -85,8 +86,8 @@ static void surroundings(const struct particles *p, const struct neighbour_list 
     *apart = sqrt(least2);
 }
 
-/* Warns of a list without volumes if its particles are farther apart or closer than the spacing, from which their
- * volumes are taken. */
+/* Warns if the particles of a list without volumes are farther apart or closer than the spacing from which their
+ * volumes are computed. b: body made from the list; spacing: lattice spacing [m]. */
 static void warn_of_list_spacing(const struct scene_body *b, real spacing, const struct cells *cells,
                                  const struct particles *p, struct warnings *to)
 {

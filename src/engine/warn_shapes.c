@@ -6,7 +6,7 @@
 
 enum { SOLIDS_MOST = 32, POINTS_OF_SOLID = 20000 }; /* solids of a body, points of each, that are tested */
 
-/* Returns the k-th number, from 1 on, of the sequence of van der Corput with the given base, in 0..1. */
+/* Returns number k >= 1 of the sequence of van der Corput with the given base, a value from 0 to 1. */
 static real radical_inverse(int k, int base)
 {
     real sum = 0, digit = 1;
@@ -14,8 +14,8 @@ static real radical_inverse(int k, int base)
     return sum;
 }
 
-/* Computes the common part of the boxes of a solid and of the region before it. before: box of the region (low, high).
- * Returns the distance of the boxes [m]: 0 if they meet. */
+/* Computes the common part of the box of a solid and of the box low[dim] .. high[dim] [m], which is overwritten by it.
+ * Returns the distance of both boxes [m], 0 if they meet. */
 static real boxes_common(const struct solid *solid, int dim, real *low, real *high)
 {
     struct bounds box;
@@ -28,8 +28,8 @@ static real boxes_common(const struct solid *solid, int dim, real *low, real *hi
     return sqrt(apart2);
 }
 
-/* Returns true if a point of the box low..high, among POINTS_OF_SOLID evenly spread ones (Halton 1960), is in the solid
- * and, as `inside` says, in the region before it or not. */
+/* Returns true if one of POINTS_OF_SOLID evenly distributed points (Halton 1960) of the box low .. high is in the solid
+ * and also in region `before` (inside true), or in the solid and not in `before` (inside false). */
 static bool point_found(const struct solid *solid, const struct region *before, int dim, bool inside, const real *low,
                         const real *high)
 {
@@ -42,7 +42,7 @@ static bool point_found(const struct solid *solid, const struct region *before, 
     return false;
 }
 
-/* Warns if solid k of the shape of body b, which is subtracted, removes nothing. */
+/* Warns if solid k of the shape of body b, which is subtracted, removes nothing from the solids before it. */
 static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struct warnings *to)
 {
     const struct region before = {.n = k, .solid = b->shape.solid};
@@ -59,7 +59,7 @@ static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struc
                      b->name, k + 1);
 }
 
-/* Warns if solid k of the shape of body b, which is added, lies within the solids before it. */
+/* Warns if solid k of the shape of body b, which is added, is completely inside the solids before it. */
 static void warn_of_added(const struct scene_body *b, int k, int dim, struct warnings *to)
 {
     const struct region before = {.n = k, .solid = b->shape.solid};

@@ -4,15 +4,15 @@
 #include "base/memory.h"
 #include "engine_internal.h"
 
-/* Marks the bodies that contain particles of a load. body [bodies]: joined bodies are marked at the lowest of their
- * numbers. */
+/* Sets body[b] = true for the bodies that contain particles of load l, false for others. Joined bodies are marked at
+ * the lowest of their numbers. body: [scene->bodies]. */
 static void bodies_mark(const struct scene *scene, const struct particles *part, const struct load *l, bool *body)
 {
     for (int b = 0; b < scene->bodies; b++) body[b] = false;
     for (int64_t k = 0; k < l->n; k++) body[scene->body[part->body[l->particle[k]]].joined] = true;
 }
 
-/* Returns true if a load has particles in marked bodies. */
+/* Returns true if load l has particles in marked bodies. body[scene->bodies]: marks of bodies_mark. */
 static bool load_meets(const struct scene *scene, const struct particles *part, const struct load *l, const bool *body)
 {
     bool any = false;
@@ -28,9 +28,9 @@ struct driver {
     real limit;
 };
 
-/* Returns true if nothing prevents the bodies of a driving load from moving with it: no mirror across its
- * components, no absorbing face, damping or other body, and no load that drives the same components with a velocity
- * that differs by more than the speed at which bonds break. */
+/* Returns true if nothing prevents the bodies of driver d from moving with its load. That is: no mirror across its
+ * components, no absorbing face, no damping, no contact with other bodies, and no other load that drives the same
+ * components with a velocity that differs by more than d->limit. all: all loads of the run. */
 static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
                          const struct particles *p)
 {
@@ -59,7 +59,7 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
 }
 
 /* Returns the time in which a wave crosses the marked bodies [s], from the diagonals of their bounding boxes and the
- * slowest material. */
+ * slowest material. body[bodies]: marks of bodies_mark. */
 static real body_crossing_time(const struct particles *p, const struct scene *s, const bool *body)
 {
     real slowest = INFINITY, most = 0;
@@ -73,8 +73,8 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     return most / slowest;
 }
 
-/* Warns of a load on bodies that move freely if its velocity changes too much within the time in which a wave
- * crosses the bodies; slower changes hardly strain them. */
+/* Warns of the load of driver d, on bodies that move freely, if its velocity changes by more than d->limit within the
+ * time in which a wave crosses the bodies. Slower changes hardly strain them. */
 static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
                            struct warnings *to)
 {
@@ -89,7 +89,7 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
 }
 
 /* Warns of boundaries that move particles, or change their velocity at t = 0, by more than the speed at which bonds
- * beside them break: a face moved at speed v strains the material behind it by v/c at once. */
+ * next to them break. A face moved at speed v strains the material behind it by v/c at once, c being the wave speed. */
 void engine_warn_of_speed(const struct scene *s, const struct loads *loads, const struct particles *p,
                           struct warnings *to)
 {

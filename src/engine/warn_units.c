@@ -49,8 +49,8 @@ static const struct {
          "energy_release_rate (J/m^2; kJ?), loads (Pa), lengths (mm?) and young (GPa?)"},
 };
 
-/* Warns if `value` is beyond the limits of quantity k, unless the scene accepts it. subject: the part of the scene that
- * has this value; note: text with the numbers from which it is computed, or "". */
+/* Warns if `value` is outside the plausible range rule[k] of quantity k, unless the scene accepts that. subject: part
+ * of the scene that has this value; note: text with the numbers from which it is computed, or "". */
 static void units_judge(const struct scene *s, enum accept k, const char *subject, real value, const char *note,
                         struct warnings *to)
 {
@@ -65,8 +65,8 @@ static void units_judge(const struct scene *s, enum accept k, const char *subjec
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Warns of implausible wave speeds: of units, or of a Poisson's ratio near 1/2, if it alone makes waves fast. subject:
- * name of the material in messages. */
+/* Warns if the wave speed of material m is implausible. The message blames the units, or Poisson's ratio near 1/2, if
+ * that alone makes waves fast. subject: name of the material in messages. */
 static void units_of_waves(const struct scene *s, const char *subject, const struct material *m, struct warnings *to)
 {
     const real bar = sqrt(m->young / m->density), usual = bar * sqrt(0.6 / (1.4 * 0.2)); /* at 0.4, in 3D */
@@ -79,7 +79,8 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
                      subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
-/* Warns of implausible wave speeds and critical stretches of materials. */
+/* Warns of implausible wave speeds, densities, energy release rates, yield stresses and critical stretches of the
+ * materials. */
 static void units_of_materials(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -109,8 +110,8 @@ struct load_figures {
     int supports;
 };
 
-/* Returns the stress caused by an applied force at the k-th particle of its load and at time t [Pa]: the size of a
- * traction or pressure, or that of a body force times the longest edge of the box round all particles. */
+/* Returns the stress caused by applied load l at its particle number k and time t [Pa]: the size of a traction or
+ * pressure, or that of a body force times the longest edge of the box around all particles. */
 static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
 {
     real value[DIM_MAX] = {0}, density = 0;
@@ -121,7 +122,8 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
     return (l->boundary->by_mass ? density : 1) * sqrt(dot(value, value, s->dim)) * particles_longest_edge(p);
 }
 
-/* Updates the largest values *f by the k-th particle of a load at time t [s]. */
+/* Updates the largest values *f by the stress or displacement that load l prescribes at its particle number k at time t
+ * [s]. */
 static void load_figures_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t,
                             struct load_figures *f)
 {
@@ -134,7 +136,8 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
     for (int d = 0; d < s->dim; d++) f->least[d] = real_min(f->least[d], u[d]), f->most[d] = real_max(f->most[d], u[d]);
 }
 
-/* Updates the largest values *f by a load, at sampled times between 0 and the duration and at some of its particles. */
+/* Updates the largest values *f by load l, evaluated at sampled times between 0 and the duration and at some of its
+ * particles. */
 static void load_figures_add(const struct scene *s, const struct particles *p, const struct load *l,
                              struct load_figures *f)
 {
@@ -149,7 +152,7 @@ static void load_figures_add(const struct scene *s, const struct particles *p, c
     if (isfinite(speed)) f->speed = real_max(f->speed, speed);
 }
 
-/* Returns the largest difference between the velocities of particles and rigid bodies at the start [m/s]. */
+/* Returns the largest difference between the initial velocities of particles and rigid bodies, including 0 [m/s]. */
 static real units_speed_at_start(const struct scene *s, const struct particles *p)
 {
     real apart[DIM_MAX] = {0};
@@ -163,7 +166,7 @@ static real units_speed_at_start(const struct scene *s, const struct particles *
     return sqrt(dot(apart, apart, s->dim));
 }
 
-/* Returns the largest component of the stress at the start [Pa]. */
+/* Returns the largest absolute component of the initial stress of the particles [Pa]. */
 static real units_stress_at_start(const struct particles *p)
 {
     real most = 0;
@@ -172,7 +175,7 @@ static real units_stress_at_start(const struct particles *p)
     return most;
 }
 
-/* Returns the smallest strength E s_c (of bonds that soften, E s_0) of the materials and interfaces that can break
+/* Returns the smallest strength of the materials and interfaces that can break, E s_c (E s_0 for bonds that soften)
  * [Pa]; INFINITY if none can. */
 static real least_strength(const struct scene *s)
 {
@@ -186,10 +189,10 @@ static real least_strength(const struct scene *s)
     return least;
 }
 
-/* Warns if the largest stress of the run cannot make a crack grow in the material of the smallest energy release rate:
- * a crack as long as the body, in Griffith's plate (1921), G = pi sigma^2 a/E with a the longest edge, releases too
- * little. The stress is raised by the slenderness of the body, whose bending it does not know. stress: that of loads
- * [Pa]. */
+/* Warns if the largest stress of the run is too small to make a crack grow. A crack as long as the body, in Griffith's
+ * plate (1921), G = pi sigma^2 a/E with a the longest edge, would release less than the smallest energy release rate of
+ * a material. The stress is raised by the slenderness of the body, because bending is not computed. stress: that of
+ * loads [Pa]. */
 static void units_of_growth(const struct scene *s, const struct particles *p, real stress, struct warnings *to)
 {
     real rate = INFINITY, young = INFINITY, longest = 0, least = INFINITY, low, high;
@@ -208,9 +211,9 @@ static void units_of_growth(const struct scene *s, const struct particles *p, re
     units_judge(s, ACCEPT_GROWTH, "loads", most / rate, note, to);
 }
 
-/* Warns if the largest stress of the run cannot break any material, or is far above the strength. It is estimated from
- * tractions, from rho c v of speeds and from E u/L of displacements. In a body in motion displacements may grow after
- * the first bonds have broken, so they do not count as too large a stress. */
+/* Warns if the largest stress of the run cannot break any material, or is far above the strength. The stress is
+ * estimated from tractions, from rho c v of speeds v and from E u/L of displacements u of bodies of length L. In a body
+ * in motion displacements may grow after the first bonds have broken, so they are not reported as too large. */
 static void units_of_loads(const struct scene *s, const struct particles *p, const struct loads *loads,
                            struct warnings *to)
 {
@@ -246,7 +249,7 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     if (stress >= enough) units_of_growth(s, p, largest, to);
 }
 
-/* Warns of tractions and pressures that are implausible relative to the smallest Young's modulus. */
+/* Warns of tractions and pressures that are implausible relative to the smallest Young's modulus of the materials. */
 static void units_of_tractions(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -265,8 +268,8 @@ static void units_of_tractions(const struct scene *s, struct warnings *to)
 /* ---- steps and particles ----------------------------------------------------------------------------------------- */
 
 /* Warns of implausibly few or many time steps, of waves that travel less than a spacing during the run, and of waves
- * that cross the bodies very often. wave_speed: of the fastest wave [m/s]; longest: longest edge of the box around all
- * particles [m]. */
+ * that cross the bodies very often. wave_speed: speed of the fastest wave [m/s]; longest: longest edge of the box
+ * around all particles [m]. */
 static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, real longest,
                           struct warnings *to)
 {
@@ -301,7 +304,7 @@ real engine_particles_across(const struct scene *s, real low, real high, int axi
     return n;
 }
 
-/* Warns if the body in the box low to high has few particles along an axis. */
+/* Warns if the body in the box low[dim] .. high[dim] [m] has few particles along an axis. name: name of the body. */
 static void units_of_body(const struct scene *s, const char *name, const real *low, const real *high,
                           struct warnings *to)
 {
@@ -327,7 +330,7 @@ bool engine_body_box(const struct scene *s, const struct particles *p, int b, re
     return high[0] >= low[0];
 }
 
-/* Warns of bodies with a pre-crack that have few particles across (units_of_body). Joined bodies count as one. */
+/* Warns of bodies with a pre-crack if they have few particles along an axis. Joined bodies count as one. */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
@@ -340,8 +343,8 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     }
 }
 
-/* Warns of a plate in plane stress that is much thicker than wide. longest: longest edge of the box around all
- * particles [m]. */
+/* Warns of a plate in plane stress that is much thicker than its longest edge. longest: longest edge of the box around
+ * all particles [m]. */
 static void units_of_thickness(const struct scene *s, real longest, struct warnings *to)
 {
     char note[80];
