@@ -6,14 +6,16 @@
 
 #include "base/memory.h"
 
-/* Returns the leader of particle i, the root of its union-find tree, and shortens the path to it. */
+/* Returns the leader of particle i, the root of its tree in the union-find structure leader[particles], and shortens
+ * the path from i to it. */
 static int32_t fragment_leader(int32_t *leader, int32_t i)
 {
     while (leader[i] != i) i = leader[i] = leader[leader[i]];
     return i;
 }
 
-/* Joins the trees of both particles of every intact bond; the particle with the lower index becomes the leader. */
+/* Joins the trees of both particles of every intact bond; of both roots, the particle with the lower index becomes the
+ * leader. leader: [p->n], initially leader[i] = i. Bonds to mirror images are left out. */
 static void join_ends(int32_t *leader, const struct bonds *b, const struct particles *p)
 {
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
@@ -31,6 +33,7 @@ static void join_ends(int32_t *leader, const struct bonds *b, const struct parti
     }
 }
 
+/* Compares two struct fragment by mass, the heavier first; equal masses by the index of their first particle. */
 static int heavier_first(const void *a, const void *b)
 {
     const struct fragment *x = a, *y = b;
@@ -38,13 +41,15 @@ static int heavier_first(const void *a, const void *b)
     return x->first < y->first ? -1 : 1;
 }
 
+/* Adds mass, mass times position and mass times velocity of particle i to fragment f. */
 static void add_particle(struct fragment *f, const struct particles *p, int32_t i)
 {
     f->particles++, f->mass += p->mass[i];
     for (int d = 0; d < p->dim; d++) f->x[d] += p->mass[i] * p->x[d][i], f->v[d] += p->mass[i] * p->v[d][i];
 }
 
-/* Converts sums to means; particles without bonds are counted and left out. */
+/* Divides the sums of each fragment by its mass, which gives mean position and velocity. Particles without bonds are no
+ * fragments: they are counted in f->singles and removed from the list. */
 static void leave_singles(struct fragments *f)
 {
     int64_t kept = 0;
@@ -60,7 +65,8 @@ static void leave_singles(struct fragments *f)
     f->n = kept;
 }
 
-/* Assigns each particle its fragment, by the leaders of the sorted fragments. */
+/* Allocates f->of [n] and stores for each particle the number of its fragment in the sorted list, or -1 if it is in
+ * none. leader: union-find structure, [n]. */
 static void number_particles(struct fragments *f, int32_t *leader, int64_t n)
 {
     int32_t *number = BARE("fragments.number", n, int32_t);

@@ -27,8 +27,8 @@ void growing_crack_free(struct growing_crack *g)
 
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
-/* Updates the target speed of the tip by one secant step of the crack-tip equation of motion (growth.h), for a new set
- * of stress-intensity factors. settling: time T of the filter [s]. */
+/* Updates the target speed of the tip for new stress-intensity factors `control`, by one secant step of the crack-tip
+ * equation of motion (growth.h), smoothed in time. settling: time T of the filter [s]. */
 static void target_speed_find(struct growing_crack *g, const struct growth_control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
@@ -43,8 +43,9 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Updates the filtered speed by the speed of the last step dt [s], and the target speed if `control` has new
- * stress-intensity factors (NULL: no factors, the target is 0). Must be called before g->speed is overwritten. */
+/* Updates the filtered speed of the tip by its speed in the last step dt [s], and the target speed if `control` has new
+ * stress-intensity factors. control: NULL if no factors are known, then the target is 0; horizon: of the bonds [m].
+ * Must be called before g->speed is overwritten. */
 static void target_speed_update(struct growing_crack *g, const struct growth_control *control, real horizon, real t,
                                 real dt)
 {
@@ -61,8 +62,8 @@ static void target_speed_update(struct growing_crack *g, const struct growth_con
 
 /* ---- growth and direction ---------------------------------------------------------------------------------------- */
 
-/* Returns true if the crack grows at time t: it has started and not reached its length, and a SIF-driven crack has a
- * target speed or factors that reach the toughness. */
+/* Returns true if the crack grows at time t [s]: it has started and not reached its length and, if SIF-controlled, has
+ * a positive target speed or factors that reach the toughness. */
 static bool grows(const struct growing_crack *g, real t)
 {
     const struct growth_rule *r = g->rule;
@@ -72,7 +73,8 @@ static bool grows(const struct growing_crack *g, real t)
     return g->intensity >= r->toughness;
 }
 
-/* Turns the heading to the direction of the largest hoop stress. */
+/* Sets the heading of the tip to the direction of the largest hoop stress, from the factors K and the direction of the
+ * crack in `control`. */
 static void growth_turn(struct growing_crack *g, const struct growth_control *control)
 {
     const real angle = crack_kink_angle(control->factors.K), c = cos(angle), s = sin(angle);
@@ -80,7 +82,8 @@ static void growth_turn(struct growing_crack *g, const struct growth_control *co
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
 
-/* Moves the tip by `increment` [m] along the heading; `along` follows the heading over the smoothing length. */
+/* Moves the tip by `increment` [m] along its heading. The crack direction g->along turns to the heading over the
+ * smoothing length, by default horizon/4 [m]. */
 static void growth_advance(struct growing_crack *g, real increment, real horizon)
 {
     const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
@@ -97,8 +100,8 @@ static void growth_advance(struct growing_crack *g, real increment, real horizon
 
 /* ---- bonds that the tip crosses ---------------------------------------------------------------------------------- */
 
-/* Returns true if the entry of bond i-j in the row of i is on the list of fading bonds, whose weights decrease as the
- * crack grows. */
+/* Returns true if the entry of bond i-j in the row of particle i is in the list of fading bonds, i.e. of bonds behind
+ * the tip whose weights decrease as the crack grows. */
 static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
 {
     for (int64_t k = g->n - 1; k >= 0; k--)
@@ -106,15 +109,16 @@ static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
     return false;
 }
 
-/* Appends the entry of bond i-j, with weight w, to the list of fading bonds. length: present length of the crack
- * [m]. */
+/* Appends the entry of bond i-j, with weight w, to the list of fading bonds. length: length by which the crack has
+ * grown when the tip crosses the bond [m]. */
 static void fading_add(struct growing_crack *g, int32_t i, int32_t j, real w, real length)
 {
     GROW("growth.fading", g->fading, g->n + 1);
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Appends the intact bonds in the row of particle i that cross the path of the tip to the list of fading bonds. */
+/* Appends the intact bonds in the row of particle i that cross `path`, the last increment of the tip, to the list of
+ * fading bonds. Bonds already in the list are skipped. */
 static void cross_row(struct growing_crack *g, const struct bonds *b, const struct particles *p,
                       const struct crack *path, int32_t i)
 {
@@ -128,7 +132,8 @@ static void cross_row(struct growing_crack *g, const struct bonds *b, const stru
     }
 }
 
-/* Finds the particles within the cutoff of a path. *found: set to them, the caller frees it. Returns their number. */
+/* Finds the particles within the cutoff of bonds plus the length of the path around `from` [m]. *found: receives an
+ * allocated list of them, freed by the caller. Returns their number. */
 static int near_path(const real from[2], const real to[2], struct particles *p, const struct bond_source *s,
                      int32_t **found)
 {
@@ -139,8 +144,8 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
     return cells_find_near(s->cells, p, X, radius, -1, *found, room);
 }
 
-/* Marks the material points within the cutoff of the tip for conversion, since cracks grow through bonds only. Returns
- * their number. */
+/* Marks the material points within the cutoff of the tip for conversion to peridynamic particles, because cracks grow
+ * through bonds only. Returns the number of points marked. */
 static int claim(const struct growing_crack *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
@@ -155,8 +160,8 @@ static int claim(const struct growing_crack *g, struct particles *p, const struc
     return claimed;
 }
 
-/* Appends the bonds that the path of the tip, from `from` to its present position, crosses to the list of fading bonds,
- * in both directions and with images in mirrors. */
+/* Appends the bonds that the tip crosses on its path from `from` [m] to its present position to the list of fading
+ * bonds, with both entries of each bond and with bonds across mirrors. */
 static void cross(struct growing_crack *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
@@ -178,7 +183,8 @@ static void cross(struct growing_crack *g, const struct bonds *b, struct particl
 
 /* ---- fading ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the entry of bond i-j. Returns its index, -1 if the bond is no longer stored; sets *row. */
+/* Returns the index of bond i-j in the arrays of b, prepared for writing, or -1 if the bond is no longer stored. *row:
+ * receives the row of particle i. */
 static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
@@ -187,8 +193,8 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Sets the weights of the fading bonds to those of the previous step. Removes bonds from the list that have been broken
- * by load since then. */
+/* Sets the weights of the fading bonds to their values of the previous step. Bonds that load has broken since then are
+ * removed from the list. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -203,10 +209,11 @@ static void step_back(struct growing_crack *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Reduces the weights of the fading bonds by the growth of the crack. bond_fade books the energy lost: half of that of
- * the previous step and half of that of this step, both at the present positions. Rows change one after the other from
- * the weights of the previous step to those of the next, so that their losses sum to the whole. Returns the number of
- * directed bonds whose weight becomes 0. */
+/* Reduces the weights of the fading bonds: weight = initial weight (1 - grown/damping)^exponent, with `grown` the
+ * growth of the crack since it crossed the bond. bond_fade books the energy lost: half of the loss of the previous step
+ * and half of that of this step, both at the present positions. Rows change one after the other from the weights of the
+ * previous step to the next ones, so that the losses sum to the whole energy. Returns the number of directed bonds
+ * whose weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
@@ -232,7 +239,7 @@ static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *
 
 /* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
  * the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. control: present
- * stress-intensity factors, NULL if not known. */
+ * stress-intensity factors, NULL if not known. Returns the number of directed bonds whose weight has become 0. */
 int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct particles *p,
                               const struct bond_source *source, const struct growth_control *control, real t, real dt)
 {

@@ -29,8 +29,9 @@ void sif_weight_function(enum sif_weight form, const struct contour *c, real r, 
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the integrand of the interaction integral with the gradient of the weight q, per area and for a unit gradient
- * along n [Pa]: the energy flux of the actual motion a and the auxiliary motion b. */
+/* Returns the integrand of the interaction integral that the gradient of the weight q multiplies, per area and for a
+ * unit gradient along n [Pa]: the energy flux of the actual motion a and the auxiliary motion b. density: of the
+ * material [kg/m^3]. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
 {
     real flux = 0, energy = 0;
@@ -44,8 +45,8 @@ static real ring_density(const struct crack_state *a, const struct crack_state *
     return flux - n[0] * energy;
 }
 
-/* Returns the inertial integrand of the interaction integral, per area and for q = 1, from the actual motion a and the
- * auxiliary motion b [Pa/m]. */
+/* Returns the inertial integrand of the interaction integral, per area and for weight q = 1 [Pa/m], from the actual
+ * motion a and the auxiliary motion b. density: of the material [kg/m^3]. */
 static real disc_density(const struct crack_state *a, const struct crack_state *b, real density)
 {
     real sum = 0;
@@ -84,13 +85,16 @@ struct sif_points {
     struct sif_point *point;
 };
 
+/* Transforms vector v to the axes of the crack at the tip: local[0] along its direction, local[1] perpendicular to
+ * it. */
 static void local_vector(const struct sif_tip *tip, const real v[2], real local[2])
 {
     local[0] = v[0] * tip->along[0] + v[1] * tip->along[1];
     local[1] = v[1] * tip->along[0] - v[0] * tip->along[1];
 }
 
-/* Transforms tensor t to the local frame, R t R^T. */
+/* Transforms tensor t to the axes of the crack at the tip: local = R t R^T, with R the rotation from the global
+ * axes. */
 static void local_tensor(const struct sif_tip *tip, real t[2][2], real local[2][2])
 {
     real half[2][2];
@@ -102,13 +106,14 @@ static void local_tensor(const struct sif_tip *tip, real t[2][2], real local[2][
     }
 }
 
+/* Computes the reference position of particle i relative to the tip, in the axes of the crack, x[2] [m]. */
 static void local_place(const struct sif_tip *tip, const struct particles *p, int64_t i, real x[2])
 {
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Lists the particles of the body within the largest of n contours. In equilibrium particles within the smallest inner
- * circle do not contribute and are left out. */
+/* Lists in s->particle the particles of the tip's body within the largest of n contours, and allocates s->point. In
+ * equilibrium, particles within the smallest inner circle contribute nothing and are left out. */
 static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
 {
     real least = INFINITY, most = 0, x[2];
@@ -123,8 +128,8 @@ static void points_find(struct sif_points *s, const struct contour *contour, int
     s->point = memory_new("sif.point", s->n, sizeof *s->point);
 }
 
-/* Sets the stress of particle i, in the axes of the crack: by Hooke's law from the displacement gradient, or as
- * stored. */
+/* Computes the stress of particle i in the axes of the crack, state->stress [Pa]: by Hooke's law from state->gradient,
+ * or the stress of m, depending on tip->stress. */
 static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion *m, int64_t i,
                              struct crack_state *state)
 {
@@ -136,8 +141,9 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
     local_tensor(tip, global, state->stress);
 }
 
-/* Computes the state of particle k of the list in the local frame: gradients, stress and, with inertia, velocity and
- * acceleration minus that by loads. */
+/* Computes position, area and fields of number k of the listed particles, s->point[k], in the axes of the crack:
+ * displacement gradient, stress and, with inertia, velocity and acceleration minus that caused by loads. stencil:
+ * working memory with the gradient weights of this particle. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
                        const struct gradient_stencil *stencil, const struct particles *p)
 {
@@ -166,7 +172,7 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     for (int d = 0; d < 2; d++) point->state.acceleration[d] += moved[d];
 }
 
-/* Computes the gradients and fields of all particles round the tip. */
+/* Computes gradients and fields of all listed particles around the tip, s->point. rule: how gradients are computed. */
 static void points_make(struct sif_points *s, const struct sif_motion *m, const struct gradient_rule *rule,
                         const struct particles *p, const struct cells *c)
 {
@@ -182,9 +188,9 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
     }
 }
 
-/* Returns the weight of the inertial part of the interaction integral at distance r from the tip [1]. It increases
- * gradually from 0 to 1: with a sharp edge particles would enter and leave the sum as the tip passes, and the factors
- * would oscillate with the period of a spacing. */
+/* Returns the weight of the inertial part of the interaction integral at distance r [m] from the tip [1]. It increases
+ * gradually from 0 to 1 around tip->core. With a sharp edge particles would enter and leave the sum as the tip moves,
+ * and the factors would oscillate with the period of a spacing. */
 static real core_share(const struct sif_tip *tip, real r)
 {
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
@@ -194,8 +200,8 @@ static real core_share(const struct sif_tip *tip, real r)
     return 1 - q;
 }
 
-/* Adds the interaction integrals over particles first .. end - 1 to sum: with the auxiliary fields of both modes, then
- * that of the actual motion with itself. */
+/* Adds the interaction integrals over the listed particles first .. end - 1 to sum[MODES + 1]: with the auxiliary
+ * fields of modes I and II, then of the actual motion with itself. context: a struct sif_points. */
 static void points_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct sif_points *s = context;

@@ -36,7 +36,8 @@ void crack_hooke_stress(const struct crack_medium *m, real gradient[2][2], real 
 
 /* ---- a crack at rest --------------------------------------------------------------------------------------------- */
 
-/* Computes the angular functions g of u = sqrt(r/(2 pi))/(2 G) g(theta) and their derivatives (Williams 1957). */
+/* Computes the angular functions g of the displacements around a crack tip at rest, u = K sqrt(r/(2 pi))/(2 G)
+ * g(theta), and their derivatives slope = dg/dtheta (Williams 1957). kappa: Kolosov's constant [1]. */
 static void williams_angular(real kappa, enum crack_mode mode, real theta, real g[2], real slope[2])
 {
     const real c = cos(0.5 * theta), s = sin(0.5 * theta);
@@ -66,14 +67,16 @@ void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode,
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
 
-/* Computes a_d = sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 - v^2/c_s^2) [1]. */
+/* Computes a[0] = sqrt(1 - v^2/c_d^2) and a[1] = sqrt(1 - v^2/c_s^2) for tip speed v, with the speeds c_d of
+ * dilatational and c_s of shear waves [1]. */
 static void slownesses(const struct crack_medium *m, real v, real a[2])
 {
     a[0] = sqrt(1 - square(v / m->longitudinal));
     a[1] = sqrt(1 - square(v / m->shear_speed));
 }
 
-/* Returns D(v) = 4 a_d a_s - (1 + a_s^2)^2, whose root is c_R. */
+/* Returns D(v) = 4 a_d a_s - (1 + a_s^2)^2 for tip speed v, with a_d and a_s of `slownesses` [1]; its root is the
+ * Rayleigh speed. */
 static real crack_rayleigh_function(const struct crack_medium *m, real v)
 {
     real a[2];
@@ -81,7 +84,8 @@ static real crack_rayleigh_function(const struct crack_medium *m, real v)
     return 4 * a[0] * a[1] - square(1 + a[1] * a[1]);
 }
 
-/* Computes the weights of both waves w: u_i = Re or Im of the sum of weight[i][w] sqrt(z_w), z_w = x1 + i a_w x2. */
+/* Computes the coefficients weight[i][w] of dilatational (w = 0) and shear (w = 1) waves in the displacements around a
+ * tip of speed v: u_i = Re or Im of sum_w weight[i][w] sqrt(z_w), z_w = x1 + i a_w x2. a: factors of `slownesses`. */
 static void wave_weights(const struct crack_medium *m, enum crack_mode mode, real v, const real a[2], real weight[2][2])
 {
     const real size = sqrt(2 / pi) / (m->shear * crack_rayleigh_function(m, v)), b = 1 + a[1] * a[1];
@@ -136,15 +140,16 @@ real crack_universal_function(const struct crack_medium *m, enum crack_mode mode
 
 /* ---- growth at constant speed ------------------------------------------------------------------------------------ */
 
-/* Returns the angle of the integrand of k(v) at slowness z between 1/c_d and 1/c_s (Freund 1990, eq. 6.4.26). */
+/* Returns the angle in the integrand of k(v) at slowness z [s/m], between 1/c_d and 1/c_s (Freund 1990, eq. 6.4.26). */
 static real factor_angle(const struct crack_medium *m, real z)
 {
     const real a = 1 / m->longitudinal, b = 1 / m->shear_speed;
     return atan(4 * z * z * sqrt(real_max(0, (z * z - a * a) * (b * b - z * z))) / square(b * b - 2 * z * z));
 }
 
-/* Returns the exact k(v). The integrand has square roots at both ends: z = middle - half cos(phi) makes it smooth and
- * periodic in phi, where the midpoint rule converges faster than any power. */
+/* Returns the factor k(v) of the stress-intensity factor of a crack that grows at constant speed v [1], by numerical
+ * integration. The integrand has square roots at both ends: z = middle - half cos(phi) makes it smooth and periodic in
+ * phi, where the midpoint rule converges faster than any power. */
 static real factor_exact(const struct crack_medium *m, real v)
 {
     enum { POINTS = 256 };

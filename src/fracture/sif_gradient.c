@@ -10,7 +10,7 @@ enum { QUADRATIC = 6, LINEAR = 3 }; /* terms of complete polynomials in the plan
 
 /* ---- visibility across cracks ------------------------------------------------------------------------------------ */
 
-/* Returns true if load has broken the bond of particles i and j. */
+/* Returns true if the bond of particles i and j exists and is broken, by load or by a pre-crack. */
 static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
 {
     if (!b || b->rows == 0) return false;
@@ -19,7 +19,8 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
     return false;
 }
 
-/* Returns true if a crack or a broken bond is between particles i and j. */
+/* Returns true if a crack or a broken bond is between particles i and j, so that they must not contribute to each
+ * other's gradients. */
 static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
 {
     return cracks_separate_particles(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
@@ -27,10 +28,9 @@ static bool hidden(const struct sight *s, const struct particles *p, int64_t i, 
 
 static real sif_gradient_between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
-/* Returns the distance from particle i at which neighbour j counts [m]: round the tip if a crack is between them;
- * INFINITY: j does not count. */
-/* Returns the distance of particles i and j [m]. If a crack or a broken bond is between them, the distance is increased
- * by the path round the tip (rule->diffraction), or INFINITY. */
+/* Returns the distance r of particles i and j [m]. If a crack or a broken bond is between them, it is increased to r
+ * (r_tip/r)^diffraction, r_tip being the length of the path through the tip, or to INFINITY if rule->diffraction is
+ * 0. */
 static real distance_round_cracks(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
 {
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
@@ -45,7 +45,8 @@ static real distance_round_cracks(const struct gradient_rule *rule, const struct
 
 /* ---- small symmetric systems ------------------------------------------------------------------------------------- */
 
-/* Replaces the lower triangle of A by its factors L D L^T. Returns false if A is singular. */
+/* Replaces the lower triangle of the symmetric matrix A[n][n] by its factors L D L^T. Returns false if A is
+ * singular. */
 static bool factor(real A[QUADRATIC][QUADRATIC], int n)
 {
     for (int k = 0; k < n; k++) {
@@ -60,7 +61,7 @@ static bool factor(real A[QUADRATIC][QUADRATIC], int n)
     return true;
 }
 
-/* Solves L D L^T x = y; x replaces y. */
+/* Solves L D L^T x = y for n unknowns, with the factors in A from `factor`; x replaces y. */
 static void sif_gradient_solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADRATIC])
 {
     for (int k = 0; k < n; k++)
@@ -72,23 +73,24 @@ static void sif_gradient_solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADR
 
 /* ---- moving least squares ---------------------------------------------------------------------------------------- */
 
-/* Returns the cubic spline weight of s = distance over rho_m, 0 for s >= 2. */
+/* Returns the cubic spline weight at s = distance/(half the support radius) [1]; 0 for s >= 2. */
 static real spline(real s)
 {
     if (s <= 1) return 1 - 1.5 * s * s + 0.75 * s * s * s;
     return s < 2 ? 0.25 * (2 - s) * (2 - s) * (2 - s) : 0;
 }
 
-/* Computes the polynomials in the offset from particle i over rho_m. */
+/* Computes the polynomials b = (1, x, y, x^2, xy, y^2) of the offset (x, y) from particle i to j over `scale` [m]. */
 static void basis(const struct particles *p, int64_t i, int32_t j, real scale, real b[QUADRATIC])
 {
     const real x = (p->X[0][j] - p->X[0][i]) / scale, y = (p->X[1][j] - p->X[1][i]) / scale;
     b[0] = 1, b[1] = x, b[2] = y, b[3] = x * x, b[4] = x * y, b[5] = y * y;
 }
 
-/* Computes the moment matrix A = P^T W P of moving least squares (Belytschko et al. 1994; their order of the factors
- * does not conform) and replaces the weights W in weight[k][0] by the linear coefficients of A^-1 P^T W in weight[k].
- * Returns false if A is singular. */
+/* Computes the moment matrix A = P^T W P of moving least squares around particle i (Belytschko et al. 1994; their order
+ * of the factors does not conform). Replaces the weights W in weight[k][0] by weight[k][0 .. 1], the rows of A^-1 P^T W
+ * of the linear terms, which are gradient weights. scale: length of the polynomials [m]; terms: LINEAR or QUADRATIC.
+ * Returns false, with W unchanged, if A is singular. */
 static bool least_squares(struct gradient_stencil *s, const struct particles *p, int64_t i, real scale, int terms)
 {
     real A[QUADRATIC][QUADRATIC] = {{0}}, b[QUADRATIC], y[2][QUADRATIC] = {{0, 1}, {0, 0, 1}};
@@ -108,7 +110,8 @@ static bool least_squares(struct gradient_stencil *s, const struct particles *p,
     return true;
 }
 
-/* Computes weights by moving least squares: quadratic if possible, else linear, else none. */
+/* Computes the gradient weights of particle i by moving least squares over its neighbours in s: quadratic if possible
+ * (s->order = 2), else linear (1), else none (0). Neighbours behind cracks are removed. */
 static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                         int64_t i)
 {
@@ -128,8 +131,9 @@ static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *
 
 /* ---- peridynamic differential operator --------------------------------------------------------------------------- */
 
-/* Computes weights g_ij V_j = omega K_i^-1 xi_ij V_j, K_i = sum omega xi xi^T V_j, omega = delta/r (Madenci, Barut &
- * Futch 2016). */
+/* Computes the gradient weights g_ij V_j = omega K_i^-1 xi_ij V_j of particle i, with K_i = sum omega xi xi^T V_j and
+ * omega = delta/r (Madenci, Barut & Futch 2016). s->order is 1, or 0 if K_i is singular. Neighbours behind cracks are
+ * removed. */
 static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                          int64_t i)
 {
@@ -157,7 +161,7 @@ static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule 
 
 /* ---- public functions -------------------------------------------------------------------------------------------- */
 
-/* Ensures room for `capacity` neighbours in a stencil, whose contents may be lost. */
+/* Ensures room for `capacity` neighbours in a stencil; its previous contents are lost if it grows. */
 static void stencil_room(struct gradient_stencil *s, int capacity)
 {
     if (capacity <= s->room) return;

@@ -12,8 +12,9 @@ enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 #define ON_FACE 0.03
 #define SINGULAR 1e-12 /* least pivot over the diagonal entry */
 
-/* Computes the displacements of term n of the Williams series with a unit coefficient, for both modes, times 2 G [1],
- * at the distance r from the tip over the outer radius and at the angle theta from the crack. */
+/* Computes the displacements (times 2 G) of term n of the Williams series with a unit coefficient, mode_1[2] and
+ * mode_2[2] for modes I and II [1]. r: distance from the tip over the outer radius [1]; theta: angle from the crack
+ * direction [rad]; kappa: Kolosov's constant [1]. */
 static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real mode_2[2])
 {
     const real half = 0.5 * n, s = n % 2 ? -1 : 1, q = pow(r, half);
@@ -30,7 +31,7 @@ struct surface_fit_problem {
     int particles;
 };
 
-/* Adds an equation, row . coefficients = value, to the normal equations. */
+/* Adds one equation, row[UNKNOWNS] . coefficients = value, to the normal equations of the fit. */
 static void fit_add(struct surface_fit_problem *f, const real *row, real value)
 {
     for (int m = 0; m < UNKNOWNS; m++) {
@@ -39,14 +40,15 @@ static void fit_add(struct surface_fit_problem *f, const real *row, real value)
     }
 }
 
-/* Returns true for a particle at X relative to the tip that is on the line of the crack behind the tip: round-off would
- * decide on which side of the crack it is. */
+/* Returns true for a position X [m], relative to the tip, on the line of the crack behind the tip: round-off would
+ * decide on which side of the crack a particle there is. */
 static bool on_face(const struct tip_view *v, const real X[2])
 {
     return dot(v->last, X, 2) < 0 && fabs(v->last[0] * X[1] - v->last[1] * X[0]) < ON_FACE * v->inner;
 }
 
-/* Adds a particle at X [m] relative to the tip, with displacement u [m], to the normal equations. */
+/* Adds the two equations of a particle to the normal equations of the fit. X: its position relative to the tip [m]; u:
+ * its displacement [m]. */
 static void fit_particle(struct surface_fit_problem *f, const struct tip_view *v, const real X[2], const real u[2])
 {
     const real *a = v->along, *l = v->last;
@@ -63,7 +65,7 @@ static void fit_particle(struct surface_fit_problem *f, const struct tip_view *v
     f->particles++;
 }
 
-/* Solves A x = y by L D L^T; x replaces y. Returns false if A is singular. */
+/* Solves A x = y of the normal equations by L D L^T; x replaces f->y. Returns false if A is singular. */
 static bool fit_solve(struct surface_fit_problem *f)
 {
     real(*A)[UNKNOWNS] = f->A, *y = f->y;
@@ -84,7 +86,7 @@ static bool fit_solve(struct surface_fit_problem *f)
     return true;
 }
 
-/* Returns true if no crack is between the tip, moved slightly ahead, and X. */
+/* Returns true if no crack is between the tip, moved slightly ahead, and position X [m]. */
 static bool seen(const struct tip_view *v, const real *X)
 {
     real eye[DIM_MAX] = {0};

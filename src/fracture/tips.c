@@ -30,7 +30,8 @@ struct flood {
     bool grown_by[TIPS_MAX]; /* another crack has become a part of the crack in this sample */
 };
 
-/* Returns true if particle i is damaged, not driven and not yet assigned to a crack. */
+/* Returns true if particle i can be assigned to a crack: it is damaged, not yet assigned to one, and its motion is not
+ * prescribed. */
 static bool can_belong(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
@@ -43,7 +44,7 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
     return bits;
 }
 
-/* Returns true if one of n listed particles has lost a bond. Combines the bits of the damages instead of comparing
+/* Returns true if one of the particles at[n] has lost a bond. The bits of the damages are combined instead of comparing
  * numbers, which is faster. */
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
@@ -55,8 +56,9 @@ static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
     return any != 0;
 }
 
-/* Returns the start of the first piece (of up to TIP_PIECE entries) of the list of peridynamic particles, from entry
- * `first` on, that contains a particle with damage above TIP_DAMAGE, or the end of the list. */
+/* Returns the start of the first piece of the list of peridynamic particles that contains a particle with damage above
+ * TIP_DAMAGE, or the length of the list if there is none. A piece has up to TIP_PIECE entries; the search starts at
+ * entry `first`, the start of a piece. */
 static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -70,22 +72,23 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
     return p->n_of[KIND_PD];
 }
 
-/* Assigns particle i to a crack and appends it to the queue. */
+/* Assigns particle i to crack number `tip` and appends it to the queue of particles whose neighbours must be
+ * visited. */
 static void flood_label(struct flood *f, int32_t i, int tip)
 {
     f->t->label[i] = (uint8_t)(tip + 1);
     f->queue[f->queued++] = i;
 }
 
-/* Returns the crack of which `tip` has become a part, `tip` itself if of none. */
+/* Returns the number of the crack of which crack `tip` has become a part, or `tip` itself if it has not been joined. */
 static int tips_root_of(const struct flood *f, int tip)
 {
     while (f->into[tip] != tip) tip = f->into[tip];
     return tip;
 }
 
-/* Joins cracks a and b, which touch. A crack that starts at the end of a pre-crack stays separate from others of this
- * sort; any other crack becomes part of the one that it touches. */
+/* Joins cracks a and b, which touch. Cracks that start at ends of pre-cracks stay separate from each other. Any other
+ * crack becomes part of the one that it touches, the later one of the earlier one. */
 static void flood_join(struct flood *f, int a, int b)
 {
     a = tips_root_of(f, a), b = tips_root_of(f, b);
@@ -96,7 +99,8 @@ static void flood_join(struct flood *f, int a, int b)
     f->grown_by[keep] = true;
 }
 
-/* Labels all damaged particles connected with those in the queue, in the order of the queue. */
+/* Assigns all damaged particles connected with those in the queue to the cracks of these, in the order of the queue,
+ * and empties the queue. Cracks that touch are joined. */
 static void flood_run(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -117,7 +121,8 @@ static void flood_run(struct flood *f)
     f->queued = 0;
 }
 
-/* Returns the crack whose start is nearest to particle i within TIP_START_REACH, or -1. */
+/* Returns the number of the crack whose start, the end of a pre-crack, is nearest to particle i within TIP_START_REACH
+ * spacings, or -1 if there is none. */
 static int start_near(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = -1;
@@ -133,7 +138,8 @@ static int start_near(const struct crack_tips *t, const struct particles *p, int
     return nearest;
 }
 
-/* Returns the crack with the lowest number that particle i touches, or -1. */
+/* Returns the lowest number of a crack that particle i touches, i.e. with a particle within TIP_TOUCH spacings, or -1
+ * if there is none. */
 static int crack_touched(struct flood *f, int64_t i)
 {
     const struct particles *p = f->search.p;
@@ -149,7 +155,7 @@ static int crack_touched(struct flood *f, int64_t i)
     return lowest;
 }
 
-/* Returns the crack whose tip is nearest to particle i, for the case that no more tips fit. */
+/* Returns the number of the crack whose tip is nearest to particle i; used if there is no room for more tips. */
 static int tip_nearest(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = 0;
@@ -162,9 +168,9 @@ static int tip_nearest(const struct crack_tips *t, const struct particles *p, in
     return nearest;
 }
 
-/* Starts a new crack at the most damaged of the new particles without a crack and assigns the damaged particles
- * connected with it. If no more tips fit, adds them to the crack with the nearest tip. Returns false if all have a
- * crack. */
+/* Starts a new crack at the most damaged of the new particles without a crack, and assigns the damaged particles
+ * connected with it. If there is no room for more tips, they are assigned to the crack with the nearest tip. Returns
+ * false if all new particles have a crack already. */
 static bool flood_nucleate(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -189,7 +195,8 @@ static bool flood_nucleate(struct flood *f)
     return true;
 }
 
-/* Removes the cracks that became part of others from the list and from the record, and renumbers the remaining ones. */
+/* Removes the cracks that became part of others from the list of tips and from the record of growth, and renumbers the
+ * remaining ones and the labels of particles. */
 static void flood_close_ranks(struct flood *f)
 {
     struct crack_tips *t = f->t;
@@ -211,7 +218,8 @@ static void flood_close_ranks(struct flood *f)
     t->n = kept;
 }
 
-/* Lists the newly damaged particles. */
+/* Initialises the assignment of a sample: lists in f->fresh, in the order of the list of peridynamic particles, the
+ * damaged particles that belong to no crack yet. Release with flood_free. */
 static void flood_make(struct flood *f, struct crack_tips *t, const struct particles *p, const struct cells *c)
 {
     const int32_t *list = p->list[KIND_PD];
@@ -235,7 +243,7 @@ static void flood_free(struct flood *f)
     memory_free(f->search.found);
 }
 
-/* Assigns all newly damaged particles: to a start or a crack nearby, to cracks connected with them, or to new
+/* Assigns all newly damaged particles to cracks: to a start or a crack nearby, to cracks connected with them, or to new
  * cracks. */
 static void flood_all(struct flood *f)
 {
@@ -254,8 +262,8 @@ static void flood_all(struct flood *f)
 
 /* ---- length and speed -------------------------------------------------------------------------------------------- */
 
-/* Updates position, growth and times of a tip from the extent r of its crack. took_in: another crack has become part of
- * its crack, so that a jump in growth counts as joined. */
+/* Updates position, growth and times of a tip from the extent r of its crack at time `time` [s]. took_in: another crack
+ * has become part of this crack, so that a jump in growth is booked as joined, not grown. */
 static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const struct crack_tips *t, real time,
                      bool took_in)
 {
@@ -272,7 +280,8 @@ static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const str
     if (!isnan(tip->start_time)) tip->arrest_time = time;
 }
 
-/* Returns the slope of the least-squares line through samples first .. last of tip k [m/s]. */
+/* Returns the slope of the least-squares line through the growth of tip k in samples first .. last [m/s]; NAN if all
+ * have one time. */
 static real regression(const struct crack_tips *t, int k, int64_t first, int64_t last)
 {
     real n = (real)(last - first + 1), mean_time = 0, mean_growth = 0, both = 0, spread = 0;
@@ -287,7 +296,7 @@ static real regression(const struct crack_tips *t, int k, int64_t first, int64_t
     return spread > 0 ? both / spread : NAN;
 }
 
-/* Returns the first sample at or after `time`, or the last sample. */
+/* Returns the index of the first sample at or after `time` [s], or of the last sample. */
 static int64_t sample_at(const struct crack_tips *t, real time)
 {
     int64_t s = 0;
@@ -303,8 +312,8 @@ real tips_average_speed(const struct crack_tips *t, int k)
     return regression(t, k, first < last ? first : last - 1, last);
 }
 
-/* Updates the largest speed of tip k, over the window that ends at the last sample, and its mean speed since its
- * start. */
+/* Updates the largest speed of tip k and its mean speed since its start. The speed is the slope of growth over the time
+ * window that ends at the last sample. */
 static void tip_speeds(struct crack_tips *t, int k)
 {
     struct crack_tip *tip = &t->tip[k];

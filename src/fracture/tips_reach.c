@@ -5,10 +5,13 @@
 #include "fracture/places.h"
 #include "tips_parts.h"
 
+/* Returns true for the label of a particle that belongs to a crack: not 0 (undamaged) and not TIP_BEFORE
+ * (pre-crack). */
 static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
 
-/* Returns the start of the first piece (of up to TIP_PIECE entries) of the list of peridynamic particles, from entry
- * `first` on, that contains a particle of a crack, or the end of the list. */
+/* Returns the start of the first piece of the list of peridynamic particles that contains a particle of a crack, or the
+ * length of the list if there is none. A piece has up to TIP_PIECE entries; the search starts at entry `first`, the
+ * start of a piece. */
 static int64_t next_of_crack(const struct crack_tips *t, const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -24,8 +27,8 @@ static int64_t next_of_crack(const struct crack_tips *t, const struct particles 
     return p->n_of[KIND_PD];
 }
 
-/* Returns the distance of particle i from the start of its crack [m], or -1 for a particle beside the end of the
- * pre-crack, behind the start. */
+/* Returns the distance of particle i from the start of its crack [m], or -1 if the particle is behind the start, next
+ * to the end of the pre-crack. The particle must belong to a crack. */
 static real tips_reach_of(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     const struct crack_tip *tip = &t->tip[t->label[i] - 1];
@@ -47,7 +50,8 @@ struct ahead {
 
 typedef void of_crack_fn(struct ahead *a, int32_t i, int tip);
 
-/* Calls visit(a, particle, tip) for every particle that belongs to a crack, in the order of the list. */
+/* Calls visit(a, i, tip) for every particle i that belongs to crack number `tip`, in the order of the list of
+ * peridynamic particles. */
 static void each_of_crack(struct ahead *a, of_crack_fn *visit)
 {
     const int32_t *list = a->p->list[KIND_PD];
@@ -57,7 +61,7 @@ static void each_of_crack(struct ahead *a, of_crack_fn *visit)
             if (is_of_crack(a->t->label[list[k]])) visit(a, list[k], a->t->label[list[k]] - 1);
 }
 
-/* Updates number of particles and largest distance from the start of crack `tip` by particle i. */
+/* Adds particle i to crack number `tip`: to its number of particles, and to the largest distance from its start. */
 static void extent_find(struct ahead *a, int32_t i, int tip)
 {
     struct tip_reach *r = &a->reach[tip];
@@ -65,7 +69,8 @@ static void extent_find(struct ahead *a, int32_t i, int tip)
     r->farthest = real_max(r->farthest, tips_reach_of(a->t, a->p, i));
 }
 
-/* Counts particle i of crack `tip`, or stores its position, if it is within a spacing of the farthest one. */
+/* If particle i is within a spacing of the farthest particle of its crack, counts it in a->n[tip] and stores its
+ * position in a->place[tip], if that is allocated. tip: number of the crack. */
 static void farthest_collect(struct ahead *a, int32_t i, int tip)
 {
     const real farthest = a->reach[tip].farthest, equal = TIP_EQUAL * a->t->spacing;

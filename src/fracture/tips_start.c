@@ -9,7 +9,9 @@
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the particles, mirror images included, within `radius` [m] of the position X [m]. */
+/* Finds the particles, mirror images included, within `radius` [m] of the position X [m], but at most within an edge of
+ * the search cells. The indices are written to s->found, which grows as needed and is freed by the caller. Returns
+ * their number. */
 int tip_search_near(struct tip_search *s, const real *X, real radius)
 {
     radius = real_min(radius, s->c->edge);
@@ -24,7 +26,7 @@ int tip_search_near(struct tip_search *s, const real *X, real radius)
 /* ---- starts: the ends of pre-cracks ------------------------------------------------------------------------------ */
 
 /* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m]; half:
- * vector from the middle to one end [m]; offset: receives dim components [m]. */
+ * vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the vector [m]. */
 real segment_offset_of_point(const real *centre, const real *half, const real *X, int dim, real *offset)
 {
     real half2 = dot(half, half, dim), along = 0;
@@ -36,7 +38,8 @@ real segment_offset_of_point(const real *centre, const real *half, const real *X
 
 static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n : dim == 2 ? c->n - 1 : 0; }
 
-/* Returns true if an end is on another pre-crack: a corner or a branch of a longer cut is no tip. */
+/* Returns true if position X [m] is within half a spacing of a pre-crack other than number `self`: a corner or a branch
+ * of a longer cut is no tip. crack: the `cracks` pre-cracks of the scene. */
 static bool on_another(const struct crack_tips *t, const struct crack *crack, int cracks, int self, const real *X)
 {
     for (int c = 0; c < cracks; c++) {
@@ -51,7 +54,8 @@ static bool on_another(const struct crack_tips *t, const struct crack *crack, in
     return false;
 }
 
-/* Returns the body in which a crack that ends at X could grow in direction `along`, or -1. */
+/* Returns the number of the body in which a crack that ends at X [m] could grow in direction `along`, or -1 if fewer
+ * than two free particles are ahead of X. */
 static int body_ahead(const struct crack_tips *t, struct tip_search *s, const real *X, const real *along)
 {
     real ahead[DIM_MAX];
@@ -80,7 +84,8 @@ struct crack_tip *tip_add(struct crack_tips *t, int body, const real *origin, co
     return tip;
 }
 
-/* Adds a tip at the end `to` of a segment from `from`, if the body continues there. */
+/* Adds a tip at the end `to` of a segment of pre-crack number `self`, if a body continues there and no other pre-crack
+ * does. from, to: ends of the segment [m]; crack: the `cracks` pre-cracks of the scene. */
 static void start_at_end(struct crack_tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                          const real *from, const real *to)
 {
@@ -93,8 +98,8 @@ static void start_at_end(struct crack_tips *t, struct tip_search *s, const struc
     if (body >= 0) tip_add(t, body, to, along)->from_crack = true;
 }
 
-/* Computes the unit vector in the plane of a polygon, perpendicular to edge k and away from the middle. Returns false
- * if the edge has no length. */
+/* Computes the unit vector `outward` in the plane of polygon c, perpendicular to its edge k (from corner k to the next
+ * one) and away from its middle. Returns false if the edge has no length. */
 static bool edge_outward(const struct crack *c, int k, real *outward)
 {
     const real *a = c->corner[k], *b = c->corner[(k + 1) % c->n];
@@ -111,7 +116,8 @@ static bool edge_outward(const struct crack *c, int k, real *outward)
     return size > 0;
 }
 
-/* Adds a front along the part of a polygon's edge inside the body, found in steps of about a spacing. */
+/* Adds a front along the part of edge k of polygon number `self` that is inside a body, found in steps of about a
+ * spacing. Adds none if no part is. crack: the `cracks` pre-cracks of the scene. */
 static void start_at_edge(struct crack_tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                           int k)
 {
