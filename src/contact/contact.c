@@ -11,8 +11,10 @@
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
-/* Initialises the contact of a run; no pairs are searched yet. shape and rigid are kept by reference and must outlive
- * c. */
+/* Initialises the contact of a run; no pairs are searched yet. between: what may come into contact; law: form, contact
+ * distance and friction; the stiffness k follows from the materials of `source` times `stiffness` [1]. shape: shapes of
+ * the bodies, for the surface above particles. shape and rigid[rigids] are kept by reference and must outlive c.
+ * Release with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids)
@@ -68,8 +70,10 @@ void contact_free(struct contact *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Returns the square of the frequency [1/s^2] of a free rigid body against particles in contact on both sides: one
- * particle per spacing of both faces, stiffness 2 k each (contact_rigid.c), and the mass of the body. */
+/* Returns the largest squared frequency [1/s^2] of a free rigid body with particles in contact on both sides: one
+ * particle per spacing of both faces, a stiffness of 2 k each (contact_rigid.c), and the mass of the body. m: material
+ * of the particles; stiffness: k per squared volume; volume: of a particle [m^3]. Returns 0 without free rigid
+ * bodies. */
 static real rigid_swing(const struct contact *c, const struct particles *p, const struct material *m, real stiffness,
                         real volume)
 {
@@ -83,12 +87,13 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     return most;
 }
 
-/* Returns the critical time step of bodies in contact [s]; bonds: that of their bonds alone [s].
- * Two particles in contact have the squared frequency 2 k/m. A particle of a flat face has half of its bonds; of the
- * other face one particle is opposite, or in 2D two and in 3D three are beside it, at 60 degrees or more to the face: a
- * normal stiffness of 1, 1.5 and 2 k in all. Rubble, with up to eight contacts a particle, needs 0.61 of the critical
- * step of the bonds in 2D; the safety where bonds may break is 0.5. (The rule of LAMMPS adds contact with all 2, 8 or
- * 26 neighbours to full families.) */
+/* Returns the critical time step of bodies in contact [s], INFINITY if contact is not possible. bonds: critical time
+ * step of their bonds alone [s]; m: the materials.
+ * Two particles in contact have the squared frequency 2 k/mass. A particle of a flat face has half of its bonds. Of the
+ * other face one particle is opposite, or in 2D two and in 3D three are next to it, at 60 degrees or more to the face:
+ * a normal stiffness of 1, 1.5 and 2 k in total. Rubble, with up to eight contacts per particle, needs 0.61 of the
+ * critical step of the bonds in 2D; the safety factor where bonds may break is 0.5. (The rule of LAMMPS adds contact
+ * with all 2, 8 or 26 neighbours to full families.) */
 real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds)
 {
     static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2}, squeezed[DIM_MAX + 1] = {0, 2, 4, 26.0 / 3};
@@ -108,7 +113,8 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Adds the contacts that one thread has found to those of all threads. */
+/* Adds the contacts that one thread has found, `own`, to those of all threads: number, largest overlap and its
+ * particle. */
 static void found_join(struct contact_found *all, const struct contact_found *own)
 {
     const int64_t touching = all->touching + own->touching;
@@ -116,9 +122,9 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Evaluates contact for all rows (particles that may come into contact) in parallel. Form `surface`: computes the gaps,
- * from which faces_force computes forces; form `pair`: adds the forces. *all: receives number and depth of the
- * contacts. dt: time step [s]. */
+/* Evaluates contact for all rows of the contact list (particles that may come into contact) in parallel. With the form
+ * `surface` the gaps are computed, from which faces_force computes forces; with the form `pair` the forces are added to
+ * p->f. *all: receives number, largest overlap and its particle. dt: time step [s]. */
 static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
@@ -139,7 +145,8 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
     }
 }
 
-/* Computes the forces of form `surface`, friction included, in two passes over the rows. */
+/* Adds the contact forces of form `surface`, friction included, to p->f, in two passes over the rows of the contact
+ * list. Gaps must have been computed by rows_sweep. dt: time step [s]. */
 static void faces_force(struct contact *c, struct particles *p, real dt)
 {
 #pragma omp parallel
@@ -163,7 +170,7 @@ void contact_allocate_forces(struct contact *c, const struct particles *p)
 }
 
 /* Records the contact forces in c->push as the difference of p->f after and before they are added. after: false in the
- * first call, true in the second. */
+ * call before, true in the call after. */
 static void record(struct contact *c, const struct particles *p, bool after)
 {
     for (int d = 0; d < p->dim; d++)
@@ -195,7 +202,8 @@ struct contact_sum {
     const struct particles *p;
 };
 
-/* Returns the contact energy of a row [J], for a sum over rows. context: a struct contact_sum. */
+/* Returns the contact energy of row `row` of the contact list [J], as a term of a sum over rows. context: a struct
+ * contact_sum. */
 static real contact_energy_term(const void *context, int64_t row)
 {
     const struct contact_sum *s = context;
@@ -214,7 +222,7 @@ real contact_energy(const struct contact *c, const struct particles *p)
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
 /* Saves an array to the archive if a->saving, else allocates *array and restores it. name: of the entry; count: number
- * of elements of `size` bytes. */
+ * of elements of `size` bytes. Returns the status of the archive. */
 status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size)
 {
     if (!a->saving) {
@@ -224,7 +232,7 @@ status contact_array_save_or_load(struct archive *a, const char *name, void **ar
     return count > 0 ? a->exchange(a, name, *array, (size_t)count * size) : OK;
 }
 
-/* Returns FAILED if an index of a restored list is out of range. */
+/* Returns FAILED, with a message, if an index of the restored contact list is out of range. */
 static status contact_check(const struct contact *c, const struct particles *p)
 {
     bool good = c->rows <= c->n && c->first[0] == 0 && c->first[c->rows] == c->pairs;
@@ -235,7 +243,7 @@ static status contact_check(const struct contact *c, const struct particles *p)
 }
 
 /* Saves or restores the state of contact. The list of pairs, which determines which pairs act and where their contact
- * begins, is restored without a search. Returns FAILED if the archive has no valid list. */
+ * begins, is restored without a search. Returns FAILED, with a message, if the archive contains no valid list. */
 status contact_save_or_load(struct contact *c, const struct particles *p, struct archive *a)
 {
     int64_t numbers[] = {c->made,   c->n,       c->rows,       c->pairs,        c->searched,

@@ -23,8 +23,8 @@ static real kernel_slope(real q) { return -20 * q * (1 - q) * square(1 - q); }
 
 /* ---- depth of a face by the density above it --------------------------------------------------------------------- */
 
-/* Computes the density at height s [spacings] above a particle of a layer of a square lattice, and its derivative
- * by s. */
+/* Computes the density of a face at height s [spacings] above a particle of it, and its derivative by s, for a face
+ * that is a layer of a square or cubic lattice. */
 static void layer_density(int dim, real s, real *density, real *slope)
 {
     *density = *slope = 0;
@@ -49,8 +49,8 @@ void contact_profile_make(struct contact_profile *profile, int dim)
     }
 }
 
-/* Returns the depth [spacings] and its derivative by the density: cubic between nodes, linear for higher densities,
- * constant for lower ones. */
+/* Returns the depth [spacings] of a face below a point with this density, from the table `profile`, and its derivative
+ * by the density in *slope: cubic between nodes, linear for higher densities, constant for lower ones. */
 static real table_depth(const struct contact_profile *profile, real density, real *slope)
 {
     int low = 0, high = PROFILE_NODES - 1;
@@ -74,8 +74,8 @@ static real table_depth(const struct contact_profile *profile, real density, rea
 
 /* ---- field of the faces ----------------------------------------------------------------------------------------- */
 
-/* Returns the weight m_l of list entry l in the density at entry k, the ratio of the spacings to the power dim - 1.
- * *reach: range of the density [m]. */
+/* Returns the weight of list entry l in the density of a face at list entry k: the ratio of the spacing of l to their
+ * mean, to the power dim - 1 [1]. *reach: receives the range of the density [m]. */
 static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, real *reach)
 {
     const real mean = 0.5 * (c->size[k] + c->size[l]), ratio = c->size[l] / mean;
@@ -88,7 +88,8 @@ struct face_field {
     real density, mean;
 };
 
-/* Computes the field at the particle of a row from positions x [dim]. */
+/* Computes density and mean rise of the faces around the particle of row `row` of the contact list, from the positions
+ * place[dim][particles] (present or reference) [m]. */
 static struct face_field face_field_at(const struct contact *c, const struct particles *p, real *const *place,
                                        int64_t row)
 {
@@ -114,7 +115,8 @@ struct face_gap {
     bool leans;
 };
 
-/* Computes height and gap of a particle from the field at it. zero: height at which contact begins [spacings]. */
+/* Computes height and gap [spacings] of a particle above a face from the field of the face at the particle, and their
+ * derivative by the density. zero: height at which contact begins [spacings]. */
 static struct face_gap face_gap(const struct contact *c, const struct face_field *field, real zero)
 {
     struct face_gap at;
@@ -156,7 +158,8 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
                                                                        : 0;
 }
 
-/* Returns the derivative of the energy of entry k by the weight of entry l. */
+/* Returns the derivative of the contact energy of list entry k by the weight of list entry l in the density at k
+ * [J]. */
 static real face_pull(const struct contact *c, int64_t k, int64_t l)
 {
     const struct contact_face *face = &c->face[c->root[k]];
@@ -181,8 +184,8 @@ struct contact_weight contact_face_weight(const struct contact *c, const struct 
     return w;
 }
 
-/* Adds the contact force on the particle of a row to p->f: the derivative of the energy of this row and of those of all
- * rows whose density field contains the particle. */
+/* Adds the contact force on the particle of row `row` of the contact list to p->f: the derivatives of the energy of
+ * this row, and of the energies of all rows whose density contains the particle. */
 void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -226,7 +229,8 @@ void contact_face_spring(const struct contact *c, const struct particles *p, int
 
 /* ---- begin of contact -------------------------------------------------------------------------------------------- */
 
-/* Returns the stiffness k of a row [J]: of the softest of its pairs; without pairs, of two particles of its kind. */
+/* Returns the stiffness k of row `row` of the contact list, for gaps in spacings [J]: that of the softest of its pairs;
+ * without pairs, that of two particles of its kind. */
 static real face_stiffness(const struct contact *c, const struct particles *p, int64_t row)
 {
     real least = INFINITY;
@@ -237,8 +241,8 @@ static real face_stiffness(const struct contact *c, const struct particles *p, i
     return isfinite(least) ? least : contact_stiffness(c, p, row, row) * square(c->size[row]);
 }
 
-/* Returns the largest width of a notch between the particle of a row and its neighbours in the reference configuration
- * [spacings]. */
+/* Returns the largest width [spacings] of a notch (a pre-crack with a width) between the particle of row `row` of the
+ * contact list and its neighbours in the reference configuration; 0 if there is none. */
 static real face_notch(const struct contact *c, const struct particles *p, int64_t row)
 {
     real widest = 0;
@@ -252,8 +256,9 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
-/* Returns a lower bound of the gap of a row [spacings], for the present density but with the largest rise of its pairs
- * in place of the mean rise: this changes abruptly when a particle comes into the range of others. */
+/* Returns a lower bound of the gap of row `row` of the contact list [spacings], from its density field, but with the
+ * largest rise of its pairs in place of the mean rise. The mean rise changes abruptly when a particle comes into the
+ * range of others. */
 static real least_gap(const struct contact *c, const struct face_field *field, int64_t row)
 {
     struct face_field highest = *field;
@@ -262,7 +267,8 @@ static real least_gap(const struct contact *c, const struct face_field *field, i
     return face_gap(c, &highest, c->face[row].zero).gap;
 }
 
-/* Returns true if a row has the same pairs as row `was` of the previous list, and thus the same field. */
+/* Returns true if row `row` of the contact list has the same pairs as row `was` of the previous list `before`, and
+ * therefore the same density field. */
 static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
 {
     const int64_t n = c->first[row + 1] - c->first[row];
@@ -272,9 +278,10 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* Determines where contact of a row begins, after a search. was: row of the particle in the previous list `before`, -1:
- * none. A row in contact gets the overlap with which its energy does not change. Otherwise contact begins where the
- * surfaces of the scene meet, or later if the reference or the present configuration is closer. */
+/* Determines at which height above the face contact of row `row` begins, after a search. was: row of the particle in
+ * the previous list `before`, -1: none. A row already in contact gets the overlap with which its energy does not
+ * change. Otherwise contact begins where the surfaces of the bodies meet, or later if the particle is closer in the
+ * reference or the present configuration. */
 void contact_face_set_height(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                              int64_t row)
 {

@@ -4,14 +4,16 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
-/* Returns false if the faces beside a row are too far to come into contact before the next search: both sides approach
- * by half a skin at most, and fields are nearly flat. */
+/* Returns false if the faces beside row `row` of the contact list are too far to come into contact before the next
+ * search. Both sides approach by at most half the skin CONTACT_SKIN, and the density of a face is nearly flat along
+ * it. */
 static bool may_meet(const struct contact *c, int64_t row)
 {
     return c->law.form == CONTACT_PAIR || c->face[row].far <= CONTACT_FLATNESS * 0.5 * CONTACT_SKIN;
 }
 
-/* Returns true if the row, or a row whose field contains its particle, may come into contact. */
+/* Returns true if row `row` of the contact list, or a row whose density contains its particle, may come into contact
+ * before the next search. False for rows without pairs. */
 static bool row_is_near(const struct contact *c, int64_t row)
 {
     if (c->first[row + 1] == c->first[row]) return false;
@@ -20,6 +22,7 @@ static bool row_is_near(const struct contact *c, int64_t row)
     return near;
 }
 
+/* Returns true if the particle of list entry k has left its reference position. */
 static bool entry_has_moved(const struct contact *c, const struct particles *p, int64_t k)
 {
     const int32_t i = c->particle[k];
@@ -28,7 +31,8 @@ static bool entry_has_moved(const struct contact *c, const struct particles *p, 
     return false;
 }
 
-/* Returns true if the particle of a row or one of its neighbours has ever moved; otherwise contact exerts no force. */
+/* Returns true if the particle of row `row` or a neighbour in its pairs has left its reference position; otherwise
+ * contact exerts no force on it. */
 static bool row_has_moved(const struct contact *c, const struct particles *p, int64_t row)
 {
     bool moved = entry_has_moved(c, p, row);
@@ -36,8 +40,8 @@ static bool row_has_moved(const struct contact *c, const struct particles *p, in
     return moved;
 }
 
-/* Returns true if a neighbouring row is marked ROW_ACTIVE. Other threads may change that row from ROW_NEAR to
- * ROW_SOURCE meanwhile, which does not change the result; therefore both accesses are atomic. */
+/* Returns true if a neighbour of row `row` in its pairs is marked ROW_ACTIVE. Other threads may change that mark from
+ * ROW_NEAR to ROW_SOURCE meanwhile, which does not change the result; therefore both accesses are atomic. */
 static bool beside_active(const struct contact *c, int64_t row)
 {
     bool beside = false;
@@ -50,9 +54,9 @@ static bool beside_active(const struct contact *c, int64_t row)
     return beside;
 }
 
-/* Marks rows that may come into contact and have a moving particle nearby as ROW_ACTIVE, so that their contact is
- * evaluated, and their neighbours, on which the forces act, as ROW_SOURCE. Returns true if a row was marked
- * ROW_ACTIVE. */
+/* Marks rows of the contact list that may come into contact and have a moving particle nearby as ROW_ACTIVE, so that
+ * their contact is evaluated. Their neighbours, on which contact forces act too, are marked ROW_SOURCE. Returns true if
+ * a row was marked ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {
     int64_t found = 0;
@@ -73,8 +77,8 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     return found > 0;
 }
 
-/* Marks the particles that contact may push as loaded and their row blocks as active, so that they move after
- * contact. */
+/* Marks the particles on which contact may act as loaded in l, and their row blocks in b as active, so that they are
+ * moved after the contact forces are known. */
 static void rows_touch(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);

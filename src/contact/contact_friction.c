@@ -8,7 +8,8 @@
 #include "data/derived_fields.h"
 #include "contact_internal.h"
 
-/* Rotates the spring into the plane of the face, which may have turned, at constant length. */
+/* Rotates the friction spring spring[dim] [m] into the plane perpendicular to the unit vector normal[dim], without
+ * changing its length. The face may have turned since the last step. A spring along the normal stays unchanged. */
 static void lay_down(real *spring, const real *normal, int dim)
 {
     const real out = dot(spring, normal, dim), before = dot(spring, spring, dim), after = before - square(out);
@@ -63,7 +64,8 @@ struct contact_partner {
     real slip[DIM_MAX];                   /* slip [m/s] */
 };
 
-/* Computes the normal force, density, mean position and mean velocity at the positions x - lag v. */
+/* Computes the normal force on the particle of row `row`, and density, mean position and mean velocity of the face
+ * beside it, at the positions x - lag v. lag: time [s]. Other members of the result are 0. */
 static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner sum = {.density = 0};
@@ -82,7 +84,8 @@ static struct contact_partner partner_mean(const struct contact *c, const struct
     return sum;
 }
 
-/* Adds share (r^2 1 - r r) to a symmetric tensor, in the order of tensor_principal_values. */
+/* Adds share (r^2 1 - r r^T) to the symmetric tensor[6], in the order of tensor_principal_values: xx, yy, zz, xy, yz,
+ * zx. */
 static void inertia_add(real *tensor, const real *r, real share)
 {
     for (int a = 0; a < 3; a++) {
@@ -92,6 +95,7 @@ static void inertia_add(real *tensor, const real *r, real share)
     }
 }
 
+/* Returns e . T e for the symmetric tensor T[6] (xx, yy, zz, xy, yz, zx) and the vector e[3]. */
 static real quadratic_form(const real *tensor, const real *e)
 {
     real sum = 0;
@@ -99,8 +103,9 @@ static real quadratic_form(const real *tensor, const real *e)
     return sum;
 }
 
-/* Computes the pseudo-inverse of I. squares: I with the squares of the weights, by which the forces of a couple are
- * found. */
+/* Computes to->inverse, the pseudo-inverse of the tensor I of the particles of a face. inertia: I; squares: the same
+ * sum with squared weights, which bounds the forces of a couple. Axes with too small inertia, or too large forces, are
+ * left out. */
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
@@ -114,8 +119,9 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
     }
 }
 
-/* Computes the pseudo-inverse of the tensor I of the particles of the face about their mean position, and their angular
- * velocity omega [1/s], from the means in *to. */
+/* Computes the pseudo-inverse of the tensor I of the particles of the face beside row `row` about their mean position,
+ * and their angular velocity omega[3] [1/s], at the positions x - lag v. to: contains density, arm and velocity of the
+ * face. lag: time [s]. */
 static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
                          real lag, real *omega)
 {
@@ -136,7 +142,8 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Computes the rigid motion of the face beside a row (struct contact_partner) for the positions x - lag v [m]. */
+/* Computes the rigid motion of the face beside row `row` of the contact list and the slip of the row's particle
+ * relative to it, at the positions x - lag v. lag: time [s]. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);
@@ -147,8 +154,9 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
     return partner;
 }
 
-/* Advances the friction spring of a row by a step dt [s], and stores its reaction on the face. The slip is the mean of
- * those at the start and at the end of the step, since leap-frog applies the forces of both times to it. */
+/* Advances the friction spring of row `row` of the contact list by a step dt [s], and stores its reaction on the face.
+ * The slip is the mean of those at start and end of the step, because leap-frog applies the forces of both times to
+ * it. */
 void contact_face_advance_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
@@ -172,8 +180,8 @@ void contact_face_advance_spring(struct contact *c, const struct particles *p, i
     }
 }
 
-/* Adds to f [N] the part of the reaction to the friction on row l that acts on the particle of `row`, which is part of
- * the face that the particle of row l touches. */
+/* Adds to f[dim] [N] the part of the reaction to the friction on row l that acts on the particle of row `row`, which
+ * belongs to the face that the particle of row l touches. */
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
@@ -185,8 +193,9 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
     for (int d = 0; d < p->dim; d++) f[d] -= share * (c->spring[l].drag[d] + turning[d]);
 }
 
-/* Adds the friction forces on the particle of a row to p->f: of its own spring, and the reactions of the springs of
- * other rows. Particles have no images here: scenes with mirrors have no friction. */
+/* Adds the friction forces on the particle of row `row` of the contact list to p->f: of its own spring, and the
+ * reactions of the springs of other rows. Particles have no mirror images here, since scenes with mirrors have no
+ * friction. */
 void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -199,11 +208,14 @@ void contact_face_add_friction(const struct contact *c, struct particles *p, int
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Return the elastic energy of friction spring k, and the energy that its sliding has dissipated, for sums [J]. */
+/* Returns the elastic energy of friction spring k [J], as a term of a sum. context: the array of springs. */
 static real stored_in(const void *context, int64_t k) { return ((const struct contact_spring *)context)[k].stored; }
+/* Returns the energy that sliding of friction spring k has dissipated [J], as a term of a sum. context: the array of
+ * springs. */
 static real lost_by(const void *context, int64_t k) { return ((const struct contact_spring *)context)[k].lost; }
 
-/* Returns the sum of a term over the friction springs of all rows and of all contacts with rigid bodies. */
+/* Returns the sum of `term` (stored_in or lost_by) over the friction springs of all rows and of all contacts with rigid
+ * bodies [J]. */
 static real springs_sum(const struct contact *c, real (*term)(const void *context, int64_t k))
 {
     real sum = c->spring ? reproducible_sum(c->rows, term, c->spring) : 0;
@@ -221,8 +233,8 @@ void contact_reactions_make(struct contact *c)
     c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
 }
 
-/* Creates the friction springs of a new list of rows. Springs of particles that were in the previous list are copied
- * from it; the energy of the other springs is lost. */
+/* Creates the friction springs of a new contact list. Springs of particles that were in the previous list `before` are
+ * copied from it; the energy of the other springs is lost. Does nothing without friction. */
 void contact_springs_copy(struct contact *c, const struct contact *before)
 {
     if (!(c->law.friction > 0)) return;

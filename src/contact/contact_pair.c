@@ -9,7 +9,8 @@ struct contact_pair {
     real overlap, r, k, apart[DIM_MAX];
 };
 
-/* Returns the pair number q of a row; all members are 0 if it is not in contact. */
+/* Returns pair number q of row `row` of the contact list: overlap, distance, stiffness and distance vector. Overlap and
+ * stiffness are 0 if the pair is not in contact. */
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     struct contact_pair pair = {0};
@@ -50,9 +51,10 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
     return sqrt(contact_distance_vector(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
-/* Returns the distance at which contact between list entries k and l begins [m]: the smaller of the distance in the
- * reference configuration and the mean spacing; for a pair that is closer when it is found, its present distance until
- * it opens. was: contact distance on the previous list [m], NAN: the pair is new. Bitwise equal from both rows. */
+/* Returns the distance at which contact between list entries k and l begins [m]: the smaller of their distance in the
+ * reference configuration and their mean spacing, minus the width of a notch between them. If the pair is closer when
+ * it is found, it is the present distance until the pair opens. was: contact distance on the previous list [m], NAN if
+ * the pair is new. Bitwise equal for (k, l) and (l, k). */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was)
 {
     const int32_t i = c->particle[k], j = c->particle[l];

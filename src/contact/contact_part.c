@@ -12,7 +12,8 @@
 
 static void contact_free_all(struct run *e) { contact_free(e->contact); }
 
-/* Writes times, numbers of contacts and the largest overlap of a run with contact. */
+/* Writes the JSON object "contact" if particles or grids can be in contact: times of first and last contact, largest
+ * numbers of contacts, work of friction and largest overlap. */
 static void put_contact(const struct contact *c, const struct grid_method *mpm, struct json *j)
 {
     const struct grid_contact *g = &mpm->contact;
@@ -40,7 +41,8 @@ static status contact_state(struct run *e, struct archive *a)
     return OK;
 }
 
-/* Writes the final state of each rigid body and the largest force on it. */
+/* Writes the JSON array "rigid": for each rigid body its final position and velocity, the largest force on it and the
+ * diameter of its contact patch. Writes nothing without rigid bodies. */
 static void put_rigid(const struct rigid_set *rigid, const struct contact *c, const struct particles *p,
                       const struct run_clock *clock, struct json *j)
 {

@@ -23,8 +23,8 @@ void contact_rigid_free(struct contact *c)
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Returns the gap between the surface above the particle of a row and rigid body r [m], negative: overlap. normal: of
- * the surface of r. */
+/* Returns the gap [m] between rigid body r and the surface of the body above the particle of row `row` of the contact
+ * list; negative if they overlap. normal: receives the outward unit normal of r. */
 static real gap_of(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                    real *normal)
 {
@@ -34,8 +34,8 @@ static real gap_of(const struct contact *c, const struct particles *p, const str
     return rigid_distance(r, x, normal) - (0.5 + c->rise[row]) * c->size[row];
 }
 
-/* Returns true if the particle of a row may come into contact with r before the next search. Distant particles are
- * rejected early. */
+/* Returns true if the particle of row `row` may come into contact with rigid body r before the next search, i.e. if
+ * their gap is less than `skin` [m]. Distant particles are rejected early by a bounding test. */
 static bool is_near(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                     real skin)
 {
@@ -44,7 +44,8 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
     return rigid_may_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
-/* Returns the entry of a particle on the previous list of a body, or -1. */
+/* Returns the entry of particle `particle` in the previous list near rigid body `body`, by bisection, or -1 if it was
+ * not in it. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
     const int64_t row = before->made ? contact_list_find(before, particle) : -1;
@@ -59,9 +60,9 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
     return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
 
-/* Lists the rows whose particles may come into contact with rigid body `body` before the next search, i.e. within
- * `skin` [m]. before: previous lists, from which the state of contacts is kept. As for pairs, contact of a particle
- * that is closer when it is found begins at its present gap, until the gap opens. */
+/* Lists the rows whose particles may come into contact with rigid body `body` before the next search, i.e. with a gap
+ * of less than `skin` [m]. before: previous lists, from which friction springs and gaps are copied. Contact of a
+ * particle that overlaps when it is found begins at its present gap, until the gap opens. */
 static void near_find_body(struct contact *c, const struct contact *before, const struct particles *p, int body,
                            real skin)
 {
@@ -119,15 +120,17 @@ bool contact_rigid_has_moved(const struct contact *c, real far)
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Returns the gap of list entry q minus the gap at which contact begins [m], negative: overlap. */
+/* Returns the gap [m] between the particle of entry q in the list near rigid body `body` and this body, minus the gap
+ * at which contact begins; negative if they overlap. normal: receives the outward unit normal of the body. */
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const struct contact_near *near = &c->near[body];
     return gap_of(c, p, &c->rigid[body], near->row[q], normal) - near->zero[q];
 }
 
-/* Returns the overlap of list entry q with a rigid body [m], 0 if contact does not act; in equilibria also negative, as
- * the marks determine which contacts act. */
+/* Returns the overlap of entry q in the list near rigid body `body` with this body [m], 0 if contact does not act. In
+ * equilibria it can be negative, because marks determine which contacts act. normal: receives the outward unit normal
+ * of the body. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_rigid_selection_marks(c, body);
@@ -149,7 +152,8 @@ real contact_patch_diameter(const struct contact *c, const struct particles *p, 
     return sqrt(width2);
 }
 
-/* Updates the energy account (contact_balance.c) of list entry q of a rigid body after a step. */
+/* Updates the account of energy errors (contact_balance.c) of entry q in the list near rigid body `body`, after a
+ * step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];
@@ -158,7 +162,8 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     contact_energy_correction(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
 }
 
-/* Computes the force on the particle of list entry q [N]. Returns the overlap [m]. */
+/* Computes the contact force of rigid body `body` on the particle of entry q in its list, force[DIM_MAX] [N]: normal
+ * force, energy correction and friction. Returns the overlap [m]. */
 static real push_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *force)
 {
     const struct contact_near *near = &c->near[body];
@@ -170,7 +175,7 @@ static real push_of(const struct contact *c, const struct particles *p, int body
     return overlap;
 }
 
-/* Advances the friction spring of list entry q by a step dt [s]. */
+/* Advances the friction spring of entry q in the list near rigid body `body` by a step dt [s]. */
 static void spring_step(struct contact *c, const struct particles *p, int body, int64_t q, real dt)
 {
     const struct contact_near *near = &c->near[body];
@@ -191,8 +196,8 @@ struct rigid_sum {
     int body;
 };
 
-/* Adds force and moment of the particles of list entries first .. end - 1 on a rigid body to sum [6], for
- * reproducible_sums. */
+/* Adds force (3 components) and moment about the body's position (3) of the particles of list entries first .. end - 1
+ * on a rigid body to sum[6]; a block function of reproducible_sums. context: a struct rigid_sum. */
 static void rigid_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -210,7 +215,9 @@ static void rigid_block(const void *context, int64_t first, int64_t end, real *s
 
 enum { RIGID_TERMS = 2 * DIM_MAX };
 
-/* Computes the forces of one body; the bodies follow one another, since a particle may touch several. */
+/* Adds the contact forces of rigid body `body` to p->f, and stores the opposite force and moment in the body. Called
+ * for one body after the other, since a particle may touch several. dt: time step [s], 0: springs are not advanced;
+ * all: receives largest overlap and number of contacts. */
 static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_found *all)
 {
     const struct contact_near *near = &c->near[body];
@@ -245,7 +252,8 @@ real contact_rigid_force_norm(const struct contact *c, const struct particles *p
     return sqrt(sum);
 }
 
-/* Returns the contact energy of list entry q of a rigid body [J], for a sum. context: a struct rigid_sum. */
+/* Returns the contact energy of entry q in the list near a rigid body, k overlap^2 [J], as a term of a sum. context: a
+ * struct rigid_sum. */
 static real near_energy(const void *context, int64_t q)
 {
     const struct rigid_sum *s = context;

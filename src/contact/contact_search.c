@@ -11,21 +11,24 @@ enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces op
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Returns the share of a full family below which a particle counts as part of the first layer of a body. Particles of
- * the first layer have 0.50 (1D) to 0.67 (two spacings in 2D), of the second layer 0.79 or more at 3 spacings. With
- * nearest neighbours alone the first layer has up to 5/6 and the second a full family. */
+/* Returns the fraction of a full family (all neighbours within the horizon) below which a particle is part of the first
+ * layer of a body [1]. Particles of the first layer have 0.50 (1D) to 0.67 (two spacings in 2D), of the second layer
+ * 0.79 or more at 3 spacings. With nearest neighbours alone the first layer has up to 5/6 and the second a full
+ * family. */
 static real first_layer_share(const struct family *f)
 {
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
-/* Returns true if the family of a row has lost more than `lost` [m^3], or less than `least` is left. */
+/* Returns true if the family of row `row` of the bonds, without the volume `lost`, is smaller than `least`, or if there
+ * is no row (-1). lost, least: volumes [m^3]. */
 static bool lacks_family(const struct bonds *b, int64_t row, real lost, real least)
 {
     return row < 0 || b->family_volume[row] - lost < least;
 }
 
-/* Returns true if particle i is near a face; `everywhere`: if it is peridynamic. */
+/* Returns true if particle i is peridynamic and near a face: it is damaged, or its family is smaller than least_volume
+ * [m^3]. everywhere: every peridynamic particle counts. */
 static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, bool everywhere, int64_t i)
 {
     const int64_t row = b->row_of[i];
@@ -60,8 +63,8 @@ real contact_notch_width(const struct contact *c, const struct particles *p, int
     return widest;
 }
 
-/* Returns the spacing of a particle [m]: exactly that of the lattice if its volume is the lattice volume up to
- * round-off. */
+/* Returns the spacing of particle i from its volume [m]: exactly law->spacing if its volume is that of the lattice up
+ * to round-off. */
 static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
 {
     const real full = lattice_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
@@ -69,8 +72,8 @@ static real contact_spacing(const struct contact_law *law, const struct particle
     return law->spacing * pow(share, 1.0 / p->dim);
 }
 
-/* Returns the height of the surface of the body above a particle, by the shapes of the scene, minus 1/2 [spacings]; 0
- * at faces that were inside the body. */
+/* Returns the height of the surface of the body above particle i, from the shapes of the scene, minus 1/2 [spacings]; 0
+ * at faces that were inside the body. size: spacing of the particle [m]. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
     const struct region *shape = law->shape[p->body[i]];
@@ -97,7 +100,8 @@ void contact_list_compute_arrays(struct contact *c, const struct particles *p)
     }
 }
 
-/* Lists the exposed peridynamic particles and their images. */
+/* Lists the exposed peridynamic particles (those near a face), ascending, and then their mirror images, in c->particle,
+ * and stores their present positions. f: family, for the volume of full neighbourhoods. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
@@ -147,7 +151,9 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Appends the pairs of row k. marks: one bit per particle, 0 before and after. */
+/* Appends the pairs of row k to the list `to`: list entries within the range of the search, without neighbours that
+ * share a bond, or in other bodies only, as the law requires. near: working memory; marks: one bit per particle, 0
+ * before and after. */
 static void row_pairs(const struct contact_search *s, struct neighbour_list *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {
@@ -166,8 +172,8 @@ static void row_pairs(const struct contact_search *s, struct neighbour_list *nea
     }
 }
 
-/* Converts the numbers of pairs of the rows in c->first to the indices of their first pairs, and allocates the
- * pairs. */
+/* Converts c->first[k + 1], the number of pairs of each row k, to the index of the first pair of each row, and
+ * allocates c->other, the pairs. */
 static void pairs_room(struct contact *c)
 {
     for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
@@ -175,7 +181,8 @@ static void pairs_room(struct contact *c)
     c->other = BARE("contact.other", c->pairs, int32_t);
 }
 
-/* Finds the pairs of all rows: each thread finds the pairs of its rows, then copies them to their position. */
+/* Finds the pairs of all rows: each thread finds the pairs of its consecutive rows, then copies them to their positions
+ * in c->other. */
 static void pairs_find(struct contact *c, const struct contact_search *s)
 {
     c->first = NEW("contact.first", c->rows + 1, int64_t);
@@ -205,7 +212,8 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
     }
 }
 
-/* Returns the contact distance of particles i and j on the previous list [m], or NAN. */
+/* Returns the contact distance of particle j and the particle of row `row` on the previous list [m], or NAN if the pair
+ * was not on it or row is -1. */
 static real distance_before(const struct contact *before, int64_t row, int32_t j)
 {
     if (row < 0) return NAN;
@@ -214,7 +222,8 @@ static real distance_before(const struct contact *before, int64_t row, int32_t j
     return NAN;
 }
 
-/* Determines where contact of each row, or of each of its pairs, begins. */
+/* Determines where contact of each row (form `surface`) or of each of its pairs (form `pair`) begins. before: previous
+ * contact list, whose contacts continue. */
 static void pairs_begin(struct contact *c, const struct contact *before, const struct particles *p)
 {
     if (c->law.form == CONTACT_SURFACE) {
@@ -234,7 +243,7 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
     }
 }
 
-/* Returns the largest distance of pairs that can come into contact before the next search [m]. */
+/* Returns the largest distance of two particles that can come into contact before the next search [m]. */
 static real search_reach(const struct contact *c)
 {
     real most = 0;
@@ -244,7 +253,7 @@ static real search_reach(const struct contact *c)
 }
 
 /* Finds the exposed particles and the pairs that may come into contact, at the present positions, and transfers the
- * state of pairs, friction springs and rigid bodies from the previous list. */
+ * state of pairs, friction springs and rigid bodies from the previous list, which is freed. */
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
@@ -271,7 +280,8 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
 
 /* ---- times of checks --------------------------------------------------------------------------------------------- */
 
-/* Returns the largest displacement of a listed particle since the last search [m], INFINITY if unknown. */
+/* Returns the largest displacement of a listed particle since the last search [m], INFINITY if a position is not
+ * finite. */
 static real largest_displacement(const struct contact *c, const struct particles *p)
 {
     real far2 = 0;
@@ -284,15 +294,16 @@ static real largest_displacement(const struct contact *c, const struct particles
     return sqrt(far2);
 }
 
-/* Returns true if a particle or rigid body has moved by half the skin. */
+/* Returns true if a listed particle or a rigid body has moved by half the margin of the contact list since the last
+ * search, so that the list may be incomplete. */
 static bool has_come_far(const struct contact *c)
 {
     const real far = 0.5 * contact_list_margin(c);
     return !(c->moved < far) || contact_rigid_has_moved(c, far);
 }
 
-/* Requests a search for contact if one of n listed particles, which have just become peridynamic, is part of the first
- * layer of a face. Particles with few broken bonds form no face; they are listed by the next search. */
+/* Requests a search for contact if one of the particles list[n], which have just become peridynamic, is part of the
+ * first layer of a face. Particles with few broken bonds form no face; they are listed by the next search. */
 void contact_request_search(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list,
                             int64_t n)
 {

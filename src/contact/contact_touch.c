@@ -10,7 +10,8 @@
 
 #define KEPT 1e-10 /* gaps and overlaps that change no mark [spacings] */
 
-/* Allocates the marks of a new list. */
+/* Allocates the marks of active contacts of a new list, all 0: one for each row or pair, and one for each entry near a
+ * rigid body. */
 static void marks_room(struct contact *c)
 {
     memory_free(c->touch);
@@ -29,8 +30,8 @@ void contact_selection_activate_all(struct contact *c)
     c->waiting = 0;
 }
 
-/* Sets the mark of a contact, 1 for active, from its gap [spacings]: a contact becomes active at gaps below `close`,
- * and stays active up to round-off (KEPT). Returns true if the mark has changed. */
+/* Sets the mark *touch of a contact, 1 for active, from its gap [spacings]. A contact becomes active at gaps below
+ * `close` [spacings], and stays active up to round-off (KEPT). Returns true if the mark has changed. */
 static bool mark_set(uint8_t *touch, real gap, real close)
 {
     const uint8_t was = *touch;
@@ -38,14 +39,15 @@ static bool mark_set(uint8_t *touch, real gap, real close)
     return *touch != was;
 }
 
-/* Returns the gap up to which contact of a row with list entry l is active [spacings]: `close` between different
- * bodies, 0 between faces of one body, since faces of a crack coincide without force. */
+/* Returns the gap up to which contact of row `row` with list entry l becomes active [spacings]: `close` between
+ * different bodies. Between faces of one body it is 0, since the faces of a crack coincide without force. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
     return p->body[c->particle[row]] != p->body[image_source_particle(p, c->law.image, c->particle[l])] ? close : 0;
 }
 
-/* Sets the marks of the contacts of a row from their gaps (mark_set). Returns the number of marks that have changed. */
+/* Sets the marks of active contacts of row `row` from their gaps. close: gap up to which contacts of different bodies
+ * become active [spacings]. Returns the number of marks that have changed. */
 static int64_t mark_row(struct contact *c, const struct particles *p, int64_t row, real close)
 {
     int64_t changed = 0;
@@ -61,7 +63,8 @@ static int64_t mark_row(struct contact *c, const struct particles *p, int64_t ro
     return changed;
 }
 
-/* Sets the forces that contact_balance computed in the last time step to 0: an equilibrium must not contain them. */
+/* Sets the forces that contact_balance computed in the last time step to 0, because an equilibrium must not contain
+ * them. */
 static void balances_rest(struct contact *c)
 {
     for (int64_t row = 0; row < c->rows && c->balance; row++) c->balance[row].drag = 0;
@@ -119,7 +122,8 @@ struct visit {
     struct contact_term term;
 };
 
-/* Calls v->visit for each active contact of a row with another particle (form `pair`), as a linear spring. */
+/* Calls v->visit for each active contact of the particle of row `row` with another particle, described as a linear
+ * spring (form `pair`). */
 static void pair_terms(struct visit *v, int64_t row)
 {
     const struct contact *c = v->c;
@@ -136,7 +140,7 @@ static void pair_terms(struct visit *v, int64_t row)
     }
 }
 
-/* Calls v->visit for each active contact of a particle with a rigid body, as a linear spring. */
+/* Calls v->visit for each active contact of a particle with rigid body `body`, described as a linear spring. */
 static void rigid_terms(struct visit *v, int body)
 {
     const struct contact *c = v->c;
@@ -173,7 +177,8 @@ void contact_visit_springs(const struct contact *c, const struct particles *p,
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the selection of contacts for equilibria (contact_select) to the archive if a->saving, else restores it. */
+/* Saves the marks of active contacts of an equilibrium (contact_select) to the archive if a->saving, else restores
+ * them. Returns the status of the archive. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;
