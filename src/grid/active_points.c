@@ -5,10 +5,11 @@
 
 #include "base/memory.h"
 
-/* Returns true if the load may move a particle at rest; planes of symmetry never do. */
+/* Returns true if load number `load` may move a particle at rest: all loads except planes of symmetry. */
 static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
 
-/* Returns true if nothing moves or loads material point i: no load, bond, velocity, force or stress. */
+/* Returns true if material point i is at rest and nothing moves it: no load, bond, velocity, force or stress.
+ * has_gradient: velocity gradients (APIC) must be zero too. */
 static bool active_points_is_inactive(const struct loads *l, const struct particles *p, const struct bonds *b,
                                       int32_t i, bool has_gradient)
 {
@@ -20,6 +21,8 @@ static bool active_points_is_inactive(const struct loads *l, const struct partic
     return inactive;
 }
 
+/* Returns the index of the grid cell of particle i, by its lowest node. The particle must be inside the box of
+ * nodes. */
 static int64_t active_points_cell_of(const struct grid *g, const struct particles *p, int32_t i)
 {
     int64_t I = 0;
@@ -27,7 +30,8 @@ static int64_t active_points_cell_of(const struct grid *g, const struct particle
     return I;
 }
 
-/* Marks in `to` every cell within `reach` cells along an axis of a cell marked in `from`. */
+/* Sets to[c] = 1 for every cell c that is within `reach` cells along `axis` of a cell marked in `from`, else 0. from,
+ * to: [g->n], one byte per cell, different arrays. */
 static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int axis, int64_t reach)
 {
     const int64_t stride = g->stride[axis], count = g->count[axis], lines = g->n / count;
@@ -47,17 +51,18 @@ static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int ax
     }
 }
 
-/* Returns the number of cells by which motion can spread in the time between two searches: one cell per step through
- * shared nodes, three if shapes reach beyond a cell, twice as many with FLIP, which maps twice, and two more if planes
- * of symmetry connect nodes on both sides. */
+/* Returns the number of cells by which motion can spread in the ACTIVE_POINTS_STEPS steps between two searches. In a
+ * step it spreads by one cell through shared nodes, by three if shapes reach beyond a cell, by twice as many with FLIP,
+ * which maps twice, and by two more if planes of symmetry connect nodes on both sides. */
 static int64_t active_points_reach_of(const struct grid *g, enum shape shape, enum transfer transfer)
 {
     const int shared = shape == SHAPE_LINEAR ? 1 : 3;
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Marks in r->active_cell the cells with a point that moves or is loaded, and those of nodes that a wall moves. now:
- * the cells to be examined; all others are still at rest. */
+/* Sets r->active_cell to 1 for cells with a point that moves or is loaded and for cells of nodes that a wall moves,
+ * else to 0. now: order of the points examined; points outside it are still at rest. has_gradient: points have velocity
+ * gradients (APIC). */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
@@ -73,7 +78,7 @@ static void active_points_mark(struct active_points *r, const struct transfer_or
         if (moves(l, g->wall[k].load)) r->active_cell[g->wall[k].node] = 1;
 }
 
-/* Reallocates the marks of cells if the grid has more nodes than before; all are then 0. */
+/* Reallocates the marks of cells in r if the grid has more nodes than before. New marks are 0. */
 static void make_room(struct active_points *r, const struct grid *g)
 {
     if (r->nodes >= g->n) return;
@@ -82,7 +87,8 @@ static void make_room(struct active_points *r, const struct grid *g)
     r->active_cell = NEW("active_set.active_cell", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
 }
 
-/* Makes the list of active cells and their points (r->active) from the marked cells of the list `all`, in its order. */
+/* Makes the order of active points, r->active, from the marked cells of the order `all`, cell by cell in the same
+ * sequence. */
 static void active_points_take(struct active_points *r, const struct transfer_order *all, const struct particles *p,
                                const struct grid *g)
 {

@@ -24,7 +24,7 @@ struct shared {
     int64_t first[DIM_MAX], count[DIM_MAX], n;
 };
 
-/* Finds the range of nodes that points of both sides may reach. Returns false if there are none. */
+/* Computes the box of nodes *s that points of both sides a and b may reach. Returns false if it is empty. */
 static bool shared_find(struct shared *s, const struct grid_contact_side *a, const struct grid_contact_side *b)
 {
     s->n = 1;
@@ -39,7 +39,7 @@ static bool shared_find(struct shared *s, const struct grid_contact_side *a, con
     return true;
 }
 
-/* Returns the index in grid g of node number k of the range. */
+/* Returns the index in grid g of node number k of the shared box s. */
 static int64_t shared_node(const struct shared *s, const struct grid *g, int64_t k)
 {
     int64_t I = 0;
@@ -50,19 +50,21 @@ static int64_t shared_node(const struct shared *s, const struct grid *g, int64_t
     return I;
 }
 
-/* Returns the difference of the masses of the two neighbours of node I along axis d [kg]. */
+/* Returns the difference of the masses of the two neighbours of node I of grid g along axis d, upper minus lower
+ * [kg]. */
 static real slope_of(const struct grid *g, int64_t I, int d)
 {
     return g->mass[I + g->stride[d]] - g->mass[I - g->stride[d]];
 }
 
-/* Computes the difference of the gradients of both masses, b minus a [kg]. */
+/* Computes node->mass_slope, the difference of the mass gradients of grids b and a at this node, times two node
+ * distances [kg]. */
 static void mass_slope_find(struct grid_contact_node *node, const struct grid *a, const struct grid *b)
 {
     for (int d = 0; d < a->dim; d++) node->mass_slope[d] = slope_of(b, node->at[1], d) - slope_of(a, node->at[0], d);
 }
 
-/* Appends an empty node to the list. */
+/* Appends an empty node to the list of contact nodes, and returns it. */
 static struct grid_contact_node *node_add(struct grid_contact *c)
 {
     GROW("contact.nodes", c->node, c->nodes + 1);
@@ -71,8 +73,8 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
     return node;
 }
 
-/* Appends the nodes on which both sides have mass. slot: [s->n] position in the list of each node of the range, -1: not
- * listed. */
+/* Appends the nodes of the shared box s at which both sides a and b have more than the smallest mass. slot[s->n]:
+ * receives the position in the list of each node of the box, -1: not listed. */
 static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *side,
                               int a, int b, int32_t *slot)
 {
@@ -89,8 +91,9 @@ static void shared_nodes_find(struct grid_contact *c, const struct shared *s, co
     }
 }
 
-/* Computes unit normals from mass gradients summed over nodes up to two cells away: single gradients follow the
- * lattices of both bodies and are up to 10 degrees off on curved faces. */
+/* Computes the unit normal of each listed node from the mass gradients summed over nodes up to AROUND cells away.
+ * Single gradients follow the lattices of both bodies and are up to 10 degrees off on curved faces. slot[s->n]:
+ * position in the list of each node of the shared box s, -1: not listed. */
 static void normals_find(struct grid_contact *c, const struct shared *s, int dim, const int32_t *slot)
 {
     for (int64_t k = 0; k < s->n; k++) {
@@ -112,7 +115,8 @@ static void normals_find(struct grid_contact *c, const struct shared *s, int dim
 
 /* ---- gaps -------------------------------------------------------------------------------------------------------- */
 
-/* Extends the reach of side 0 or 1 along the normal by point i, at all listed nodes that its shape reaches. */
+/* Extends the reach of a body along the normals of all listed nodes that the shape of its point i reaches: the largest
+ * x . n of side 0, the smallest of side 1. slot[s->n]: position in the list of each node of the shared box s. */
 static void point_reach(struct grid_contact *c, const struct shared *s, const struct grid *g, const struct particles *p,
                         int32_t i, int side, const int32_t *slot)
 {
@@ -135,7 +139,8 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
             }
 }
 
-/* Extends the reach of side 0 or 1 along the normals by all points of the side (point_reach). */
+/* Extends the reach of a body along the normals of the listed nodes by all of its points. side: 0 for the first, 1 for
+ * the second body of the pair; slot[s->n]: position in the list of each node of the shared box s. */
 static void points_reach(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *a,
                          const struct particles *p, int side, const int32_t *slot)
 {
@@ -154,7 +159,7 @@ static void points_reach(struct grid_contact *c, const struct shared *s, const s
 
 /* ---- the list of a step ------------------------------------------------------------------------------------------ */
 
-/* Allocates the sums of the energy dissipated by contact, for each pair of `sides` bodies. */
+/* Allocates the sums of the energy dissipated by contact, one for each pair of the `sides` bodies, all 0. */
 void grid_contact_make(struct grid_contact *c, int sides)
 {
     memory_free(c->dissipated);
@@ -203,9 +208,9 @@ void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_s
  * energy, impulses act only on nodes that approach already before the step, which always dissipates. */
 #define PARTING_SHARE 1.6
 
-/* Returns the speed of approach along the unit vector `along` that the impulse of contact removes [m/s]. before, now:
- * relative velocity before and after the forces of the step [m/s]; strict: returns 0 unless the sides approach before
- * the step. */
+/* Returns the speed of approach along the unit vector `along` that the contact impulse removes [m/s]: now . along +
+ * PARTING_SHARE min(0, before . along), at least 0. before, now: relative velocity before and after the forces of the
+ * step [m/s]; strict: 0 is returned unless the sides approach already before the step. */
 static real speed_taken(const real *before, const real *now, const real *along, bool strict, int dim)
 {
     const real parting = dot(before, along, dim);
@@ -213,9 +218,9 @@ static real speed_taken(const real *before, const real *now, const real *along, 
     return real_max(0, dot(now, along, dim) + PARTING_SHARE * real_min(0, parting));
 }
 
-/* Computes the impulse over the reduced mass, taken [dim, m/s], that stops the approach of both sides at a node and, up
- * to friction, their sliding. before, now: relative velocity before and after the forces of the step [m/s]. Returns
- * false if the sides separate or do not touch. */
+/* Computes the contact impulse at a node over the reduced mass of both sides, taken[dim] [m/s]. It stops the approach
+ * of the sides and, up to friction, their sliding. before, now: relative velocity before and after the forces of the
+ * step [m/s]. Returns false if the sides separate or do not touch. */
 static bool exchange_of(const struct grid_contact *c, const struct grid_contact_node *node, const real *before,
                         const real *now, int dim, real *taken)
 {
@@ -235,15 +240,16 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
     return true;
 }
 
-/* Sets grid.held to `mark` for the nodes that walls constrain. */
+/* Sets grid.held to `mark` (0 or 1) for the nodes of all sides that walls constrain. */
 static void walls_mark(const struct grid_contact_side *side, int sides, uint8_t mark)
 {
     for (int k = 0; k < sides; k++)
         for (int64_t q = 0; q < side[k].grid->walls; q++) side[k].grid->held[side[k].grid->wall[q].node] = mark;
 }
 
-/* Returns the mass of node I, or INFINITY if walls constrain it mainly along `normal` [kg]. Replaces its velocities
- * before and after the forces of the step, in components that walls prescribe, by those of the walls. */
+/* Returns the mass of node I [kg], or INFINITY if walls constrain it mainly along `normal`. In components that walls
+ * prescribe, its velocities before[dim] and now[dim], before and after the forces of the step, are replaced by those of
+ * the walls [m/s]. */
 static real mass_against(const struct grid *g, int64_t I, const real *normal, real *before, real *now)
 {
     real held2 = 0;

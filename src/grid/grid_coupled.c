@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 
-/* Returns the index of the grid cell of particle i, by its lowest node, and its position k [dim] in the box, or -1
- * outside the box. */
+/* Returns the index of the grid cell of particle i, by its lowest node, or -1 if the particle is outside the box of
+ * nodes. k: receives the position of the cell in the box along each axis [dim]. */
 static int64_t grid_coupled_cell_of(const struct particles *p, const struct grid *g, int64_t i, int64_t *k)
 {
     int64_t cell = 0;
@@ -19,7 +19,7 @@ static int64_t grid_coupled_cell_of(const struct particles *p, const struct grid
     return cell;
 }
 
-/* Marks the cells of the grid that hold material points. */
+/* Sets c->occupied to 1 for the cells of the grid that contain material points, else to 0. */
 static void mark_occupied(struct grid_coupled *c, const struct particles *p, const struct grid *g)
 {
     int64_t k[DIM_MAX];
@@ -31,7 +31,8 @@ static void mark_occupied(struct grid_coupled *c, const struct particles *p, con
     }
 }
 
-/* Returns true if the cell at k, or one that shares a node with it, holds a material point. */
+/* Returns true if the cell at position k[dim] in the box of nodes, or one that shares a node with it, contains a
+ * material point. */
 static bool grid_coupled_meets_points(const struct grid_coupled *c, const struct grid *g, const int64_t *k)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, stride[DIM_MAX] = {0};

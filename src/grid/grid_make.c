@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "grid/grid_part.h"
 
-/* Returns the coordinate of a node along an axis [m]: mpm.origin, else the first mirror across the axis, else the lower
- * corner of the body. Nodes beyond a mirror move as exact images only if the mirror is on a node or midway between
- * two. */
+/* Returns the coordinate of a node along an axis [m]: that of mpm.origin, else of the first mirror across the axis,
+ * else `corner`, the lower corner of the body. Nodes beyond a mirror move as exact images only if the mirror is on a
+ * node or midway between two. */
 static real node_coordinate(const struct scene *s, int axis, real corner)
 {
     if (s->has_grid_origin) return s->grid_origin[axis];
@@ -16,7 +16,7 @@ static real node_coordinate(const struct scene *s, int axis, real corner)
 }
 
 /* Returns the coordinate of a node, `anchor`, shifted by at most half a spacing to the middle between two particles of
- * the lattice that has a particle at `site` [m]. */
+ * the lattice that has a particle at coordinate `site` [m]. */
 static real between_particles(real anchor, real site, real spacing)
 {
     const real steps = (site - anchor) / spacing - 0.5;
@@ -38,8 +38,8 @@ int joined_group_first_body(const struct scene *s, int k)
     return -1;
 }
 
-/* Allocates one grid for each body (joined bodies count as one) if material points of several bodies may be in contact,
- * else a single grid. */
+/* Allocates the grids: one for each body (joined bodies count as one) if material points of several bodies may be in
+ * contact, else a single one. */
 static void make_fields(const struct scene *s, struct grid_method *grid)
 {
     const bool meet = !scene_is_single_equilibrium(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
@@ -49,7 +49,7 @@ static void make_fields(const struct scene *s, struct grid_method *grid)
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
-/* Returns by how much the shape function of a point extends beyond the nodes of its cell [m]. */
+/* Returns by how much the shape function of a material point extends beyond the nodes of its cell [m]. */
 static real shape_reach(const struct scene *s)
 {
     const real cell = s->cell * s->spacing;
@@ -60,8 +60,8 @@ static real shape_reach(const struct scene *s)
 }
 
 /* Sets up the grids of the current frame: position of the nodes, smallest masses, contact between grids. meshed: bodies
- * have meshes of the reference frame. Nodes start at the lower corner of the first shape, or of the particles of a
- * list. */
+ * have meshes of the reference frame. A node is at the lower corner of the first shape or of the particles of a list,
+ * unless node_coordinate gives another position. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];

@@ -15,9 +15,9 @@ static void grid_free_all(struct run *e)
     memory_free(g->field), grid_contact_free(&g->contact);
 }
 
-/* Warns of mirrors off the nodes. Measured with inputs/bar_converge.yaml: displacements are 11 to 24 % off if mirrors
- * are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre; half the spacing reduces the error by at
- * most a third. */
+/* Warns of mirrors that are neither on a node nor midway between two. Measured with inputs/bar_converge.yaml:
+ * displacements are 11 to 24 % off if mirrors are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre;
+ * half the spacing reduces the error by at most a third. */
 static void warn_of_mirrors(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

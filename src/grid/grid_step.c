@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "grid/grid_part.h"
 
-/* Extends the box from..to [m] to the positions of the listed particles. */
+/* Extends the box from[dim] .. to[dim] [m] to the positions of the particles list[n]. */
 static void bounds_widen(const struct particles *p, const int32_t *list, int64_t n, real *from, real *to)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -19,7 +19,7 @@ static void bounds_widen(const struct particles *p, const int32_t *list, int64_t
     }
 }
 
-/* Lists the material points of the body to which the grid of a field belongs. */
+/* Lists in f->list the material points of the body to which the grid of field f belongs. */
 static void field_list(struct grid_field *f, const struct particles *p)
 {
     if (!f->list) f->list = NEW("engine.field", p->n, int32_t);
@@ -28,8 +28,9 @@ static void field_list(struct grid_field *f, const struct particles *p)
         if (p->body[p->list_free[k]] + 1 == f->grid.body) f->list[f->n++] = p->list_free[k];
 }
 
-/* Extends the grid of a field over its particles and sorts its material points by cells. Sets *lost, without an error,
- * if positions are not finite. Fails if the grid would need too many nodes. */
+/* Extends the grid of field f over its particles and sorts its material points by cells. *lost is set to true, without
+ * an error, if positions are not finite. Returns FAILED or REFUSED, with a message, if the grid would need too many
+ * nodes. */
 static status field_sort(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
@@ -53,7 +54,8 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
     return OK;
 }
 
-/* Sorts the points of all grids into cells (field_sort); does nothing while no particle has left its cell. */
+/* Sorts the points of all grids into cells; does nothing while no particle has left its cell. *lost is set to true if
+ * positions are not finite. Returns an error, with a message, if a grid would need too many nodes. */
 static status points_sort(struct grid_method *mpm, const struct particles *p, enum coupling coupling, bool *lost)
 {
     if (!mpm->sort_needed) return OK;
@@ -63,7 +65,8 @@ static status points_sort(struct grid_method *mpm, const struct particles *p, en
     return OK;
 }
 
-/* Excludes cells that are still at rest from the transfers (active_points.h). */
+/* Updates the list of active points (active_points.h), so that transfers skip cells that are still at rest. Does
+ * nothing if the scene or the method does not allow this. */
 static void update_active_points(struct run *e)
 {
     const struct grid_method *mpm = e->grid;
@@ -89,8 +92,8 @@ status grid_sort_points(struct run *e, bool *lost)
     return OK;
 }
 
-/* Returns the parameters of transfers between the grid-coupled peridynamic particles and the grid (coupling pm ..
- * pgg). */
+/* Returns the parameters of transfers between grid-coupled peridynamic particles and the grid (coupling pm .. pgg):
+ * only momentum is transferred. */
 static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
 {
     struct transfer_data grid_coupled = mpm->transfer;
@@ -106,10 +109,10 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
     return own;
 }
 
-/* Returns true if particles move with the grid. */
+/* Returns true if any particle moves with a grid of the current frame. */
 static bool grid_holds(const struct particles *part) { return part->n_free + part->n_grid_coupled > 0; }
 
-/* Maps mass, momentum and force of all particles on the grids to their nodes. */
+/* Maps mass, momentum and force of all particles on the grids to the nodes, which are cleared first. */
 static void grid_receive(struct grid_method *mpm, struct particles *p, const struct kernels *kernels)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(mpm);
@@ -122,8 +125,8 @@ static void grid_receive(struct grid_method *mpm, struct particles *p, const str
     if (p->n_grid_coupled > 0) kernels->p2g(&mpm->field[0].grid, p, &grid_coupled);
 }
 
-/* Lists the nodes at which bodies with grids of their own may be in contact in this step. Returns [fields] sides, which
- * the caller frees, or NULL for a single grid. */
+/* Lists in mpm->contact the nodes at which bodies with separate grids may be in contact in this step. Returns an array
+ * of sides [mpm->fields], freed by the caller, or NULL for a single grid. */
 static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct particles *part)
 {
     if (mpm->fields < 2) return NULL;
@@ -134,8 +137,8 @@ static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct pa
     return side;
 }
 
-/* Moves the nodes under forces, contact, walls and mirrors. middle: time in the middle of the step; dt: by which
- * velocities advance [s]. */
+/* Advances the velocities of all nodes under forces, contact, walls and mirrors. side: sides of contact, NULL: none;
+ * middle: time in the middle of the step [s]; dt: duration of the velocity update [s]. */
 static void grids_move(struct run *e, const struct grid_contact_side *side, real middle, real dt)
 {
     struct grid_method *mpm = e->grid;
@@ -151,7 +154,8 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
         grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
 }
 
-/* Adds the change of the nodal velocities to the points and maps their momentum to the nodes again (MUSL). */
+/* Adds the change of the nodal velocities to the points and maps the momentum of the points to the nodes again (MUSL).
+ * side: sides of contact, NULL: none. */
 static void grids_remap(struct run *e, const struct grid_contact_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
@@ -205,8 +209,8 @@ void grid_step(struct run *e, real t_middle)
 }
 
 /* Returns the power of the forces on the grids at the start of a step [W]: the sum of P . f/m over the nodes before
- * they move, f being the change of momentum per time by forces, contact and walls. t_middle: time in the middle of the
- * step [s]. Returns 0 if no particle is on a grid. */
+ * they move, with the nodal momentum P, nodal mass m, and f the change of momentum per time by forces, contact and
+ * walls. t_middle: time in the middle of the step [s]. Returns 0 if no particle is on a grid. */
 real grid_power(struct run *e, real t_middle)
 {
     real power = 0;
