@@ -7,7 +7,7 @@
 
 /* ---- rotations --------------------------------------------------------------------------------------------------- */
 
-/* Computes the product to = A b, or A^T b with `back`. */
+/* Computes the product to = A b, or A^T b if `back` is true. to must not be b. */
 static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real *to)
 {
     for (int r = 0; r < DIM_MAX; r++) {
@@ -16,7 +16,7 @@ static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real
     }
 }
 
-/* Rotates the columns of A by the rotation vector w (Rodrigues' formula). */
+/* Rotates the columns of A by the rotation vector w [rad] (Rodrigues' formula). */
 static void rotate_further(real A[DIM_MAX][DIM_MAX], const real *w)
 {
     const real angle = sqrt(dot(w, w, DIM_MAX));
@@ -30,7 +30,7 @@ static void rotate_further(real A[DIM_MAX][DIM_MAX], const real *w)
     }
 }
 
-/* Solves A x = b for a symmetric positive definite 3 x 3 matrix by cofactors. */
+/* Solves A x = b for a symmetric positive definite 3 x 3 matrix A, by cofactors. */
 static void solve_three(real A[DIM_MAX][DIM_MAX], const real *b, real *x)
 {
     real cofactor[DIM_MAX][DIM_MAX], determinant = 0;
@@ -44,7 +44,8 @@ static void solve_three(real A[DIM_MAX][DIM_MAX], const real *b, real *x)
     for (int r = 0; r < DIM_MAX; r++) x[r] /= determinant;
 }
 
-/* Computes the angular velocity of the body from the rotation matrix `turn` and the angular momentum. */
+/* Computes the angular velocity spin[3] [1/s] of rigid body r from its angular momentum, for the orientation given by
+ * the rotation matrix `turn`. */
 static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spin)
 {
     real own[DIM_MAX], own_spin[DIM_MAX];
@@ -69,8 +70,9 @@ struct box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Integrates over the sampling points of a region: sets its centre [m] and second moments [m^2] about the centre, and
- * returns its volume [m^dim]. */
+/* Integrates over sampling points of a region in its bounding box b: adds its centre to centre[dim] [m] and its second
+ * moments about the centre to `second` [m^2], both 0 before. Returns the volume of the region [m^dim], 0 if the box has
+ * none. */
 static real region_moments(const struct region *shape, int dim, const struct box *b, real *centre,
                            real second[DIM_MAX][DIM_MAX])
 {
@@ -100,7 +102,8 @@ static real region_moments(const struct region *shape, int dim, const struct box
     return sum * step[0] * step[1] * step[2];
 }
 
-/* Computes the tensor of inertia about the centre from the second moments. */
+/* Computes the tensor of inertia of rigid body r about its centre [kg m^2] from the second moments per volume `second`
+ * [m^2]. */
 static void inertia_make(struct rigid_body *r, real second[DIM_MAX][DIM_MAX])
 {
     const real trace = second[0][0] + second[1][1] + second[2][2];
@@ -139,8 +142,8 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 
 /* ---- surface ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of point x [DIM_MAX] from the surface, negative inside [m]; normal: outward unit normal of the
- * nearest surface point. */
+/* Returns the distance of point x[DIM_MAX] [m] from the surface of rigid body r [m], negative inside. normal: receives
+ * the outward unit normal of the nearest surface point. */
 real rigid_distance(const struct rigid_body *r, const real *x, real *normal)
 {
     real arm[DIM_MAX] = {0}, X[DIM_MAX], own[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX];
@@ -174,9 +177,9 @@ void rigid_velocity(const struct rigid_body *r, const real *x, real *v)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Rotates the body by its rotation in a step dt [s]. The angular velocity in the middle of the step depends on the
- * orientation there, and that on the angular velocity: a fixed-point iteration, whose third value is exact to round-off
- * for any step that contact allows. */
+/* Rotates rigid body r by its rotation in a step dt [s]. The angular velocity in the middle of the step depends on the
+ * orientation there, and this on the angular velocity: both are found by a fixed-point iteration, whose third value is
+ * exact to round-off for any step that contact allows. */
 static void turn_on(struct rigid_body *r, real dt)
 {
     real middle[DIM_MAX][DIM_MAX], half[DIM_MAX];
@@ -238,8 +241,8 @@ void rigid_set_position(struct rigid_body *r, real t)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the work that moves a driven body against the contact forces in the last step [J], with the mean of the
- * previous and the present force; 0 for other bodies. */
+/* Returns the work that moves a driven body against the contact forces in the last step [J]: mean of the previous and
+ * the present force times the increment. 0 for other bodies. */
 static real work_of_step(const struct rigid_body *r)
 {
     real work = 0;
@@ -281,8 +284,8 @@ real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves or restores the state of rigid body `number`: the members of the struct from `x` on, which change from step to
- * step. */
+/* Saves or restores the state of rigid body `number`: the members of the structure from `x` on, which change from step
+ * to step. Returns the status of the archive. */
 status rigid_save_or_load(struct rigid_body *r, int number, struct archive *a)
 {
     char name[64];

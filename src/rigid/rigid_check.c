@@ -10,7 +10,8 @@
 #define DEEP_MOST 0.6      /* allowed depth of the centre of a particle in a rigid body at the start [spacings] */
 #define INCREMENT_MOST 0.5 /* allowed motion in a step [spacings]: contact acts over a distance of one spacing */
 
-/* Returns REFUSED if the centre of a particle is deeper than DEEP_MOST spacings inside rigid body r at the start. */
+/* Returns REFUSED, with a message, if the centre of a particle is deeper than DEEP_MOST spacings inside rigid body r at
+ * the start. */
 static status check_room(const struct rigid_body *r, const struct scene *s, const struct particles *p)
 {
     real deepest = 0, normal[DIM_MAX], x[DIM_MAX] = {0};
@@ -26,7 +27,7 @@ static status check_room(const struct rigid_body *r, const struct scene *s, cons
                       p->dim > 2 ? p->x[2][at] : 0, -deepest);
 }
 
-/* Returns REFUSED if free body r touches a mirror: its image would be another body. */
+/* Returns REFUSED, with a message, if r is a free body and touches a mirror: its mirror image would be another body. */
 static status check_mirrors(const struct rigid_body *r, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -69,7 +70,8 @@ status rigids_speed_check(const struct rigid_set *rigid, const struct scene *s, 
     return OK;
 }
 
-/* Returns true if two rigid bodies overlap: a sampling point of r is more than half a spacing deep inside `other`. */
+/* Returns true if two rigid bodies overlap, i.e. if a sampling point of r is more than half a spacing deep inside
+ * `other`. spacing: lattice spacing [m]. */
 static bool have_met(const struct rigid_body *r, const struct rigid_body *other, real spacing)
 {
     real from[DIM_MAX], to[DIM_MAX], x[DIM_MAX] = {0}, normal[DIM_MAX];

@@ -54,7 +54,7 @@ struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt)
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-/* Writes name and unit of a column of a rigid body if `column` is not NULL. at: its index. Returns the next index. */
+/* Writes name `<body>_<what>` and unit of column number `at` to column[at], if column is not NULL. Returns at + 1. */
 static int add_column(struct column *column, int at, const char *body, const char *what, const char *unit)
 {
     if (!column) return at + 1;

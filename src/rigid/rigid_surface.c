@@ -25,7 +25,7 @@ struct net {
     int32_t *point; /* [nodes] index of the point of the cell above a node; -1: none */
 };
 
-/* Returns the level set of a region cut to the box between low and high [m]. */
+/* Returns the level set at X[dim] of a region cut to the box low[dim] .. high[dim] [m], negative inside. */
 static real cut_level_set(const struct region *shape, const real *X, int dim, const real *low, const real *high)
 {
     real value = region_level_set_value(shape, X, dim);
@@ -33,6 +33,8 @@ static real cut_level_set(const struct region *shape, const real *X, int dim, co
     return value;
 }
 
+/* Makes a grid of nodes over the box low[dim] .. high[dim] [m] and computes the level set of the region `shape`, cut to
+ * this box, at its nodes. The caller frees g->value and g->point. */
 static void net_make(struct net *g, const struct region *shape, int dim, const real *low, const real *high)
 {
     real thinnest = INFINITY, longest = 0, nodes;
@@ -63,14 +65,15 @@ static void net_make(struct net *g, const struct region *shape, int dim, const r
     }
 }
 
-/* Returns the distance of neighbours along axis d in the arrays of the nodes. */
+/* Returns the difference of the indices of neighbouring nodes along axis d in the arrays of g. */
 static int64_t stride(const struct net *g, int d)
 {
     return d == 0 ? 1 : d == 1 ? g->count[0] : g->count[0] * g->count[1];
 }
 
-/* Adds the position at which the surface crosses the edge along axis d from corner `bits` of the cell above node k to
- * sum[DIM_MAX], in cells from the node. Returns 1 if it crosses, else 0. */
+/* Finds whether the surface crosses the edge along axis d from corner `bits` of the cell above node k (bit e: upper
+ * corner along axis e). If so, adds the position of the crossing to sum[DIM_MAX], in cells from node k, and returns 1;
+ * else returns 0. */
 static int edge_crossing_add(const struct net *g, int64_t k, int bits, int d, real *sum)
 {
     int64_t a = k;
@@ -81,7 +84,8 @@ static int edge_crossing_add(const struct net *g, int64_t k, int bits, int d, re
     return 1;
 }
 
-/* Makes the points of all cells that the surface crosses. */
+/* Makes a point s->X for each cell that the surface crosses, in the middle of the crossings of its edges, and stores
+ * its index in g->point. */
 static void surface_points_make(struct rigid_surface *s, struct net *g)
 {
     for (int64_t k = 0; k < g->nodes; k++) {
@@ -105,7 +109,8 @@ static void surface_points_make(struct rigid_surface *s, struct net *g)
     }
 }
 
-/* Makes the faces across all edges that the surface crosses. An edge at the rim of the grid is never crossed. */
+/* Makes a face for each edge of the grid that the surface crosses, between the points of the cells around this edge. An
+ * edge at the rim of the grid is never crossed. */
 static void surface_faces_make(struct rigid_surface *s, const struct net *g)
 {
     s->corners = g->dim == 2 ? 2 : 4;
@@ -153,7 +158,7 @@ bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high)
     return bounded;
 }
 
-/* Makes the surfaces of all bodies, once. Unbounded ones are cut to a box around the particles. */
+/* Makes the surfaces of all rigid bodies on the first call. Unbounded bodies are cut to a box around the particles. */
 static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles *part)
 {
     if (rigid->surface) return;
@@ -166,13 +171,15 @@ static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles 
     }
 }
 
+/* Prints the opening tag of a VTK data array with this type, name and number of components. */
 static void print_array(FILE *to, const char *type, const char *name, int columns)
 {
     fprintf(to, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type, name,
             columns);
 }
 
-/* Prints centre, present position and rotation of each body, which rigids_read_frame reads. */
+/* Prints a VTK data array with centre, present position and rotation matrix of each rigid body, which rigids_read_frame
+ * reads. */
 static void print_motion(FILE *to, const struct rigid_set *rigid)
 {
     fprintf(to, "<DataArray type=\"Float64\" Name=\"motion\" NumberOfTuples=\"%d\" format=\"ascii\">\n", 15 * rigid->n);
@@ -185,6 +192,7 @@ static void print_motion(FILE *to, const struct rigid_set *rigid)
     fputs("</DataArray>\n", to);
 }
 
+/* Prints the present positions of the surface points of all rigid bodies as the VTK element Points. */
 static void print_points(FILE *to, const struct rigid_set *rigid)
 {
     fputs("<Points>\n", to);
@@ -198,7 +206,8 @@ static void print_points(FILE *to, const struct rigid_set *rigid)
     fputs("</DataArray>\n</Points>\n", to);
 }
 
-/* Prints the faces as lines in the plane, as polygons in space. */
+/* Prints the faces of all rigid bodies as VTK lines in the plane, as polygons in space, with the number of the body of
+ * each face. */
 static void print_faces(FILE *to, const struct rigid_set *rigid)
 {
     const char *kind = rigid->dim == 2 ? "Lines" : "Polys";
@@ -221,6 +230,7 @@ static void print_faces(FILE *to, const struct rigid_set *rigid)
     fputs("</DataArray>\n</CellData>\n", to);
 }
 
+/* Prints a VTK PolyData file with the surfaces of all rigid bodies at the time of a frame. */
 static void print_file(FILE *to, const struct rigid_set *rigid, const struct frame_entry *frame)
 {
     int64_t points = 0, faces = 0;
@@ -249,7 +259,8 @@ static void print_index(FILE *to, const struct frame_series *s)
     fputs("\n]}\n", to);
 }
 
-/* Composes a file in memory and writes it: the surfaces, or the index if rigid is NULL. */
+/* Composes a file in memory and writes it to `path`: the surfaces of rigid bodies at the last frame of series s, or the
+ * index of these files if rigid is NULL. Returns FAILED, with a message, if that is not possible. */
 static status compose(const char *path, const struct rigid_set *rigid, const struct frame_series *s)
 {
     char *text = NULL;
@@ -282,7 +293,7 @@ status rigids_write_frame(struct rigid_set *rigid, const struct output *o, const
     return compose(path_join(o->folder, "rigid.vtp.series").text, NULL, s);
 }
 
-/* Reads numbers separated by blanks into value[n]. Returns false if there are fewer. */
+/* Reads n numbers separated by blanks from text into value[n]. Returns false if there are fewer. */
 static bool numbers_read(const char *text, real *value, int n)
 {
     for (int k = 0; k < n; k++) {
