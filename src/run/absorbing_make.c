@@ -5,14 +5,15 @@
 #include "run/make.h"
 #include "base/memory.h"
 
-/* Returns rho c_p = sqrt(rho c11) and rho c_s = sqrt(rho shear) [kg/m^2/s]. */
+/* Returns the impedances of material m, normal sqrt(rho c11) and tangential sqrt(rho shear) [kg/(m^2 s)]. c11, shear:
+ * elastic constants [Pa]. */
 static struct impedance impedance_of(const struct material *m, real c11, real shear)
 {
     return (struct impedance){sqrt(m->density * c11), sqrt(m->density * shear)};
 }
 
-/* Returns the impedance by the constants of a family on the lattice: those of the material for state-based models,
- * those of the lattice sums for bond-based ones. */
+/* Returns the impedances of material m by the elastic constants of a family on the lattice: those of the material for
+ * state-based models, those of the lattice sums for bond-based ones. */
 static struct impedance impedance_lattice(const struct bond_source *source, const struct scene *scene,
                                           const struct material *m)
 {

@@ -22,7 +22,8 @@ struct bond_operator bond_operator_make(struct bonds *b, struct particles *p, bo
 
 void bond_operator_free(struct bond_operator *body) { memory_free(body->root); }
 
-/* Returns the largest component of the displacement u / sqrt(m); u: [dim][n]. */
+/* Returns the largest absolute component of the displacement u/sqrt(m) over all particles. u: [dim][n], scaled by
+ * sqrt(mass). */
 static real largest_motion(const struct bond_operator *body, const real *u)
 {
     const struct particles *p = body->p;
@@ -69,9 +70,9 @@ real critical_step_of_bonds(struct bonds *b, struct particles *p, bond_force_fn 
 /* limit of the number of bonds of a block, for its cost: larger blocks get the size of the body */
 #define BLOCK_BONDS_MOST 1e7
 
-/* Computes the numbers of particles along the edges of a lattice block whose largest frequency represents the body:
- * large enough for particles with full families and, if that is cheap, for long waves. longest: extent of the body
- * [dim, m]. Returns the number of particles of the block. */
+/* Computes the numbers of particles along the edges of a lattice block, edge[dim], whose largest frequency represents
+ * that of the body. The block is large enough for particles with full families and, if that is cheap, for long waves.
+ * longest: extent of the body along each axis [dim] [m]. Returns the number of particles of the block. */
 static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};

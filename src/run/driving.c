@@ -3,7 +3,8 @@
 
 #include "run/make.h"
 
-/* Returns REFUSED if boundary b depends on reference positions and drives points on the grid of the current frame. */
+/* Returns REFUSED, with a message, if the motion of boundary b depends on reference positions, but acts on points on
+ * the grid of the current frame. l: the load of b. */
 static status position_dependent_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
 {
     for (int64_t k = 0; k < l->n && !b->rotates && boundary_motion_varies_in_space(b); k++)
@@ -17,7 +18,8 @@ static status position_dependent_on_grid(const struct boundary *b, const struct 
 
 #define DISPLACEMENT_TOLERANCE 1e-9 /* tolerance of displacements at the start [spacings] */
 
-/* Returns REFUSED if a particle driven by a displacement does not start at its reference position. */
+/* Returns REFUSED, with a message, if a particle with prescribed displacement does not start at its reference position.
+ * l: the load of boundary b; spacing: lattice spacing [m]. */
 static status starts_at_reference(const struct boundary *b, const struct particles *p, const struct load *l,
                                   real spacing)
 {
@@ -33,7 +35,8 @@ static status starts_at_reference(const struct boundary *b, const struct particl
     return OK;
 }
 
-/* Returns REFUSED if the displacement at t = 0 is not 0, which would be a jump within the first step. */
+/* Returns REFUSED, with a message, if the displacement that boundary b prescribes at t = 0 is not 0, because this would
+ * be a jump within the first step. l: the load of b; spacing: lattice spacing [m]. */
 static status starts_at_rest(const struct boundary *b, const struct particles *p, const struct load *l, real spacing)
 {
     for (int64_t k = 0; k < l->n; k++) {

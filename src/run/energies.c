@@ -21,7 +21,7 @@ struct movers {
  * skipped as a whole. */
 enum { MOTION_PIECE = 64 };
 
-/* Returns true if particles first .. end - 1 are all moved by the nodes of a mesh. */
+/* Returns true if particles first .. end - 1 are all moved by the nodes of a mesh (FLAG_MESHED). flag: [particles]. */
 static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
 {
     uint8_t all = FLAG_MESHED;
@@ -34,8 +34,8 @@ struct motion {
     real kinetic, momentum[DIM_MAX], size;
 };
 
-/* Adds the kinetic energy of entries first .. end - 1 and, with `all`, their momentum and |m v| to *to. meshed: entries
- * with FLAG_MESHED are skipped. */
+/* Adds the kinetic energy of entries first .. end - 1 of m to *to and, if `all` is true, their momentum and |m v|.
+ * meshed: entries with FLAG_MESHED are skipped. dim, meshed and all must be compile-time constants. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                      const int dim, const bool meshed, const bool all)
 {
@@ -57,8 +57,8 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
     to->momentum[0] += p0, to->momentum[1] += p1, to->momentum[2] += p2;
 }
 
-/* Calls add_motion for a piece of entries, in their dimension. Skips it if the nodes of a mesh move all its
- * particles. */
+/* Calls add_motion for entries first .. end - 1 with the dimension of m as a constant. Skips them if the nodes of a
+ * mesh move all of these particles. */
 static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                        const bool all)
 {
@@ -77,7 +77,7 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     }
 }
 
-/* Returns true if nodes first .. end - 1 have no mass, as most nodes of level 0 inside coarse cells. */
+/* Returns true if nodes first .. end - 1 all have no mass, as most nodes of level 0 inside coarse cells. */
 static bool none_has_mass(const real *mass, int64_t first, int64_t end)
 {
     real most = 0;
@@ -86,8 +86,8 @@ static bool none_has_mass(const real *mass, int64_t first, int64_t end)
     return most == 0;
 }
 
-/* Returns the sums over entries first .. end - 1: with `all` kinetic energy, momentum and |m v|, else the kinetic
- * energy alone, which needs no square roots. */
+/* Returns the sums over entries first .. end - 1 of m: kinetic energy, momentum and |m v| if `all` is true, else the
+ * kinetic energy alone, which needs no square roots. */
 static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end, const bool all)
 {
     struct motion sum = {0};
@@ -99,7 +99,8 @@ static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t fir
     return sum;
 }
 
-/* Adds the kinetic energy of entries first .. end - 1 to sum[0], for reproducible_sums. context: a struct movers. */
+/* Adds the kinetic energy of entries first .. end - 1 to sum[0] [J]; a block function of reproducible_sums. context: a
+ * struct movers. */
 static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     sum[0] += motion_of(context, first, end, false).kinetic;
@@ -121,8 +122,8 @@ struct kick {
     real dt;
 };
 
-/* Returns `sum` plus the sum of 1/4 m dv^2 over particles first .. end - 1, dv being the change of velocity in the step
- * [J]. Driven particles do not contribute: their motion is prescribed and their work is booked with it. */
+/* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 [J], dv being the change of velocity in the
+ * step. Particles with prescribed motion do not contribute: their work is booked with their motion. */
 static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
     const struct particles *p = k->p;
@@ -137,8 +138,8 @@ static real kick_piece(const struct kick *k, int64_t first, int64_t end, real su
     return sum;
 }
 
-/* Adds the sum of 1/4 m dv^2 over particles first .. end - 1 (kick_piece) to sum[0], for reproducible_sums. Points of a
- * mesh do not contribute. */
+/* Adds the sum of m dv^2/4 over particles first .. end - 1 (kick_piece) to sum[0] [J]; a block function of
+ * reproducible_sums. Points of a mesh do not contribute. context: a struct kick. */
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct kick *k = context;
@@ -156,7 +157,8 @@ real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_v
     return sum;
 }
 
-/* Adds the momentum by component, then the sum of |m v|, to sum [dim + 1]. */
+/* Adds the momentum of entries first .. end - 1 to sum[0 .. dim - 1] and their sum of |m v| to sum[dim] [kg m/s]; a
+ * block function of reproducible_sums. context: a struct movers. */
 static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct movers *m = context;
@@ -187,7 +189,7 @@ real point_mpm_fraction(const struct partial_stress *partial, int dim, int64_t i
 }
 
 /* Returns the additional strain energy of point i in plane strain after plastic flow [J]: for sigma_zz = nu (sigma_xx +
- * sigma_yy) + delta the energy density has the additional term delta^2/(2E). */
+ * sigma_yy) + delta the energy density has the additional term delta^2/(2 E). 0 if nothing has flowed. */
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
@@ -195,8 +197,9 @@ static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
-/* Returns twice the strain energy density of point i [J/m^3]: the stress that it transmits times the strain of its
- * stress. The material is isotropic: normal stresses cause normal strains alone. */
+/* Returns twice the strain energy density of point i [J/m^3]: the stress that it transmits to the grid times the strain
+ * C^-1 stress. The material is isotropic, so that normal stresses cause normal strains alone. dim: a compile-time
+ * constant. */
 static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -213,7 +216,8 @@ static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, 
     return sum;
 }
 
-/* Returns the strain energy of the k-th listed particle if it is a material point, else 0 [J]. */
+/* Returns the strain energy of number k of the listed particles if it is a material point, else 0 [J]. context: a
+ * struct strain_sum. */
 static real strain_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
@@ -245,7 +249,7 @@ real points_strain_energy(const struct particles *p, const struct material *m, c
     return points_strain_energy_of_list(p, m, partial, p->list_free, p->n_free);
 }
 
-/* Returns the plastic work of the k-th listed particle that its steps have booked [J]. */
+/* Returns the stored plastic work of number k of the listed particles [J]. context: a struct strain_sum. */
 static real plastic_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
@@ -276,9 +280,9 @@ real particles_linear_momentum(const struct particles *p, const struct grid *con
     return sum[p->dim];
 }
 
-/* Computes the stresses of peridynamic particles from their bonds. The states of state-based models are recomputed
- * first at the present positions: a step moves particles after its forces, and the stress in a rotating body would
- * otherwise contain the rotation of a step. */
+/* Computes the stresses p->stress of peridynamic particles from their bonds. The states of state-based models are
+ * recomputed first, at the present positions: a step moves particles after its forces, and the stress in a rotating
+ * body would otherwise contain the rotation of a step. s: source of the bonds b. */
 void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
                          const struct kernels *kernels)
 {

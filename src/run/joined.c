@@ -2,7 +2,8 @@
 #include "base/memory.h"
 #include "run/make.h"
 
-/* Returns true if a particle inside shape `one` has a neighbour within `cutoff` [m] inside shape `other`. */
+/* Returns true if a particle inside shape `one` has a neighbour within `cutoff` [m] inside shape `other`. tolerance:
+ * distance outside a shape that counts as inside [m]. */
 static bool are_near(const struct particles *p, const struct cells *cells, real cutoff, const struct region *one,
                      const struct region *other, real tolerance)
 {

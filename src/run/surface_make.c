@@ -4,7 +4,7 @@
 
 #include "run/make.h"
 
-/* Returns the number of the mirror midway between two positions along an axis, or -1. */
+/* Returns the index of a mirror whose plane is between positions X and Y along `axis`, or -1 if there is none. */
 static int mirror_between(const struct loads *loads, const real *X, const real *Y, int axis)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -15,7 +15,8 @@ static int mirror_between(const struct loads *loads, const real *X, const real *
     return -1;
 }
 
-/* Returns which of the bodies that are joined to `body` contains X by its shape; `body` itself if none does. */
+/* Returns the number of a body, among those joined to `body`, whose shape contains X [m]; `body` itself if none
+ * does. */
 static int body_made_for(const struct scene *s, const real *X, int body)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -25,8 +26,8 @@ static int body_made_for(const struct scene *s, const real *X, int body)
     return body;
 }
 
-/* Returns REFUSED, with a message, for a body whose mirror m is neither on a row of its lattice nor half a spacing from
- * one. i: a particle of the body. */
+/* Returns REFUSED, with a message, for the body of particle i, whose mirror m is neither on a row of its lattice nor
+ * half a spacing from one. */
 static status refuse_rows(const struct scene *s, const struct particles *p, int64_t i, const struct boundary *m)
 {
     real X[DIM_MAX];
@@ -40,8 +41,8 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
                       "xyz"[m->axis]);
 }
 
-/* Returns REFUSED, with a message, for two particles i < n and j whose distance is not a whole number of spacings along
- * each axis. */
+/* Returns REFUSED, with a message, for particles i < n and j, which may be a mirror image: their distance is not a
+ * whole number of spacings along each axis. */
 static status refuse_apart(const struct scene *s, const struct particles *p, const struct loads *loads, int64_t i,
                            int64_t j)
 {

@@ -30,8 +30,8 @@ bool body_surface_is_exact(const struct scene *s, int body)
     return known;
 }
 
-/* Lists in v the shapes of bodies that may have voids and whose surface is known, with those of all bodies joined to
- * them. */
+/* Lists in v the shapes of bodies that may have voids and whose surface is known, with the shapes of all bodies joined
+ * to them. */
 static void list_shapes(const struct scene *s, struct voids *v)
 {
     uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
