@@ -12,7 +12,8 @@ struct body_box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Returns the bounding boxes of the particles of each body [bodies], which the caller frees. */
+/* Returns the bounding boxes of the present positions of each body's particles: an array [bodies], freed by the caller.
+ * Boxes of bodies without particles are empty (from > to). */
 static struct body_box *body_boxes(const struct particles *p, int bodies)
 {
     struct body_box *all = NEW("approach.boxes", bodies, struct body_box);
@@ -40,7 +41,7 @@ static struct body_box *body_boxes(const struct particles *p, int bodies)
     return all;
 }
 
-/* Returns true if particle i is within `reach` of the box of another body. */
+/* Returns true if particle i is within `reach` [m] of the box of another body. box: bounding boxes [bodies]. */
 static bool in_foreign_box(const struct particles *p, const struct body_box *box, int bodies, int64_t i, real reach)
 {
     for (int b = 0; b < bodies; b++) {
@@ -52,7 +53,7 @@ static bool in_foreign_box(const struct particles *p, const struct body_box *box
     return false;
 }
 
-/* Returns true if particle i is closer than `reach` [m] to the surface of a rigid body. */
+/* Returns true if particle i is closer than `reach` [m] to the surface of one of the rigid bodies rigid[rigids]. */
 static bool near_rigid(const struct particles *p, const struct rigid_body *rigid, int rigids, int64_t i, real reach)
 {
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
@@ -62,7 +63,8 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     return false;
 }
 
-/* Marks a material point for conversion, and prevents a peridynamic particle from reverting. */
+/* Marks particle i as near another body: a material point is flagged for conversion (FLAG_NEAR), a peridynamic particle
+ * is prevented from reverting for now. */
 static void mark(struct particles *p, int64_t i)
 {
     if (p->kind[i] == KIND_MPM)
@@ -71,7 +73,7 @@ static void mark(struct particles *p, int64_t i)
         p->low_since[i] = INFINITY;
 }
 
-/* Marks those of n listed particles that are within `reach` of a listed particle of another body. */
+/* Marks, among the particles list[n], those that are within `reach` [m] of a listed particle of another body. */
 static void mark_listed(struct particles *p, const int32_t *list, int64_t n, real reach)
 {
     struct particles places = {.n = n, .n_all = n, .dim = p->dim};

@@ -19,7 +19,8 @@ static void list_add(struct index_list *l, int64_t i)
     l->at[l->n++] = (int32_t)i;
 }
 
-/* Finds the particles and images within the cutoff of particle i. map: of the bonds, NULL: none. */
+/* Finds the particles and mirror images within the cutoff of bonds around particle i, in near->at. map: map of lattice
+ * sites of the bonds, which is faster than a search; NULL: none. */
 static void family_find(struct neighbour_list *near, const struct bond_source *s, const struct site_map *map,
                         const struct particles *p, int64_t i)
 {
@@ -36,7 +37,7 @@ static void family_find(struct neighbour_list *near, const struct bond_source *s
 
 /* ---- before the first step --------------------------------------------------------------------------------------- */
 
-/* Returns true if a pre-crack cuts a bond of particle i. */
+/* Returns true if a pre-crack cuts a bond of particle i to one of the particles `near`. */
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i,
                        const struct neighbour_list *near)
 {
@@ -70,7 +71,8 @@ void convert_cut_particles(struct particles *p, const struct bond_source *source
 
 #define MARKS (FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED | FLAG_NEAR)
 
-/* Returns true if particle i is a material point that the rule converts because of its marks. */
+/* Returns true if particle i is a material point that must convert because of its flags: it has lost a bond, is near
+ * another body or, if the rule converts by stress, has exceeded its stress. */
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
     /* whatever the criteria, material points convert that lost a bond, as damage is stored in bonds alone, and that are
@@ -79,7 +81,7 @@ static bool triggers(const struct conversion_rule *rule, const struct particles 
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
-/* Returns true if particle i has a bond, intact or not, to a material point. */
+/* Returns true if particle i has a bond, intact or broken, to a material point. */
 static bool conversion_meets_points(const struct bonds *b, const struct particles *p, int64_t i)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it);)
@@ -87,8 +89,8 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
     return false;
 }
 
-/* Lists peridynamic particles whose PD-MPM bonds become stiffer as other bonds break (normalisation local): the partial
- * stress there changes. */
+/* Appends to l the peridynamic particles whose PD-MPM bonds become stiffer when other bonds break (state-based models
+ * with local normalisation): the partial stress of the material points there changes. */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {
@@ -101,7 +103,7 @@ static void list_stiffened(struct index_list *l, const struct bond_source *s, co
     }
 }
 
-/* Makes a material point peridynamic and appends it to `changed`. Does nothing for other particles. */
+/* Makes material point i peridynamic and appends it to `changed`. Does nothing for a peridynamic particle. */
 static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
@@ -110,8 +112,9 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
     list_add(changed, i);
 }
 
-/* Converts the marked particles and, with rule->block, their neighbours within the cutoff; appends all of them to
- * `changed` and clears the flags of the step. */
+/* Converts the flagged material points and, if rule->block is set, the material points of their body within the cutoff.
+ * Appends all of them to `changed` and clears the conversion flags of all particles. map: map of lattice sites, NULL:
+ * none; t: time, stored at the first conversion [s]. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, const struct site_map *map, struct index_list *changed,
                            real t)
@@ -143,7 +146,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     memory_free(near.at);
 }
 
-/* Appends particle i to the list unless it has been listed before (FLAG_LISTED). */
+/* Appends particle i to the list, unless its flag FLAG_LISTED shows that it was listed before. */
 static void list_once(struct index_list *l, struct particles *p, int64_t i)
 {
     if (p->flag[i] & FLAG_LISTED) return;
@@ -151,8 +154,9 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
     list_add(l, i);
 }
 
-/* Updates positions and velocities of all particles within the cutoff of the converted ones, before bonds to them are
- * made. Each particle is listed once, so that threads sharing the list write different particles. */
+/* Updates positions and velocities of all particles within the cutoff of the converted particles `changed`, before
+ * bonds to them are made. Each particle is listed once, so that threads write different particles. sync: function that
+ * updates them, NULL: nothing to do; map: map of lattice sites, NULL: none. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                       const struct site_map *map, const struct index_list *changed)
 {

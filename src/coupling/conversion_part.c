@@ -15,22 +15,22 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
     if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-/* Returns true if a point may have been marked for conversion in this step, or a bond may have changed. Points on the
- * grid give no information; cells of the mesh record whether a point of theirs is marked. */
+/* Returns true if a point may have been flagged for conversion in this step, or a bond may have changed. Points on the
+ * grid do not record this; cells of the mesh record whether one of their points is flagged. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
            r->levels.returned || mesh_exceeds_conversion_stress(&r->mesh);
 }
 
-/* Updates the motion of n listed points of the mesh. context: the run. */
+/* Updates positions and velocities of the mesh points list[n]. context: the run. */
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
     frame_update_listed_points(e->frame, &e->part, &e->loads, list, n);
 }
 
-/* Requests a search for contact of n listed particles, which have become peridynamic. context: the run. */
+/* Requests a search for contact of the particles list[n], which have become peridynamic. context: the run. */
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
@@ -78,7 +78,7 @@ int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examine
     return converted;
 }
 
-/* Marks the material points with PD-MPM bonds in c->bonded [n] (FLIP only). */
+/* Sets c->bonded [p->n] to 1 for material points with intact PD-MPM bonds, else to 0; used with FLIP only. */
 static void bonded_make(struct coupling_state *c, const struct particles *p, const struct bonds *b)
 {
     if (b->rows == 0) { /* all particles have reverted: no material point has bonds */

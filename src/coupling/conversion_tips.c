@@ -12,16 +12,16 @@ static void region_add(struct region *r, const struct solid *s)
     r->solid[r->n++] = *s;
 }
 
-/* Returns true if a particle is within one spacing of X, a position at an end of the crack. An end outside the body is
- * the mouth of a notch. */
+/* Returns true if a particle is within one spacing of X [m], a position at an end of crack c, and no mirror continues
+ * the crack there. An end outside the body is the mouth of a notch. */
 static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
     return !mirrors_continue_crack(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
            cells_find_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
-/* Adds a ball of `radius` [m] round end k of a pre-crack to the region; in 3D a cylinder round the edge from corner k
- * to the next. */
+/* Adds a ball of `radius` [m] around end k of pre-crack c to region r, if this end is inside the body. In 3D it is a
+ * cylinder around the edge from corner k to the next corner. */
 static void conversion_tip_add(struct region *r, const struct particles *p, const struct bond_source *s,
                                const struct crack *c, int k, real radius)
 {

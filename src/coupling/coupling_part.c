@@ -10,7 +10,7 @@ static void coupling_free_all(struct run *e)
     memory_free(c->bonded), memory_free(c->start_region.solid);
 }
 
-/* Returns the largest number of reversions of a particle. */
+/* Returns the largest number of times that one particle has reverted to a material point. */
 static int reversions_most(const struct particles *p)
 {
     int most = 0;
@@ -18,7 +18,8 @@ static int reversions_most(const struct particles *p)
     return most;
 }
 
-/* Writes for each of the first SAID pre-cracks in words whether it is a slit of the mesh or is cut through bonds. */
+/* Writes the JSON list "notches": for each of the first SAID pre-cracks a text that says whether it is a slit of the
+ * mesh or a row of cut bonds. spacing: lattice spacing [m]. */
 static void put_notches(struct json *j, const struct notches *n, real spacing)
 {
     enum { SAID = 16 };
@@ -54,7 +55,8 @@ static void put_conversion(const struct run *e, struct json *j)
     json_close(j, '}');
 }
 
-/* The material points of PD-MPM bonds follow from the mesh; they are no part of the state. */
+/* Saves or restores the state of conversion. The material points of PD-MPM bonds are not saved: they follow from the
+ * mesh. */
 static status coupling_state_of(struct run *e, struct archive *a)
 {
     if (!a->saving) bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, e->scene->material);

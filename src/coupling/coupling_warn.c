@@ -25,7 +25,7 @@ static void name_add(struct name_list *l, const char *name)
         snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
 }
 
-/* Warns of bodies in the reference frame, which are in contact with no other body. */
+/* Warns of bodies in the reference frame, whose material points have no contact with other bodies. */
 static void warn_of_reference(const struct scene *s, const struct reference_frame *reference, struct warnings *to)
 {
     struct name_list names = {0};
@@ -39,7 +39,8 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
                  names.text, names.all > 1 ? "are" : "is");
 }
 
-/* Warns of missing contact between several bodies, depending on the method. */
+/* Warns of missing contact between several bodies, depending on the method. approaches: particles convert when bodies
+ * approach each other, so that they have contact. */
 static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
                             struct warnings *to)
 {
@@ -64,7 +65,8 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
                                                         : "the coupling is a different one");
 }
 
-/* Returns true if two particles start with the same velocity, as parts of joined bodies; colliding bodies do not. */
+/* Returns true if particles i and j start with the same velocity, as parts of bodies meant to be joined; colliding
+ * bodies do not. */
 static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
 {
     real apart2 = 0, most2 = 0;
@@ -75,8 +77,8 @@ static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
     return apart2 <= 1e-6 * most2;
 }
 
-/* Sets touch[a * bodies + b], a < b, if particles of bodies a and b are closer than `reach` at the start and move
- * together. Returns the number of such pairs of bodies. */
+/* Sets touch[a * bodies + b] to true, a < b, if particles of bodies a and b are closer than `reach` [m] at the start
+ * and move together. Returns the number of such pairs of bodies. */
 static int touching(const struct particles *p, const struct cells *cells, int bodies, real reach, bool *touch)
 {
     struct neighbour_list near = {0};
@@ -95,7 +97,7 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     return pairs;
 }
 
-/* Warns of bodies in contact at the start that are not joined. */
+/* Warns of bodies that touch at the start and are not joined. */
 static void warn_of_touch(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

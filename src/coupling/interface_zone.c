@@ -13,14 +13,15 @@ enum mark { OUTSIDE, BESIDE, POINT };
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Returns true if damping may change the velocity of particle j. */
+/* Returns true if damping may change the velocity of particle j: it is no mirror image, is not moved by mesh nodes, and
+ * its motion is not prescribed. */
 static bool interface_zone_is_free(const struct particles *p, int32_t j)
 {
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Marks the unmarked free particles within `radius` [m] of n listed ones of their body: material points (`as` POINT) or
- * all particles. Threads that reach the same particle write the same value. */
+/* Sets mark[] to `as` for unmarked free particles within `radius` [m] of the particles list[n] of their body: material
+ * points only if `as` is POINT, else all. Threads that reach the same particle write the same value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -53,7 +54,8 @@ static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *
         if (mark[i] == as) slot[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
 }
 
-/* Finds the members: the points of the interface zone, then their neighbours outside it. */
+/* Finds the members of the interface zone: its material points, near peridynamic particles, and then their neighbours
+ * outside it. mark[p->n]: 0 before; slot[p->n]: receives the index of each member. */
 static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                          uint8_t *mark, int32_t *slot)
 {
@@ -65,8 +67,9 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the neighbours of member k in pairs with at least one point of the interface zone. to: NULL, or set to them, as
- * members in ascending order. Returns their number. */
+/* Finds the neighbours of member k in pairs of which at least one is a material point of the interface zone. to:
+ * receives the indices of these members in the order of particles; NULL: count only. near: working memory. Returns
+ * their number. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {
@@ -84,7 +87,8 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
     return n;
 }
 
-/* Counts the pairs of each member, or writes them. Returns the largest number of a member. */
+/* Counts the neighbours of each member in r->start[k + 1] (count true), or writes them to r->neighbour (count false).
+ * Returns the largest number of neighbours of a member, at least 1. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {
@@ -103,7 +107,8 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
     return most;
 }
 
-/* Lists the neighbours of all members, and computes the scale of their velocity differences. */
+/* Lists the neighbours of all members of the interface zone, and computes r->scale, the factor on their velocity
+ * differences. */
 static void interface_zone_pairs_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                                       const uint8_t *mark, const int32_t *slot)
 {
@@ -143,7 +148,8 @@ void interface_zone_free(struct interface_zone *r)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Adds factor ((b - a) . e) e to sum; e: unit vector from particle i to j. */
+/* Adds factor ((b - a) . e) e to sum[dim]. a, b: velocities [dim]; e: unit vector from the present position of particle
+ * i to that of j. */
 static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor,
                       real *sum)
 {
@@ -156,12 +162,14 @@ static void add_along(const struct particles *p, int32_t i, int32_t j, const rea
     for (int d = 0; d < p->dim; d++) sum[d] += factor * along / length2 * y[d];
 }
 
+/* Copies the velocity of particle i to v[dim] [m/s]. */
 static void velocity_of(const struct particles *p, int32_t i, real *v)
 {
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* Computes m d of member k: velocity differences to its neighbours along the lines to them [kg m/s]. */
+/* Computes m d of member k in r->difference: its mass times the scaled sum of the velocity differences to its
+ * neighbours along the lines to them [kg m/s]. */
 static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
 {
     const int32_t i = r->particle[k];
@@ -175,8 +183,8 @@ static void difference_make(struct interface_zone *r, const struct particles *p,
     for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
 }
 
-/* Computes the change of momentum of member k by damping [kg m/s]. share: strength of the damping [1]. The terms of the
- * two members of a pair are bitwise opposite. */
+/* Computes the change of momentum of member k by damping, in r->change [kg m/s]. share: strength of the damping [1].
+ * The terms of the two members of a pair are bitwise opposite, so that momentum is conserved. */
 static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
 {
     real *sum = r->change + k * p->dim;
@@ -188,8 +196,8 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
     }
 }
 
-/* Returns half of the energy that damping removed [J]: -1/2 times the changes of momentum times the present velocities
- * of the members. The other half is computed with the velocities before the step. */
+/* Returns half of the energy that damping removed [J]: -1/2 times the sum over members of change of momentum times
+ * present velocity. The other half has been computed with the velocities before the step. */
 real interface_damped_second_half(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */

@@ -15,14 +15,16 @@ enum { EDGE_PARTS = 16 }; /* sampling points along an edge */
 
 /* ---- edges of cracks --------------------------------------------------------------------------------------------- */
 
-/* Finds the two corners of edge e of a polygon in 3D, or the end e of a segment twice; a crack may grow from there. */
+/* Stores the two corners of edge e of a polygon in 3D, or end e of a segment in both, in *from and *to; a crack may
+ * grow from there. */
 static void crack_end_of(const struct crack *c, int e, int dim, const real **from, const real **to)
 {
     *from = c->corner[e];
     *to = dim == 3 ? c->corner[(e + 1) % c->n] : c->corner[e];
 }
 
-/* Returns true if the body continues beyond edge e, away from the middle of the crack; beyond a mouth it does not. */
+/* Returns true if the body continues beyond edge e of crack c, away from the middle of the crack. Beyond the mouth of a
+ * notch it does not. */
 static bool edge_inside(const struct crack *c, int e, const struct particles *p, const struct bond_source *s)
 {
     real middle[DIM_MAX] = {0};
@@ -53,7 +55,7 @@ struct crack_edges {
 
 enum { EDGES_MAX = 64 };
 
-/* Finds the edges of a crack that are inside the body. radius: of the peridynamic zones round them [m]. */
+/* Returns crack c with its edges inside the body. radius: radius of the peridynamic zones around these edges [m]. */
 static struct crack_edges crack_edges_of(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                          real radius)
 {
@@ -62,7 +64,7 @@ static struct crack_edges crack_edges_of(const struct crack *c, const struct par
     return zone;
 }
 
-/* Returns true if particle i is in the zone round an edge of the crack. */
+/* Returns true if particle i is within zone->radius of an edge of the crack that is inside the body. */
 static bool in_zone(const struct crack_edges *zone, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
@@ -77,7 +79,7 @@ static bool in_zone(const struct crack_edges *zone, const struct particles *p, i
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the crack separates the reference positions of particles i and j. */
+/* Returns true if crack c separates the reference positions of particles i and j. */
 static bool parted(const struct crack *c, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
@@ -86,7 +88,7 @@ static bool parted(const struct crack *c, const struct particles *p, int64_t i, 
     return crack_cuts(c, a, b, p->dim);
 }
 
-/* Returns true if the crack is within the cutoff of particle i. */
+/* Returns true if crack c is within the cutoff of bonds of particle i. */
 static bool near_crack(const struct crack *c, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     real X[DIM_MAX];
@@ -106,7 +108,7 @@ struct flanks {
     int64_t particles, elsewhere;
 };
 
-/* Returns true if the crack cuts a bond of particle i to a listed neighbour of its body. */
+/* Returns true if crack c cuts a bond of particle i to one of the particles `near` of its body. */
 static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct neighbour_list *near)
 {
     for (int k = 0; k < near->n; k++)
@@ -114,7 +116,8 @@ static bool loses_by(const struct crack *c, const struct particles *p, int64_t i
     return false;
 }
 
-/* Counts the particles whose bonds a crack cuts outside the zones round its ends. */
+/* Counts the particles whose bonds a crack cuts outside the peridynamic zones around its ends, and those of them that
+ * are in no mesh. */
 static struct flanks flanks_of(const struct crack_edges *zone, const struct particles *p, const struct bond_source *s)
 {
     int64_t particles = 0, elsewhere = 0;
@@ -134,8 +137,8 @@ static struct flanks flanks_of(const struct crack_edges *zone, const struct part
     return (struct flanks){particles, elsewhere};
 }
 
-/* Returns the reason why a pre-crack cannot be a slit of the mesh, or NULL if it can. radius: of the peridynamic zones
- * round its ends [m]. */
+/* Returns the reason, as text, why pre-crack c cannot be a slit of the mesh, or NULL if it can. radius: radius of the
+ * peridynamic zones around its ends [m]. */
 static const char *notch_obstacle(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                   real radius)
 {
@@ -149,7 +152,7 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
     return NULL;
 }
 
-/* Returns true if particle i is within the cutoff of a slit or of the image of one. */
+/* Returns true if particle i is within the cutoff of bonds of a slit or of the mirror image of one. */
 static bool near_slit(const struct notches *n, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     for (int k = 0; k < n->slits + n->images; k++)
@@ -157,8 +160,8 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
-/* Stores the share of the family volume of particle i that is beyond slits in n->lost[i]. Returns true if a nearest
- * neighbour of the particle is beyond a slit. */
+/* Stores in n->lost[i] the fraction of the family volume of particle i that is beyond slits [1]. near: working memory.
+ * Returns true if a nearest neighbour of the particle is beyond a slit. */
 static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source,
                       struct neighbour_list *near, int64_t i)
 {
@@ -176,14 +179,14 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
     return faces;
 }
 
-/* Returns true if particle i is beside a void so narrow that its faces face each other within a family. */
+/* Returns true if particle i is beside a void so narrow that bonds would cross it. */
 static bool beside_void(const struct bond_source *source, int64_t i)
 {
     return particle_is_beside_void(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
 }
 
-/* Stores for every particle the share of its family beyond slits (n->lost), and lists the particles beside a slit or a
- * narrow void (n->face) with their depth in the body (n->depth). */
+/* Stores for every particle the fraction of its family beyond slits, n->lost [1], and lists the particles beside a slit
+ * or a narrow void, n->face, with their depth below the surface, n->depth [m]. */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
@@ -251,8 +254,9 @@ void notches_free(struct notches *n)
 
 /* ---- approach of faces ------------------------------------------------------------------------------------------- */
 
-/* Returns the distance below which faces k and l of a void become peridynamic [m]: VOID_AHEAD before contact, but at
- * most their distance at the start; 0: no void is between them. */
+/* Returns the distance below which faces k and l (entries of n->face) on both sides of a void become peridynamic [m]:
+ * VOID_AHEAD spacings before contact, but less than their distance at the start. Returns 0 if no void is between
+ * them. */
 static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l,
                                   real spacing)
 {
@@ -262,8 +266,8 @@ static real void_meeting_distance(const struct notches *n, const struct particle
     return real_min(sqrt(r2) - NOTCH_GAP * spacing, n->depth[k] + n->depth[l] + VOID_AHEAD * spacing);
 }
 
-/* Returns the distance below which particles of faces k and l become peridynamic [m]; 0: no slit or void is between
- * them. */
+/* Returns the distance below which particles of faces `face` and `other` (entries of n->face) become peridynamic [m],
+ * or 0 if no slit or void is between them. */
 static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other,
                              real spacing)
 {
@@ -275,7 +279,8 @@ static real meeting_distance(const struct notches *n, const struct particles *p,
     return width < 0 ? void_meeting_distance(n, p, face, other, spacing) : spacing - real_max(gap, width - gap);
 }
 
-/* Returns the distance of particles i and j after the time `ahead` if they approach each other [m]. */
+/* Returns the distance of particles i and j after the time `ahead` [s] if they approach each other, else their present
+ * distance [m]. */
 static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real ahead)
 {
     real r2 = 0, rate = 0;

@@ -8,7 +8,7 @@
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the reason why no pre-crack of the scene may be a slit; NULL: none. */
+/* Returns the reason, as text, why no pre-crack of scene s may be a slit of the mesh, or NULL if there is none. */
 static const char *scene_obstacle(const struct scene *s)
 {
     if (s->conversion.notch == NOTCH_BONDS) return "the scene says so";
@@ -20,7 +20,8 @@ static const char *scene_obstacle(const struct scene *s)
     return NULL;
 }
 
-/* Returns the reason of scene, frame or grid why no pre-crack may be a slit; NULL: none. */
+/* Returns the reason, as text, of scene, frame or grid why no pre-crack may be a slit of the mesh, or NULL if there is
+ * none. */
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
@@ -29,7 +30,8 @@ static const char *obstacle_of(const struct scene *s, const struct reference_fra
     return why;
 }
 
-/* Returns REFUSED, with the reason, if the scene requires pre-cracks to be slits of the mesh and one cannot be. */
+/* Returns REFUSED, with a message that contains the reason, if the scene requires pre-cracks to be slits of the mesh
+ * and one cannot be. */
 static status notches_check(const struct scene *s, const struct notches *n)
 {
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)
@@ -70,7 +72,8 @@ void notch_describe(const struct notches *n, int crack, real spacing, char *text
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Marks material points beside slits whose faces approach each other (FLAG_NEAR). */
+/* Flags material points beside slits and narrow voids whose faces approach each other (FLAG_NEAR), every APPROACH_STEPS
+ * steps. Returns true if faces were examined in this step. */
 bool flag_points_at_closing_slits(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;

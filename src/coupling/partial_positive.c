@@ -11,7 +11,8 @@
 
 #include "partial_parts.h"
 
-/* Computes zeta = (1/Q) sum w xi (x) xi over the bonds of the point [1]. Returns false if it has none. */
+/* Computes zeta = (1/Q) sum w xi (x) xi over the intact bonds of point i, in symmetric components [1], with bond
+ * weights w, bond vectors xi and weighted volume Q. zeta: 0 before. Returns false if the point has no bonds. */
 static bool own_bonds(real *zeta, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;
@@ -32,7 +33,8 @@ static bool own_bonds(real *zeta, const struct particles *p, const struct bonds 
 
 /* ---- eigenvalues ------------------------------------------------------------------------------------------------- */
 
-/* Does a Jacobi rotation: entry pq of the symmetric M becomes 0; the columns of Z are rotated likewise. */
+/* Applies a Jacobi rotation to the symmetric matrix M[n][n] so that its entry pq becomes 0; the columns of Z[n][n] are
+ * rotated likewise. */
 static void rotate(real *M, real *Z, int n, int p, int q)
 {
     const real off = M[p * n + q];
@@ -50,8 +52,8 @@ static void rotate(real *M, real *Z, int n, int p, int q)
     }
 }
 
-/* Returns true if the symmetric M has a Cholesky factor, so that no eigenvalue is negative: true for most points, and
- * twenty times cheaper than the eigenvalues. */
+/* Returns true if the symmetric matrix M[n][n] has a Cholesky factor, so that all eigenvalues are positive. This is
+ * true for most points, and twenty times cheaper than the eigenvalues. */
 static bool is_positive(const real *M, int n)
 {
     real F[SYM_MAX * SYM_MAX];
@@ -65,7 +67,7 @@ static bool is_positive(const real *M, int n)
     return true;
 }
 
-/* Sets the negative eigenvalues of the symmetric M to 0. */
+/* Sets the negative eigenvalues of the symmetric matrix M[n][n] to 0, n <= SYM_MAX. */
 static void make_positive(real *M, int n)
 {
     if (is_positive(M, n)) return;
@@ -83,12 +85,13 @@ static void make_positive(real *M, int n)
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the scale of component c: off-diagonal components occur twice in a tensor; with a factor sqrt(2) each, a
- * matrix over symmetric components has the eigenvalues of its tensor. */
+/* Returns the scale of symmetric component c: 1 for normal, sqrt(2) for shear components, which occur twice in a
+ * tensor. With these factors a matrix over symmetric components has the eigenvalues of its tensor. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
-/* Reduces T, the part of the stiffness of a point that its bonds replace [J], so that V C + q L L - T has no negative
- * eigenvalue. C: elastic constants of the material m; V: volume of the point. */
+/* Reduces T [J], the part of the stiffness of a point that its bonds replace, so that V C + q L L - T has no negative
+ * eigenvalue. C: elastic constants of material m; V: volume of the point [m^3]; q: stiffness [J]; L: symmetric
+ * components [1]. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
 {
     const int n = symmetric_component_count(dim);

@@ -25,7 +25,8 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the share of the segment a-b inside the cube of half edge `half_edge` round X [1]. */
+/* Returns the fraction of the segment from a to b that is inside the cube with centre X and half edge half_edge [m]
+ * [1]. a, b, X: [dim] [m]. */
 real segment_share_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim)
 {
     real in = 0, out = 1;
@@ -59,7 +60,7 @@ struct reflection mirror_reflection_of(const struct bond_source *s, const struct
 
 /* ---- the tensor -------------------------------------------------------------------------------------------------- */
 
-/* Returns 1 for equal indices, else 0 (Kronecker's delta). */
+/* Returns 1 for equal indices a and b, else 0 (Kronecker's delta). */
 static bool same(int a, int b) { return a == b; }
 
 void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half_edge, struct response k,
@@ -83,8 +84,8 @@ void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real
         }
 }
 
-/* Returns the volume V of particle or image i over the weighted volume Q of its family [m]. A particle without a row
- * gets Q of a full family. */
+/* Returns the volume V of particle or mirror image i over the weighted volume Q of its family, V/Q [m^-2]. A particle
+ * without a row of bonds gets Q of a full family. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int32_t row = b->row_of[image_source_particle(p, s->image, i)];
@@ -110,7 +111,7 @@ struct box {
     real low[DIM_MAX], high[DIM_MAX];
 };
 
-/* Computes the box round all intact bonds of a row, in the reference configuration. */
+/* Returns the bounding box of all intact bonds of row `row`, in the reference configuration [m]. */
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
 {
     struct box box = {{0}, {0}};
@@ -127,7 +128,7 @@ static struct box box_of(const struct particles *p, const struct bonds *b, int64
     return box;
 }
 
-/* Returns true if the box and the cube of half edge `half` round X do not overlap. */
+/* Returns true if the box and the cube with centre X[dim] and half edge `half` [m] do not overlap. */
 static bool box_passes(const struct box *box, const real *X, real half, int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -135,7 +136,8 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
     return false;
 }
 
-/* Adds the contributions of all bonds of material point (or image) j that cross the cell round X to T. */
+/* Adds to T the contributions of all bonds of material point (or mirror image) j that cross the cell with centre X[dim]
+ * and half edge `half` [m]. box[rows]: bounding boxes of the bonds of each row, by which most rows are skipped. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -164,7 +166,8 @@ real particle_half_edge(const struct particles *p, const struct bond_source *s, 
 }
 
 /* Computes T V of point i [J], the stiffness that bonds add to its cell, by adding the bonds of all rows nearby one by
- * one, for any arrangement of particles. */
+ * one, for any arrangement of particles. T: 0 before; box[rows]: bounding boxes of the bonds of each row; near: working
+ * memory. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct neighbour_list *near)
 {
@@ -177,9 +180,9 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
 }
 
-/* Computes the matrix M = T C^-1/V that gives the stress carried by bonds, M : sigma, from the stress of point i, over
- * symmetric components (a shear strain counts twice in T : eps). Returns false if no bond crosses the cell of the
- * point. */
+/* Computes the matrix M = T C^-1/V, over symmetric components, that gives the stress carried by bonds, M : sigma, from
+ * the stress sigma of point i. T [J]; a shear strain counts twice in T : eps. Returns false if no bond crosses the cell
+ * of the point. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -196,16 +199,17 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
     return largest > 0;
 }
 
-/* Returns the number of values that are stored for a point: those of M, and for state-based models those of L. */
+/* Returns the number of values that are stored for a point: those of the matrix M, and for state-based models also
+ * those of the tensor L. */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
     const int n = symmetric_component_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
-/* Computes the values stored for point i under state-based models, the matrix M and the tensor L, from T V [J]. Returns
- * false if the point needs none. In hand-shake coupling a point leaves no stress to bonds: M is then 0, and its being
- * stored marks a point of PD-MPM bonds. */
+/* Computes the values stored for point i under state-based models, entry = matrix M, then tensor L, from T V [J]; T is
+ * limited first. Returns false if the point needs no entry. In hand-shake coupling a point transmits all its stress
+ * itself: M and L are 0, and the entry only marks a point of PD-MPM bonds. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -216,8 +220,8 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
-/* Computes the values stored for point i under bond-based models, the matrix M, from T V [J]. Returns false if no bond
- * crosses the cell of the point. */
+/* Computes the values stored for point i under bond-based models, entry = matrix M, from T V [J]; T is limited first.
+ * Returns false if no bond crosses the cell of the point. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     partial_tensor_limit_bonds(T, p, s, i);
@@ -238,10 +242,9 @@ struct renewal {
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
-/* Sets bits in mark [particles]: DIRTY for particles within `radius` [m] of changed ones, whose stored values must be
- * recomputed, and OTHERS_ROW for those up to `reach` [m] farther, whose rows may have bonds across the cells of the
- * former; sets OWN for the changed ones themselves. changed [n]: their indices; NULL: around all peridynamic
- * particles. */
+/* Sets bits in mark[particles]. DIRTY: particles within `radius` [m] of changed ones, whose stored values must be
+ * recomputed. OTHERS_ROW: those up to `reach` [m] farther, whose rows may have bonds across cells of the former. OWN:
+ * the changed particles themselves. changed[n]: their indices; NULL: all peridynamic particles. */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
                        const int32_t *changed, int64_t n)
 {
@@ -260,7 +263,8 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     memory_free(near.at);
 }
 
-/* Counts the marked particles. list: NULL, or set to them in ascending order. Returns their number. */
+/* Returns the number of marked particles, mark[n] != 0. list: receives their indices, ascending; NULL: count only. mark
+ * must be readable, and 0, up to a multiple of LANES. */
 static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 {
     int64_t found = 0;
@@ -274,7 +278,8 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-/* Finds points and rows of a renewal around n changed particles; NULL: around all peridynamic particles. */
+/* Finds the points and rows whose entries must be recomputed after a change of the particles changed[n]; NULL: of all
+ * peridynamic particles. table: responses on a lattice, which make rows unnecessary. Release with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)
@@ -326,7 +331,8 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     array_copy(partial->local + (int64_t)partial->index[i] * local, M + size, local, sizeof *M);
 }
 
-/* Removes unused entries once they are the majority; conversion and reversion create and abandon entries. */
+/* Removes unused entries once they are the majority; conversion and reversion create and abandon entries. size, local:
+ * numbers of values of M and L of an entry. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
@@ -348,7 +354,8 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
     memory_free(old.local);
 }
 
-/* Returns true if the entry of point i equals M and L bitwise. */
+/* Returns true if the entry of point i equals M (`size` values) and the tensor L that follows it (`local` values)
+ * bitwise. */
 static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     const int64_t at = partial->index[i];
@@ -356,14 +363,15 @@ static bool entry_is(const struct partial_stress *partial, int64_t i, const real
            arrays_equal(partial->local + at * local, M + size, local, sizeof *M);
 }
 
-/* Appends particle i to the list of points whose stored values have changed, partial->touched. */
+/* Appends particle i to partial->touched, the list of points whose stored values have changed. */
 static void touch(struct partial_stress *partial, int64_t i)
 {
     GROW("partial.touched", partial->touched, partial->touches + 1);
     partial->touched[partial->touches++] = (int32_t)i;
 }
 
-/* Computes the entries of all material points of the renewal. crossed: [r->n] set to true if a point needs an entry. */
+/* Computes the entries of all material points of the renewal r in parallel. entry: [r->n][values of an entry];
+ * crossed[r->n]: set to true if a point needs an entry. */
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {

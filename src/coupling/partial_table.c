@@ -51,7 +51,7 @@ struct partial_table {
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of sites: (2 reach + 1)^dim. */
+/* Returns the number of sites of table t: (2 reach + 1)^dim. */
 static int64_t partial_table_places_of(const struct partial_table *t)
 {
     int64_t n = 1;
@@ -59,7 +59,7 @@ static int64_t partial_table_places_of(const struct partial_table *t)
     return n;
 }
 
-/* Computes the offsets [spacings] of a site from its number. */
+/* Computes the offsets at[dim] [spacings] of site number `place` from the middle of the table. */
 static void place_to(const struct partial_table *t, int64_t place, int *at)
 {
     for (int d = 0; d < t->dim; d++, place /= 2 * t->reach + 1) at[d] = (int)(place % (2 * t->reach + 1)) - t->reach;
@@ -75,7 +75,8 @@ static int64_t place_from(const struct partial_table *t, const int *at)
     return place;
 }
 
-/* Returns the number of the site at `to` relative to the site at `from`; -1: out of reach. */
+/* Returns the number of the site at position to[dim] [m] relative to the site at `from`, or -1 if it is out of
+ * reach. */
 static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
 {
     int64_t place = 0;
@@ -90,7 +91,8 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 
 /* ---- construction ------------------------------------------------------------------------------------------------ */
 
-/* Numbers the vectors of all bonds within the cutoff, and lists the near sites. */
+/* Numbers the vectors of all bonds within the cutoff [m] in t->vector, and lists the near sites in t->near. If there
+ * are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST + 1. */
 static void vectors_make(struct partial_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
@@ -114,13 +116,14 @@ static void vectors_make(struct partial_table *t, real cutoff)
     }
 }
 
-/* Returns the number of the direction of a bond vector; a vector and its opposite have the same. */
+/* Returns the number of the direction of bond vector number `vector`; a vector and its opposite have the same
+ * direction. */
 static int direction_of(const struct partial_table *t, int vector)
 {
     return vector < t->directions ? vector : t->vectors - 1 - vector;
 }
 
-/* Finds the number of each vector after reflection along any set of axes. */
+/* Computes t->mirror: the number of each bond vector after reflection along any set of axes. */
 static void mirrors_make(struct partial_table *t)
 {
     t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
@@ -133,8 +136,9 @@ static void mirrors_make(struct partial_table *t)
         }
 }
 
-/* Processes the bond from the middle to site k, in lattice units: counts (`count`) or stores a crossing for each cell
- * that it crosses, listed by the site of its start relative to the cell. */
+/* Processes the bond from the middle of the table to site k, in spacings. For each cell that it crosses, counts a
+ * crossing (`count` true) or stores it (false), listed by the site where the bond starts, relative to the cell. next:
+ * counts, then positions in the list, by site. */
 static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
@@ -158,7 +162,8 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             }
 }
 
-/* Makes the list of crossings, by the site where the bond starts. */
+/* Makes the list of crossings of bonds with the cell of a point, t->crossing, sorted by the site where the bond
+ * starts. */
 static void crossings_make(struct partial_table *t)
 {
     const int64_t places = partial_table_places_of(t);
@@ -174,7 +179,7 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Computes the tensors of whole bonds by direction, for a unit value of each part of a response. */
+/* Computes t->tensor: the tensor T of a whole bond of each direction, for a unit value of each part of its response. */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
@@ -194,7 +199,7 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
     }
 }
 
-/* Returns true if all particles of each body, and their images, are on one lattice. */
+/* Returns true if all particles of each body, with their mirror images, are on one lattice of this spacing [m]. */
 static bool on_lattice(const struct particles *p, real spacing)
 {
     int64_t first[BODIES_MOST];
@@ -290,7 +295,7 @@ static void response_open(struct partial_table *t, int64_t i)
     if (a->of[i] < 0) a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
 }
 
-/* Releases the entry of particle i in the array of bond responses. */
+/* Releases the entry of particle i in the array of bond responses, if it has one. */
 static void response_close(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
@@ -299,8 +304,8 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes the responses to strain of the bonds of a row, response [vectors][parts], by the vector of the bond; 0 for
- * broken bonds and for vectors without a bond. */
+/* Computes the responses to strain of the bonds of row `row`, response[vectors][parts], by the vector of the bond; 0
+ * for broken bonds and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -328,7 +333,7 @@ struct row_block_intact {
     unsigned rows;
 };
 
-/* Returns true if particle i is a material point with an intact bond. *last: cache of the last row block. */
+/* Returns true if particle i is a material point with an intact bond. *last: cache of the last row block queried. */
 static bool partial_table_has_bonds(struct row_block_intact *last, const struct particles *p, const struct bonds *b,
                                     int64_t i)
 {
@@ -375,9 +380,9 @@ struct crossing_row {
     int32_t j, place, response;
 };
 
-/* Adds the responses of the bonds of a row, each times the share of the bond inside the cell of a point, to sum
- * [directions][parts]. place: site of the row relative to the point; signs: axes that the reflections of an image
- * reverse, one bit each. */
+/* Adds to sum[directions][parts] the responses of the bonds of a row, each times the fraction of the bond inside the
+ * cell of a point. place: site of the row relative to the point; response: of the row; signs: axes that the reflections
+ * of an image reverse, one bit each; parts: t->parts, a compile-time constant. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
@@ -389,7 +394,7 @@ static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int6
     }
 }
 
-/* Prefetches the data that sum_row reads. */
+/* Prefetches the bond responses that sum_row reads for this row. */
 static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crossing_row *row)
 {
     const real *response = response_at(t, row->response);
@@ -397,7 +402,7 @@ static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct 
         __builtin_prefetch(response + t->crossing[c].vector * t->parts);
 }
 
-/* Adds to T the tabulated tensor of each direction and part of a response, times its sum. */
+/* Adds to T the tabulated tensor of each direction and part of a response, times its sum[directions][parts]. */
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
 {
     for (int k = 0; k < t->directions * t->parts; k++) {
@@ -412,8 +417,8 @@ bool partial_table_applies_to(const struct particles *p, const struct bond_sourc
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* Inserts j into an ascending list of n rows if it is a material point, or the image of one, with bond responses.
- * Returns the new length. */
+/* Inserts particle or image j, at site `place` relative to the point, into the list to[n], ascending by j, if it is
+ * (the image of) a material point with bond responses. Returns the new length. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -425,8 +430,8 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* Lists the rows near point i by the map of sites. Particles are found in ascending order; images, which have the
- * highest indices, in any order. */
+/* Lists in `to` the rows near point i, found by the map of sites l. Particles are found in ascending order; images,
+ * which have the highest indices, in any order. Returns their number. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -440,7 +445,8 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
     return n;
 }
 
-/* Lists the rows near point i by a neighbour search, in the order of crossing_rows_by_site. */
+/* Lists in `to` the rows near point i, found by a neighbour search, in the order of crossing_rows_by_site. near:
+ * working memory. Returns their number. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

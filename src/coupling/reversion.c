@@ -20,7 +20,7 @@ struct search {
     struct neighbour_list near;
 };
 
-/* Finds particle i and the particles of its body within `radius` [m], into s->near; images are replaced by their
+/* Finds particle i and the particles of its body within `radius` [m], in s->near; mirror images are replaced by their
  * sources. */
 static void search_near(struct search *s, int64_t i, real radius)
 {
@@ -33,7 +33,7 @@ static void search_near(struct search *s, int64_t i, real radius)
     s->near.n = kept;
 }
 
-/* Returns true if particle i, or a particle of its body within `radius` [m], is marked. */
+/* Returns true if particle i, or a particle of its body within `radius` [m], has mark[] != 0. */
 static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 {
     if (mark[i]) return true;
@@ -43,8 +43,8 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
     return false;
 }
 
-/* Returns true if the largest principal stress of particle i is below rule->low_stress times the stress at which it
- * would convert. The virial of a family truncated by a surface is scaled to that of a full family. */
+/* Returns true if the largest principal stress of particle i is less than rule->low_stress times the stress at which it
+ * would convert. The virial stress of a family truncated by a surface is scaled to that of a full family. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -55,10 +55,10 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_largest_principal(stress, p->dim) < limit;
 }
 
-/* Finds the peridynamic particles that may not revert themselves: sets held[i] to 1 for particles with a broken bond
- * or one that has softened, inside rule->kept, or whose stress has been low for less than the hold time, and cut[i] to
- * 1 for those with a broken bond. Updates low_since, the time from which on the stress has been low [s]. Returns the
- * number of peridynamic particles with held[i] = 0. */
+/* Finds the peridynamic particles that may not revert by themselves. held[i] is set to 1 for particles with a broken or
+ * softened bond, inside rule->kept, or with low stress for less than the hold time, else to 0. cut[i] is set to 1 for
+ * those with a broken or softened bond. Also updates low_since, the time from which on the stress has been low [s]. t:
+ * present time [s]. Returns the number of peridynamic particles with held[i] = 0. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -81,9 +81,9 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
 }
 
 /* Sets bound[i] to 1 for peridynamic particles that must stay so: those with a particle marked in `held` within the
- * cutoff, or with one that lost a bond (`cut`) within BROKEN_HORIZONS. Sets near[i] to 1 for particles that have a
- * peridynamic particle j with bound[j] = 0 within the cutoff, as candidates for the centre of a ball in which no
- * particle is marked in `bound`. */
+ * cutoff, or with one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles that have a
+ * peridynamic particle j with bound[j] = 0 within the cutoff; they are candidates for the centre of a ball without
+ * bound particles. All arrays: [p->n]. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -109,7 +109,7 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
 }
 
 /* Sets mark[i] to 1 for particles with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
- * (`meeting` true), or have none (false). */
+ * (`meeting` true), or have none (false), else to 0. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -146,7 +146,7 @@ int64_t reversion_select_particles(const struct reversion_rule *rule, struct par
 
 /* ---- state of reverted particles --------------------------------------------------------------------------------- */
 
-/* Exchanges n numbers of two rows of a matrix. */
+/* Exchanges the n numbers a[] and b[] of two rows of a matrix. */
 static void rows_swap(real *a, real *b, int n)
 {
     for (int c = 0; c < n; c++) {
@@ -155,8 +155,8 @@ static void rows_swap(real *a, real *b, int n)
     }
 }
 
-/* Solves A x = b for n unknowns and `columns` right sides by elimination with pivots; x replaces b (row major,
- * `columns` to a row). Returns false if A is singular: a family with too few directions. */
+/* Solves A x = b for n unknowns and `columns` right sides by elimination with pivots. A[n][n] is overwritten; x
+ * replaces b[n][columns]. Returns false if A is singular, i.e. if a family has too few directions. */
 static bool reversion_solve(real *A, real *b, int n, int columns)
 {
     real largest = 0;
@@ -179,9 +179,9 @@ static bool reversion_solve(real *A, real *b, int n, int columns)
     return true;
 }
 
-/* Adds the moments of the intact bonds of a row, from which the deformation gradient F of its family follows, K F^T =
- * G: K = sum w e e and G = sum w e y/r, with the weight w, reference direction e, present vector y and reference length
- * r of a bond. */
+/* Adds the moments of the intact bonds of row `row` to K and G, [dim dim]: K = sum w e e and G = sum w e y/r, with the
+ * weight w, reference direction e, present vector y and reference length r of a bond. The deformation gradient F of the
+ * family follows from K F^T = G. */
 static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
@@ -207,7 +207,7 @@ struct crossing {
 };
 
 /* Adds half of the contribution of a bond of particle or image j to stress and derivative in the cell of `to`; the row
- * at the other end of the bond adds the other half. r: reflection that gives the image. */
+ * at the other end of the bond adds the other half. r: reflection that maps the source of j to j. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
@@ -239,10 +239,10 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     }
 }
 
-/* Computes sigma = (1/V) sum l F (x) y and T = (1/V) sum k r l e e e e over all bonds that cross the cell of particle
- * i, l being the share of the reference segment inside it (partial_stress.c): the flux of momentum through the cell.
- * The virial of the family of the particle is equal under uniform strain, but smooths a wave over twice the
- * distance. */
+/* Computes stress and derivative of the cell of particle i from all bonds that cross it: sigma = (1/V) sum l F (x) y
+ * and T = (1/V) sum k r l e e e e, with the fraction l of the reference segment inside the cell (partial_stress.c).
+ * sigma is the flux of momentum through the cell. The virial of the particle's family is equal under uniform strain,
+ * but smooths a wave over twice the distance. near: working memory. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
@@ -268,9 +268,9 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* Replaces the stress [Pa] that the bonds across the cell of particle i carry by that of full families under the same
- * strain T^-1 stress. T: derivative of the stress by a uniform strain [Pa]. Leaves the stress unchanged if T is
- * singular. */
+/* Replaces stress [Pa], which the bonds across the cell of particle i carry, by that of full families under the same
+ * strain T^-1 stress. T: derivative of the stress by a uniform strain [Pa], overwritten. Leaves the stress unchanged if
+ * T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -282,8 +282,9 @@ static void complete(const struct bond_source *source, const struct particles *p
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
 
-/* Computes the stress of particle i as a material point [Pa]. State-based models have no force of a single bond: the
- * virial of the family is used. */
+/* Computes the stress of particle i as a material point, in symmetric components [Pa]: that of the bonds across its
+ * cell. State-based models have no force of a single bond, so that the virial of the family is used. near: working
+ * memory. */
 static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
                              const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
@@ -295,7 +296,8 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
     memcpy(stress, c.stress, sizeof c.stress);
 }
 
-/* Sets stress, volume, velocity gradient and stretch of particle i as a material point. */
+/* Sets stress, volume, velocity gradient and stretch of particle i, as a material point, from its bonds. near: working
+ * memory. */
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
                               struct neighbour_list *near)
 {

@@ -9,8 +9,8 @@
 #include "contact/contact.h"
 #include "run/energies.h"
 
-/* Returns the number of steps between checks: a wave travels one horizon, half of a family, so that no wave crosses a
- * family between two checks. */
+/* Returns the number of steps between checks for reversion, at least 1: a wave travels one horizon, half of a family,
+ * in them, so that no wave crosses a family between two checks. */
 static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
                       const struct bond_source *source)
 {
@@ -32,7 +32,7 @@ status reversion_check(const struct scene *s)
     return why ? status_set(REFUSED, "conversion.reversion: true goes with %s", why) : OK;
 }
 
-/* Returns the energy of the bodies at the present positions [J]. */
+/* Returns the sum of elastic and kinetic energies of the bodies at the present positions [J]. */
 static real energy_now(struct run *e)
 {
     if (e->source.modulus) compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
@@ -42,7 +42,7 @@ static real energy_now(struct run *e)
            particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh);
 }
 
-/* Reverts n listed particles and records the change of energy. */
+/* Reverts the peridynamic particles list[n] to material points and records the change of energy. */
 static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);

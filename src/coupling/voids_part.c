@@ -26,13 +26,14 @@ struct closed {
     int64_t n, first;
 };
 
-/* Counts particle i as beside a closed void, and stores it if it is the first. */
+/* Counts particle i as beside a closed void, and stores it if it is the first one. */
 static void closed_add(struct closed *to, int64_t i)
 {
     if (to->n++ == 0) to->first = i;
 }
 
-/* Finds material points beside voids on a grid that the voids do not cut, in bodies whose surface is known. */
+/* Finds material points beside narrow voids on a grid that the voids do not cut, in bodies whose surface is known.
+ * uncut: voids do not cut the mesh either. */
 static struct closed closed_on_grid(const struct particles *p, const struct voids *v, bool uncut)
 {
     struct closed found = {0};
@@ -42,8 +43,8 @@ static struct closed closed_on_grid(const struct particles *p, const struct void
     return found;
 }
 
-/* Computes the distances from particle i to its nearest neighbours along the axes, in negative and positive direction
- * [2 dim, m]; INFINITY: none. */
+/* Computes the distances from particle i to its nearest neighbours along the axes, next[2 dim] [m]: for each axis in
+ * negative, then in positive direction; INFINITY if there is none. near: neighbours of i. */
 static void next_along(const struct particles *p, int64_t i, const struct neighbour_list *near, real *next)
 {
     for (int a = 0; a < 2 * p->dim; a++) next[a] = INFINITY;
@@ -58,8 +59,8 @@ static void next_along(const struct particles *p, int64_t i, const struct neighb
     }
 }
 
-/* Finds particles of body b, whose surface is not known, that are on a lattice and beside empty sites narrower than
- * `reach` [m]. */
+/* Finds particles of body b, whose surface is not known, beside empty lattice sites narrower than `reach` [m]. Returns
+ * none if the particles are not on a lattice. */
 static struct closed closed_in_lattice(const struct scene *s, const struct particles *p, const struct cells *cells,
                                        int b, real reach)
 {
