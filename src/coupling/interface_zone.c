@@ -47,7 +47,8 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the particles with mark `as` to the members. slot: index of each particle among the members [n]. */
+/* Appends the particles with mark `as` to the members of the interface zone, ascending. slot[n]: receives the index of
+ * each of them among the members. */
 static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *slot, int64_t n, enum mark as)
 {
     for (int64_t i = 0; i < n; i++)
