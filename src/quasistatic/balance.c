@@ -21,9 +21,9 @@ enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };
 
 /* ---- predictor --------------------------------------------------------------------------------------------------- */
 
-/* Returns the relative growth of loads and prescribed displacements from the last equilibrium to pseudo-time t [s] by
- * projection on those of the last equilibrium [1], or 0 if there were none. before: applied forces of the last
- * equilibrium [dim][particles, N]. */
+/* Returns the relative growth of loads and prescribed displacements from the last equilibrium to pseudo-time t [s], by
+ * projection on those of the last equilibrium [1]; 0 if there were none. before: applied forces of the last equilibrium
+ * [dim][particles] [N]. */
 static real load_growth(const struct statics *s, const struct particles *part, real t, real *const *before)
 {
     real now = 0, initial = 0;
@@ -37,9 +37,9 @@ static real load_growth(const struct statics *s, const struct particles *part, r
     return initial > 0 && t != s->t ? now / initial - 1 : 0;
 }
 
-/* Stores the displacement increment to pseudo-time t [s] in `increment`: the prescribed displacements of supports, and
- * for all other components a prediction that scales the present displacements by the growth of the loads. before:
- * applied forces of the last equilibrium [dim][particles, N]. */
+/* Stores in s->increment the displacement increment to pseudo-time t [s]: the prescribed displacements of supports; for
+ * all other components a prediction, which scales the present displacements by the growth of the loads. before: applied
+ * forces of the last equilibrium [dim][particles] [N]. */
 static void increment_predict(struct statics *s, const struct particles *p, const struct mesh *mesh,
                               const struct loads *loads, real t, real *const *before)
 {
@@ -82,7 +82,7 @@ struct account {
     real *applied[DIM_MAX]; /* [particles of the body] applied forces [N] */
 };
 
-/* Copies the present displacements and forces into *a. account_end frees the storage. */
+/* Copies the present displacements and forces into *a. account_end frees its arrays. */
 static void account_start(struct account *a, const struct statics *s, const struct particles *part)
 {
     for (int d = 0; d < part->dim; d++) {
@@ -98,11 +98,11 @@ static void account_start(struct account *a, const struct statics *s, const stru
     }
 }
 
-/* Adds the work of supports and of applied forces over the solution to that of the loads: the mean of the initial and
- * final force times the displacement (trapezoidal rule). Without contact (`touched` false), adds the work of loads
- * beyond that mean along the curved path of the solver (`bent`). before: initial positions of the particles
- * [dim][particles, m]. Frees the storage of *a. Returns an estimate of the error of the work [J], its difference from
- * the work with the initial or the final force alone. */
+/* Adds the work of supports and of applied forces over a solution to the accounts in `loads`: the mean of initial and
+ * final force times the displacement (trapezoidal rule). Without contact (`touched` false), the work of loads along the
+ * curved path of the solver is added as well. before: initial positions [dim][particles] [m]. Frees the arrays of *a.
+ * Returns an estimate of the error of the work [J]: its difference from the work with the initial or the final force
+ * alone. */
 static real account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads,
                         bool touched, real *const *before)
 {
@@ -129,10 +129,9 @@ static real account_end(struct account *a, const struct statics *s, const struct
 }
 
 /* Corrects the energy that the solver has lost since its losses were `lost` [J]. If points yield or faces come into
- * contact, forces do not change linearly over the increment, and the work of loads is known up to +-`range` [J] only: a
- * difference within this range is moved from the losses to the work of loads. in_contact: contact at the start or the
- * end. Returns true if energy was gained beyond this range in contact: faces have then passed through each other, into
- * a state that the loads cannot have reached. */
+ * contact, forces do not change linearly over the increment, and the work of loads is known up to +-`range` [J] only. A
+ * loss within this range is then moved to the work of loads. in_contact: contact at the start or the end. Returns true
+ * if energy was gained in contact beyond this range: faces have then passed through each other. */
 static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, bool in_contact,
                          bool yields)
 {
@@ -160,8 +159,9 @@ static status equilibrium_failed(const struct statics *s, const struct particles
         p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
-/* Finds the equilibrium at pseudo-time t [s] in a single solution and updates all accounts. Stores in *crossed whether
- * faces have passed through each other. */
+/* Finds the equilibrium at pseudo-time t [s] in a single solution and updates all accounts of work and energy.
+ * *crossed: set to true if faces have passed through each other, else to false. Returns FAILED, with a message, if
+ * there is no equilibrium. */
 static status solve_at(struct run *e, real t, bool *crossed)
 {
     struct statics *s = e->statics;
@@ -200,8 +200,8 @@ static status solve_at(struct run *e, real t, bool *crossed)
     return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
 }
 
-/* Finds the equilibria of `substeps` equal increments to pseudo-time t [s]; stops when faces have passed through each
- * other (*crossed). */
+/* Finds the equilibria of `substeps` equal increments up to pseudo-time t [s], and stops when faces have passed through
+ * each other (*crossed true). Returns FAILED, with a message, if an equilibrium is not found. */
 static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 {
     const real from = e->statics->t;
@@ -211,9 +211,9 @@ static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
     return OK;
 }
 
-/* Finds the equilibrium at pseudo-time t [s]. If faces have passed through each other, restores the initial state and
- * divides the increment into four times as many substeps, up to four times. Bodies that yield are solved once only,
- * since yielding is not undone. */
+/* Finds the equilibrium at pseudo-time t [s]. If faces pass through each other, restores the initial state and divides
+ * the increment into SUBSTEPS_FACTOR times as many substeps, up to TRIES_MOST times; then returns FAILED, with a
+ * message. Bodies that yield are solved only once, because yielding is not undone. */
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;

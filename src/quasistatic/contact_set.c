@@ -40,8 +40,8 @@ static void unconstrained_update(struct run *e)
     if (free_motions(e->statics) != before) statics_precondition_free(e->statics);
 }
 
-/* Searches for contact pairs. close: gap up to which contacts become active [spacings]. Returns the number of changes
- * of the active set. */
+/* Searches for contact pairs and selects the active contacts. close: gap up to which contacts become active [spacings].
+ * Returns the number of changes of the active set. */
 static int64_t statics_contact_search(struct run *e, real close)
 {
     return contact_search_and_select(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, close);
@@ -67,7 +67,7 @@ int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, 
     return (int)real_min(SUBSTEPS_MOST, real_max(1, ceil(most / (SUBSTEP_MOST * s->spacing))));
 }
 
-/* Returns the strain energy, contact energy and plastic work of bonds at the positions at which forces were last
+/* Returns the sum of strain energy, contact energy and plastic work of bonds at the positions at which forces were last
  * computed [J]. */
 static real energy_present(struct run *e)
 {
@@ -76,7 +76,8 @@ static real energy_present(struct run *e)
 
 bool statics_in_contact(const struct statics *s, const struct contact *c) { return s->in_contact || c->touching > 0; }
 
-/* Includes the contact energy in the energy before the solution only if anything was in contact. Without contact no
+/* Prepares contact for the solution at pseudo-time t [s]: stores the energy, moves rigid bodies, and searches for
+ * contacts. The energy before the solution includes contact energy only if anything was in contact. Without contact no
  * fragment is constrained by contact either. */
 void statics_contact_begin(struct run *e, real t)
 {

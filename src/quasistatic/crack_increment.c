@@ -36,8 +36,8 @@ enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
 
 /* ---- area of a crack increment ----------------------------------------------------------------------------------- */
 
-/* Returns the share of the crack area that belongs to the body: 1/2 if all cracks lie on planes of symmetry, else 1. d:
- * only planes perpendicular to axis d count (-1: all planes). */
+/* Returns the share of the crack area that belongs to the body [1]: 1/2 if all cracks lie on planes of symmetry, else
+ * 1. d: only planes perpendicular to axis d are considered; -1: all planes. */
 static real symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d)
 {
     bool on = t->n > 0;
@@ -50,9 +50,9 @@ static real symmetry_share(const struct crack_tips *t, const struct bond_source 
     return on ? 0.5 : 1;
 }
 
-/* Returns the length of the crack front of a body in space [m]: the sum of the edges of the pre-cracks, at most the
- * shortest side of the body (doubled by a plane of symmetry along the crack), at least one spacing. Returns 1 for a
- * plane body. */
+/* Returns the length of the crack front of a body in space [m]: the sum of the edges of the pre-cracks, limited to the
+ * shortest side of the body (doubled by a plane of symmetry along the crack), and at least one spacing. Returns 1 for a
+ * plane body, whose section contains its thickness. */
 static real front_length(const struct crack_tips *t, const struct bond_source *source, const struct particles *p)
 {
     const real h = source->family.spacing;
@@ -67,7 +67,8 @@ static real front_length(const struct crack_tips *t, const struct bond_source *s
     return edges > 0 ? real_min(length, real_max(edges, h)) : length;
 }
 
-/* Returns the area of a crack increment [m^2]. front: length of the crack front [m]. */
+/* Returns the area of a crack increment of INCREMENT_SPACINGS spacings [m^2], halved on planes of symmetry. front:
+ * length of the crack front [m]. */
 static real increment_area(const struct scene *s, const struct crack_tips *t, const struct bond_source *source,
                            real front)
 {
@@ -75,8 +76,8 @@ static real increment_area(const struct scene *s, const struct crack_tips *t, co
     return symmetry_share(t, source, -1) * ahead * scene_section_factor(s) * front;
 }
 
-/* Returns the number of pairs of bonds that may break between two equilibria: `steps.breaks` for each spacing of a
- * front of this length [m]. */
+/* Returns the number of pairs of bonds that may break between two equilibria: `steps.breaks` for each spacing of the
+ * crack front. front: its length [m]. */
 static int64_t breaks_most(const struct scene *s, real front)
 {
     const real along = s->dim < 3 ? 1 : front / s->spacing;
@@ -86,9 +87,9 @@ static int64_t breaks_most(const struct scene *s, real front)
 /* ---- increments -------------------------------------------------------------------------------------------------- */
 
 /* Breaks the bonds of one crack increment at the present pseudo-time, with an equilibrium after each group of bonds,
- * and appends them to the list of the next increment. Stores the energy cost of the bonds and the energy release in *a.
- * In space, if fronts are SIF-driven, the part of the body that is left at its far side breaks in larger groups, since
- * no load depends on its path. */
+ * and appends them to the list of the next increment. *a: receives the energy cost of the bonds and the energy release.
+ * In space, if crack fronts are SIF-driven, the remnant of the body at their far side breaks in larger groups, because
+ * no load depends on its path. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
@@ -122,8 +123,9 @@ static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics 
     return any && statics->behind.cost == 0;
 }
 
-/* Determines the next crack increment under the present loads: by the SIF-driven tips if there are any; without them,
- * or if bonds elsewhere exceed their critical stretch, by a trial in which bonds break. */
+/* Determines the next crack increment under the present loads: by the SIF-driven tips if there are any. Without them,
+ * or if bonds elsewhere exceed their critical stretch, it is found by a trial in which bonds break and which is undone.
+ * Returns FAILED, with a message, if a trial equilibrium is not found. */
 static status increment_find_now(struct run *e)
 {
     struct statics *s = e->statics;
@@ -148,10 +150,11 @@ static status increment_find_now(struct run *e)
     return tried;
 }
 
-/* Determines the next crack increment at the load size at which it is due, by the secant method: the release of energy
- * grows with the square of the strain, which is not proportional to the load size if supports or rigid bodies move some
- * distance before anything is in contact. Restores the present equilibrium unless material points have been converted;
- * then finds the equilibrium of the initial pseudo-time again. */
+/* Determines the next crack increment at the load size at which it is due, by the secant method: the energy release
+ * grows with the square of the strain, which is not proportional to the load size if supports or rigid bodies move
+ * before anything is in contact. Restores the present equilibrium, unless material points have been converted; then the
+ * equilibrium of the initial pseudo-time is found again. Returns FAILED, with a message, if an equilibrium is not
+ * found. */
 static status increment_find_at_due(struct run *e)
 {
     struct statics *s = e->statics;
@@ -179,8 +182,8 @@ static status increment_find_at_due(struct run *e)
 }
 
 /* Determines the next crack increment and the load size at which it is due. If anything is in contact, the increment is
- * evaluated again at that load size: the energy release is then not proportional to the square of the load size, as
- * supports or rigid bodies move some distance before contact, or crack faces close. */
+ * evaluated again at that load size, because the energy release is then not proportional to the square of the load
+ * size. Returns FAILED, with a message, if a trial equilibrium is not found. */
 status crack_increment_find(struct run *e)
 {
     TRY(increment_find_now(e));

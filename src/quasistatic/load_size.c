@@ -7,7 +7,8 @@
 
 /* ---- load size --------------------------------------------------------------------------------------------------- */
 
-/* Returns the sum of squares of the displacements of rigid bodies up to t [m^2]. r->body[n]. */
+/* Returns the sum of squares of the displacements of the rigid bodies r->body[n] from the start to pseudo-time t
+ * [m^2]. */
 static real rigid_displacement2(const struct rigid_set *r, int n, real t)
 {
     real sum = 0, shift[DIM_MAX];

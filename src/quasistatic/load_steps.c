@@ -36,8 +36,8 @@ enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
 /* Returns the load size at which the next crack increment is made while loads grow. For the first increment it is the
- * load of the pre-crack. For later ones it is at least the load at which the increment alone is in balance, so that
- * loads oscillate about those of a crack that grows continuously. */
+ * load of the pre-crack, s->due. For later ones it is at least the load at which the increment alone is in balance, so
+ * that loads oscillate about those of a crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
     return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_balanced_load(&s->ahead)) : s->due;
@@ -51,15 +51,17 @@ static void state_sample(struct run *e)
     for (int k = 0; k < e->scene->rigids; k++) rigid_update_largest_force(&e->rigid->body[k]);
 }
 
-/* Finds the equilibrium at load size `size`, with the pseudo-time limited to least..most [s]. */
+/* Finds the equilibrium at load size `size`, with the pseudo-time limited to least .. most [s]. Returns FAILED, with a
+ * message, if there is none. */
 static status go_to_size(struct run *e, real size, real least, real most)
 {
     return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_size(e, size), least), most));
 }
 
-/* Finds the equilibrium at pseudo-time t [s], or an earlier one at which bonds come near their critical stretch. Far
- * beyond it energies are those of a body that would have broken before, the release of an increment is lost in their
- * round-off, and bonds have yielded that never would. Then determines the next crack increment. */
+/* Finds the equilibrium at pseudo-time t [s], or at an earlier one at which bonds come near their critical stretch, and
+ * then determines the next crack increment. Far beyond the critical stretch energies are those of a body that would
+ * have broken before, the release of an increment is lost in their round-off, and bonds have yielded that never would.
+ * Returns FAILED, with a message, if an equilibrium is not found. */
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -84,8 +86,9 @@ static status approach_loads(struct run *e, real t)
 }
 
 /* Makes the next crack increment at the load size at which it is due or, if it was due at smaller loads, at the load
- * size of the previous increment, *size, which is updated. Contact forces there count for the largest forces of the
- * rigid bodies. from, t: range of the pseudo-time [s]. Then determines the increment after it. */
+ * size of the previous increment; then determines the increment after it. *size: load size of the previous increment,
+ * updated. Contact forces there are counted for the largest forces of the rigid bodies. from, t: range of the
+ * pseudo-time [s]. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_under_loads(struct run *e, real *size, real from, real t)
 {
     struct statics *s = e->statics;
@@ -107,7 +110,7 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
 }
 
 /* Increases the pseudo-time to t [s] and makes all crack increments that are due until then. The pseudo-time never
- * decreases. */
+ * decreases. Returns FAILED, with a message, if an equilibrium is not found. */
 static status step_by_load(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -125,8 +128,9 @@ static status step_by_load(struct run *e, real t)
     }
 }
 
-/* Makes one crack increment, then goes to the pseudo-time at which the next one is due; if none is, at most by `most`
- * [s], the step of the duration. */
+/* Makes one crack increment, then finds the equilibrium at the pseudo-time at which the next one is due. If none is
+ * due, the pseudo-time grows by at most `most` [s], one step of the duration. Returns FAILED, with a message, if an
+ * equilibrium is not found. */
 static status step_by_energy(struct run *e, real most)
 {
     struct statics *s = e->statics;
@@ -155,7 +159,8 @@ static real opening_now(const struct particles *part, const struct statics *stat
     return sqrt(now) - sqrt(initial);
 }
 
-/* Finds the equilibrium at which the opening equals `wanted` [m], by the secant method. t: first pseudo-time [s]. */
+/* Finds the equilibrium at which the opening between the gauge particles equals `wanted` [m], by the secant method. t:
+ * first pseudo-time tried [s]. Returns FAILED, with a message, if an equilibrium is not found. */
 static status go_to_opening(struct run *e, real wanted, real t)
 {
     real from = e->statics->t, at_from = opening_now(&e->part, e->statics);
@@ -169,7 +174,7 @@ static status go_to_opening(struct run *e, real wanted, real t)
     return OK;
 }
 
-/* Returns true if the next crack increment is due before the opening reaches `wanted` [m]; assumes that the opening
+/* Returns true if the next crack increment is due before the opening reaches `wanted` [m], assuming that the opening
  * grows in proportion to the loads. */
 static bool increment_before_opening(const struct run *e, real wanted)
 {
@@ -178,7 +183,8 @@ static bool increment_before_opening(const struct run *e, real wanted)
     return s->next.n > 0 && now > 0 && now / size * increment_load(e->statics, e->diagnostics) < wanted;
 }
 
-/* Increases the opening by one step; makes all crack increments that are due until then. */
+/* Increases the opening between the gauge particles by one load step, and makes all crack increments that are due until
+ * then. Returns FAILED, with a message, if an equilibrium is not found. */
 static status step_by_opening(struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;
@@ -223,7 +229,8 @@ static void load_step_begin(struct run *e)
     s->directions = 0;
 }
 
-/* Makes the next load step under the control of the scene. */
+/* Makes the next load step under the control (load, energy or opening) of the scene. Returns FAILED, with a message, if
+ * an equilibrium is not found. */
 static status load_step(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -240,7 +247,8 @@ static status load_step(struct run *e)
     return OK;
 }
 
-/* Returns REFUSED if a gauge position is far from the body, or if both are at one particle. */
+/* Returns REFUSED, with a message, if a gauge position of the opening is far from the body, or if both are at one
+ * particle. */
 static status check_opening(const struct scene *scene, const struct particles *part)
 {
     const struct scene_steps *s = &scene->steps;
@@ -262,7 +270,8 @@ static status check_opening(const struct scene *scene, const struct particles *p
         "steps.from and steps.to are at the same particle; two positions, on both sides of the crack, are expected");
 }
 
-/* Returns REFUSED if loads and supports do not depend on the pseudo-time, although the control scales them by it. */
+/* Returns REFUSED, with a message, if loads and supports do not depend on the pseudo-time, although the control (energy
+ * or opening) scales them by it. */
 static status check_loads_grow(const struct run *e)
 {
     const real whole = e->scene->duration, size = statics_load_size(e, whole);
@@ -291,7 +300,8 @@ status statics_check_scene(const struct run *e)
     return OK;
 }
 
-/* Warns that crack faces interpenetrate. K_I: of the tip with the largest growth [Pa m^(1/2)]. */
+/* Warns that crack faces interpenetrate, if K_I is negative and faces have no contact. K_I: of the tip with the largest
+ * growth [Pa m^(1/2)]. */
 static void warn_closed_faces(struct warnings *to, real K_I, const struct contact *c)
 {
     if (K_I < 0 && c->law.between == CONTACT_NONE)
@@ -302,8 +312,8 @@ static void warn_closed_faces(struct warnings *to, real K_I, const struct contac
 
 #define FLOW_LARGE 0.1 /* largest plastic strain of a small-strain analysis [1]; a limit by judgement */
 
-/* Warns of plastic strains too large for additive small strains: without hardening, a sign of loads beyond the limit
- * load. */
+/* Warns of plastic strains above FLOW_LARGE, too large for additive small strains. Without hardening they are a sign of
+ * loads beyond the limit load. */
 static void warn_large_flow(struct warnings *to, const struct particles *p)
 {
     real most = 0;
@@ -316,8 +326,8 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
     if (most > FLOW_LARGE) warnings_add_and_print(to, text);
 }
 
-/* Warns of driven rigid bodies without contact force, which miss the body or push a body that nothing constrains.
- * body[n]. largest: force norm of the solver [N]. */
+/* Warns of driven rigid bodies, among body[n], without contact force: they miss the body or push a body that nothing
+ * constrains. largest: force norm of the solver [N]. */
 static void warn_missed_bodies(struct warnings *to, const struct rigid_body *body, int n, real largest)
 {
     for (int k = 0; k < n; k++) {
@@ -341,9 +351,9 @@ static void warn_at_end(struct run *e)
     warn_missed_bodies(&e->warnings, e->rigid->body, e->scene->rigids, e->statics->balance.largest);
 }
 
-/* Checks for fragments that nothing constrains although loads on them are not balanced, and returns FAILED if there is
- * one. Under energy control after bonds have broken, the crack has severed the body instead: returns OK, stores true in
- * *apart, and prints a message. */
+/* Checks for fragments that nothing constrains although the loads on them are not balanced, and returns FAILED, with a
+ * message, if there is one. Under energy control after bonds have broken, the crack has severed the body instead: then
+ * *apart is set to true, a warning is printed, and OK is returned. */
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;

@@ -15,7 +15,8 @@
 
 real grid_relaxation_ramp(real length, real wave_speed, real dt) { return ceil(2 * length / (wave_speed * dt)) * dt; }
 
-/* Adds up sum m u^2 and sum m v^2 of particles first..end - 1, for reproducible_sums. */
+/* Adds the sums of m u^2 and m v^2 of particles first .. end - 1 to sum[0] and sum[1]; a block function of
+ * reproducible_sums. context: the particles. */
 static void motion_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
@@ -26,7 +27,8 @@ static void motion_block(const void *context, int64_t first, int64_t end, real *
         }
 }
 
-/* Adds up the squares of the forces that accelerate the grid nodes first..end - 1, for reproducible_sums. */
+/* Adds the squares of the forces that accelerate grid nodes first .. end - 1 to sum[0] [N^2]; a block function of
+ * reproducible_sums. context: the grid method. */
 static void node_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid_method *mpm = context;
@@ -35,7 +37,8 @@ static void node_block(const void *context, int64_t first, int64_t end, real *su
         for (int64_t I = first; I < end; I++) sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
 }
 
-/* Adds up the squares of the forces on particles first..end - 1 that are not on the grid, for reproducible_sums. */
+/* Adds the squares of the forces on particles first .. end - 1 that are not on the grid to sum[0] [N^2]; a block
+ * function of reproducible_sums. context: the particles. */
 static void particle_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
@@ -43,7 +46,8 @@ static void particle_block(const void *context, int64_t first, int64_t end, real
         for (int d = 0; d < p->dim && !particle_moves_with_nodes(p, i); d++) sum[0] += square(p->f[d][i]);
 }
 
-/* Returns the norm of the reactions, each divided evenly among its particles [N]. */
+/* Returns the norm of the reactions of all supports, each divided evenly among its particles [N]. dim: number of
+ * components. */
 static real reactions_norm(const struct loads *loads, int dim)
 {
     real sum = 0;
@@ -55,9 +59,9 @@ static real reactions_norm(const struct loads *loads, int dim)
     return sqrt(sum);
 }
 
-/* Updates the damping and the residual; stores true in *done at equilibrium. The lowest mode resembles the
- * displacement, so its frequency is omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with the strain energy U; critical
- * damping is 2 omega. */
+/* Updates damping and residual of the solver. *done: set to true at equilibrium, else to false. The lowest mode
+ * resembles the displacement, so its frequency is omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with the strain energy U.
+ * The damping is the critical one, 2 omega. */
 static void estimate(struct run *e, bool *done)
 {
     struct static_solver *s = e->solver;
@@ -74,8 +78,8 @@ static void estimate(struct run *e, bool *done)
             0.5 * motion[1] <= MOTION_SMALL * strain;
 }
 
-/* Damps the velocities and their gradients (APIC) over a step. gradients: number of components of a gradient, 0
- * without. damping: of a step [1]. */
+/* Damps the velocities of particles and their gradients (APIC) over a step by the factor (2 - damping)/(2 + damping).
+ * gradients: number of components of a velocity gradient, 0 without APIC; damping: damping rate times step [1]. */
 static void damp_velocities(struct particles *p, const struct loads *loads, int gradients, real damping)
 {
     const real keep = (2 - damping) / (2 + damping);

@@ -27,7 +27,8 @@ enum { ENERGY_STEPS = 20 };   /* time steps between checks of the energies */
 /* Number of time steps of the clock of a release, so large that no frame or sample is due. */
 #define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
-/* Sets the boundaries to constant loads and supports at rest, at pseudo-time t [s]. boundary[boundaries]. */
+/* Sets boundary[scene->boundaries] to those of the scene with the loads of pseudo-time t [s], constant, and with
+ * supports at rest. */
 static void boundaries_freeze(const struct scene *scene, struct boundary *boundary, real t)
 {
     for (int b = 0; b < scene->boundaries; b++) {
@@ -48,13 +49,13 @@ static void boundaries_freeze(const struct scene *scene, struct boundary *bounda
     }
 }
 
-/* Sets the boundaries to those of the scene, which depend on the pseudo-time. */
+/* Sets boundary[scene->boundaries] back to those of the scene, which depend on the pseudo-time. */
 static void boundaries_restore(struct boundary *boundary, const struct scene *scene)
 {
     array_copy(boundary, scene->boundary, scene->boundaries, sizeof *boundary);
 }
 
-/* Fixes the rigid bodies (hold), or lets driven ones move again. */
+/* Fixes all rigid bodies (hold true), or lets driven ones move again (hold false). */
 static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bool hold)
 {
     for (int k = 0; k < scene->rigids; k++) {
@@ -64,7 +65,7 @@ static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bo
     }
 }
 
-/* Scales the velocities of particles, mesh nodes and images by `share`. */
+/* Multiplies the velocities of particles, mesh nodes and mirror images by `share` [1]. */
 static void velocities_scale(struct particles *p, struct mesh *mesh, const struct loads *loads, real share)
 {
     const struct grid *g = &mesh->grid;
@@ -81,7 +82,8 @@ static real kinetic_present(const struct particles *part, const struct reference
     return particles_kinetic_energy(part) + frame_kinetic_energy(frame);
 }
 
-/* Makes time steps until the body is at rest. Stores the number of directed bonds that break in *broken. */
+/* Makes time steps until the body is at rest, first undamped, then damped. *broken: receives the number of directed
+ * bonds that break. Returns FAILED, with a message, if the motion diverges. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {
     const real crossing = (particles_longest_edge(&e->part) + e->scene->spacing) /

@@ -51,7 +51,7 @@ static const struct material *material_at(const struct sif_cracks *l, const stru
 }
 
 /* Returns a list of *n segments in the plane of the tips: the pre-cracks and the path of the tips. Free it with
- * crack_segments_free. */
+ * crack_segments_free. The path of the tips must not change while the list is used. */
 static struct crack *crack_segments(const struct sif_cracks *l, int *n)
 {
     const int given = l->source->cracks;
@@ -67,16 +67,16 @@ static struct crack *crack_segments(const struct sif_cracks *l, int *n)
     return crack;
 }
 
-/* Frees a list of crack_segments. n: number of segments. */
+/* Frees a list of segments that crack_segments returned. n: number of segments. */
 static void crack_segments_free(struct crack *crack, int n)
 {
     memory_free(crack[n].corner);
     memory_free(crack);
 }
 
-/* Returns the elastic constants for the crack-tip fields at a tip. radius: mean radius of the ring of the fit [m]. In
- * space the state is plane stress at a distance of half the thickness and more from the front (Nakamura & Parks 1988),
- * else plane strain. */
+/* Returns the elastic constants for the crack-tip fields at a tip. radius: mean radius of the ring of particles used
+ * for the fit [m]. In space the state is plane stress at a distance of half the thickness and more from the front
+ * (Nakamura & Parks 1988), else plane strain. */
 static struct crack_medium medium_at(const struct sif_cracks *l, const struct particles *p,
                                      const struct sif_crack_tip *tip, real radius)
 {
@@ -120,8 +120,8 @@ void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
-/* Returns the tip that has grown most, the first of equal ones, or NULL. on: only tips that can still grow are
- * considered. */
+/* Returns the tip that has grown most, the first of equal ones, or NULL if there is none. on: only tips that can still
+ * grow are considered. */
 static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool on)
 {
     const struct sif_crack_tip *first = NULL;
@@ -163,7 +163,7 @@ static real intersection_share(const struct crack *c, const real *a, const real 
     return !parallel && share >= 0 && share < 1 && at >= 0 && at <= 1 ? share : 1;
 }
 
-/* Returns true if one end of the crack c is within `within` [m] of the tip, as that of its own last segment is. */
+/* Returns true if one end of crack c is within `within` [m] of the tip, as is one end of the tip's own last segment. */
 static bool crack_ends_at_tip(const struct crack *c, const struct sif_crack_tip *tip, real within)
 {
     return sif_distance(c->corner[0], tip->position) <= within || sif_distance(c->corner[1], tip->position) <= within;
@@ -194,7 +194,8 @@ real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, co
     return toughness_of_material(&l->source->family, l->scene->model, material_at(l, p, tip));
 }
 
-/* Returns true if the body continues ahead of the tip: if enough particles that no boundary drives are there. */
+/* Returns true if the body continues ahead of the tip: if at least two particles per spacing of width are there whose
+ * motion is not prescribed. */
 static bool body_continues(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip)
 {
     const real h = l->plane.spacing;
@@ -210,7 +211,7 @@ static bool body_continues(const struct sif_cracks *l, const struct particles *p
     return wide > 0 && free_ones >= 2 * floor(wide);
 }
 
-/* Appends the segment from tip k to `to` to the path. */
+/* Appends the segment from tip number k to point to[2] of the plane [m] to the path of the cracks. */
 static void sif_path_add(struct sif_cracks *l, int k, const real *to)
 {
     GROW("led.path", l->path, l->segments + 1);
@@ -220,8 +221,9 @@ static void sif_path_add(struct sif_cracks *l, int k, const real *to)
     for (int d = 0; d < 2; d++) s->at[tip->reversed][d] = tip->position[d], s->at[!tip->reversed][d] = to[d];
 }
 
-/* Turns the frame of the factors towards the direction of growth, exponentially over the smoothing length; at a kink to
- * that direction at once, with straight growth to follow. growth: length of the present increment [m]. */
+/* Turns the frame of the stress-intensity factors, tip->along, towards the direction of growth, exponentially over the
+ * smoothing length. At a kink of a pre-crack it takes that direction at once, and straight growth follows. growth:
+ * length of the present increment [m]; h: lattice spacing [m]. */
 static void tip_frame_turn(struct sif_crack_tip *tip, real growth, real h)
 {
     const real *a = tip->last, *b = tip->heading, share = -expm1(-growth / (SMOOTHING * h));

@@ -21,7 +21,8 @@ enum { CONVERSIONS_MOST = 4 }; /* of material points and direction, one after th
 
 /* ---- bonds across a segment -------------------------------------------------------------------------------------- */
 
-/* Appends to `list` the intact bonds of row r that cross one of the segments. */
+/* Appends to `list` the intact bonds of row r that cross one of the segments in the plane of the tips. list: receives
+ * records that contain row, entry and energy of each bond. */
 static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, const struct particles *p, int64_t r,
                           const struct crack_list *segments, struct break_list *list)
 {
@@ -41,7 +42,8 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     }
 }
 
-/* Lists the segment from..to of the path of a tip and its images in planes of symmetry. Free with crack_list_free. */
+/* Lists the segment from .. to of the path of a tip, two coordinates each [m], and its mirror images in `segments`.
+ * Free them with crack_list_free. */
 static void segment_images(const struct sif_cracks *l, const struct sif_crack_tip *tip, const real from[2],
                            const real to[2], struct crack_list *segments)
 {
@@ -54,9 +56,10 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
                               ON_SURFACE * l->plane.spacing);
 }
 
-/* Replaces the energy costs of the bonds of the next segment (`held` of each record) such that their sum is crack area
- * times crack energy per area [J]. Needed for state-based bonds, which have no energy of their own, and in space, where
- * bonds at the sides of the body have surface weights and some bonds at a pre-crack are already broken. */
+/* Replaces the energy costs of the bonds of the next segment of a tip, `held` of each record of `list`, such that their
+ * sum is crack area times crack energy per area [J]. Needed for state-based bonds, which have no energy of their own.
+ * Also needed in space, where bonds at the sides of the body have surface weights and some bonds at a pre-crack are
+ * already broken. */
 static void segment_cost_set(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              struct break_list *list)
 {
@@ -69,7 +72,7 @@ static void segment_cost_set(const struct sif_cracks *l, const struct particles 
         list->bond[k].held = state_based ? whole / (real)list->n : list->bond[k].held * whole / sum;
 }
 
-/* Lists the bonds that cross the next segment of a tip. Returns their cost [J]. */
+/* Appends to `list` the bonds that cross the next segment of a tip. Returns their total energy cost [J]. */
 static real segment_bonds(const struct sif_cracks *l, const struct bonds *b, const struct particles *p,
                           const struct sif_crack_tip *tip, struct break_list *list)
 {
@@ -102,8 +105,8 @@ void sif_tip_break_behind(struct run *e, const struct sif_crack_tip *tip)
 
 /* ---- trials ------------------------------------------------------------------------------------------------------ */
 
-/* Marks the material points within a horizon of the next segment of a tip for conversion, since only bonds can break.
- * Returns their number. */
+/* Flags the material points within a horizon of the next segment of a tip for conversion, since only bonds can break.
+ * Returns the number of points flagged. */
 static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, const struct sif_crack_tip *tip)
 {
     real to[DIM_MAX] = {0}, from[DIM_MAX] = {tip->position[0], tip->position[1]};
@@ -120,8 +123,9 @@ static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, 
     return marked;
 }
 
-/* Sets the direction of growth of all tips, and converts material points near their next segments to peridynamic
- * particles; repeats both, since the converted points change the equilibrium. */
+/* Sets the direction of growth of all tips that can grow, and converts material points near their next segments to
+ * peridynamic particles. Both are repeated while points convert, since these change the equilibrium. Returns FAILED,
+ * with a message, if an equilibrium is not found. */
 static status tips_turn_all(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
@@ -138,7 +142,8 @@ static status tips_turn_all(struct run *e)
     return OK;
 }
 
-/* Breaks the bonds of a list, finds the equilibrium, and stores the energy release of the increment in a->release. */
+/* Breaks the bonds of list l, finds the equilibrium at the present pseudo-time, and stores the energy release over the
+ * squared load size in a->release. Returns FAILED, with a message, if there is no equilibrium. */
 static status list_break_try(struct run *e, const struct break_list *l, struct crack_increment *a)
 {
     const real before = statics_energy_released(e->statics, &e->bonds);
@@ -149,9 +154,9 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
     return tried;
 }
 
-/* Stores in tip->behind the fictitious previous increment of a tip at the end of a pre-crack, for its first increment
- * (increment_extrapolate_previous): from this increment, whose bonds are broken already, and a trial of a second one
- * straight ahead. */
+/* Stores in tip->behind the fictitious previous increment of a tip at the end of a pre-crack
+ * (increment_extrapolate_previous). It follows from the first increment, whose bonds are broken already, and from a
+ * trial of a second one straight ahead. Returns FAILED, with a message, if an equilibrium is not found. */
 static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 {
     struct sif_crack_tip beyond = *tip;
@@ -169,8 +174,9 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     return tried;
 }
 
-/* Determines the energy release of the next increment of a tip by breaking its bonds in a trial, which is undone. For
- * the first increment of the tip, also stores the fictitious previous one. */
+/* Determines tip->ahead.release, the energy release of the next increment of a tip, by breaking its bonds l in a trial,
+ * which is undone. For the first increment of the tip, the fictitious previous one is stored as well. Returns FAILED,
+ * with a message, if an equilibrium is not found. */
 static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct break_list *l)
 {
     struct memory_archive saved;
@@ -181,7 +187,7 @@ static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct
     return tried;
 }
 
-/* Returns true if the list contains the bond of the record. */
+/* Returns true if list l contains the bond of the record (equal row and entry). */
 static bool list_has(const struct break_list *l, const struct broken_bond *record)
 {
     for (int64_t k = 0; k < l->n; k++)
@@ -189,8 +195,9 @@ static bool list_has(const struct break_list *l, const struct broken_bond *recor
     return false;
 }
 
-/* Selects the tips of the next crack increment: the one that is due at the smallest load size, and those that are due
- * at nearly the same. Combines their bonds and energies. list[tips]: bonds of the next segment of each tip. */
+/* Selects the tips of the next crack increment: the tip that is due at the smallest load size, and those due at nearly
+ * the same. Combines their bonds in s->next and their energies in s->ahead and s->behind. list[tips]: bonds of the next
+ * segment of each tip. */
 static void increment_choose(struct statics *s, struct break_list *list)
 {
     struct sif_cracks *l = &s->sif;
@@ -209,10 +216,11 @@ static void increment_choose(struct statics *s, struct break_list *list)
     s->due = increments_balanced_load(&s->ahead, &s->behind);
 }
 
-/* Recomputes the energy release of the selected tips if there are several, by breaking their bonds together: they
+/* Recomputes the energy release of the selected tips, if there are several, by breaking their bonds together: they
  * release more at once than one after the other. The sum is divided among the tips in proportion to their separate
- * values. Updates the load size at which the increment is due, unless a tip makes its first increment: the values of
- * previous increments were divided in this way, too, but the fictitious ones before the first were not. */
+ * values. Also updates the load size at which the increment is due, unless a tip makes its first increment: the
+ * fictitious increments before the first ones were not divided in this manner. Returns FAILED, with a message, if an
+ * equilibrium is not found. */
 static status increment_try_together(struct run *e)
 {
     struct statics *s = e->statics;
@@ -232,8 +240,9 @@ static status increment_try_together(struct run *e)
     return tried;
 }
 
-/* Determines the next increment of a tip, and the load size at which it is due. A tip under compression (K_I < 0) does
- * not grow, and one without bonds ahead has ended. list: receives the bonds of its next segment. */
+/* Determines the next increment of a tip and the load size at which it is due, tip->due; INFINITY if it does not grow.
+ * A tip under compression (K_I < 0) does not grow, and one without bonds ahead has ended. list: receives the bonds of
+ * its next segment. Returns FAILED, with a message, if an equilibrium is not found. */
 static status tip_try(struct run *e, struct sif_crack_tip *tip, struct break_list *list)
 {
     tip->ahead = (struct crack_increment){0}, tip->due = INFINITY;

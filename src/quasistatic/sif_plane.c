@@ -28,7 +28,8 @@ static void make_unit(real *a)
 }
 
 /* Sets the axes of the plane across plane->front: axes of space where these are perpendicular to the front, so that
- * planes of symmetry are perpendicular to an axis. */
+ * planes of symmetry are perpendicular to an axis. plane->front is set exactly to an axis if it is nearly parallel to
+ * one. */
 static void axes_make(struct sif_plane *plane)
 {
     real *f = plane->front;
@@ -60,7 +61,8 @@ void sif_plane_project_particle(const struct sif_plane *plane, const struct part
 
 /* ---- requirements in space --------------------------------------------------------------------------------------- */
 
-/* Stores the direction of the fronts of the pre-cracks. Returns NULL, or why there is no common direction. */
+/* Stores the common direction of the fronts of all pre-cracks in plane->front. Returns NULL, or the reason, as text,
+ * why there is no common direction. */
 static const char *front_find(const struct crack_tips *t, struct sif_plane *plane)
 {
     bool found = false;
@@ -77,15 +79,15 @@ static const char *front_find(const struct crack_tips *t, struct sif_plane *plan
     return found ? NULL : "no pre-crack ends in the body";
 }
 
-/* Stores the coordinate, along the direction of the fronts, of the middle of the first front. */
+/* Stores in plane->middle the coordinate, along the direction of the fronts, of the middle of the first front [m]. */
 static void front_middle(const struct crack_tips *t, struct sif_plane *plane)
 {
     for (int k = t->n - 1; k >= 0; k--)
         if (t->tip[k].from_crack) plane->middle = dot(plane->front, t->tip[k].origin, 3);
 }
 
-/* Lists the planes of symmetry parallel to the fronts, with the axis of the plane to which each is perpendicular.
- * Returns NULL, or why one is neither parallel nor perpendicular to the fronts. */
+/* Lists in plane->mirror the planes of symmetry parallel to the fronts, each with the axis of the plane to which it is
+ * perpendicular. Returns NULL, or the reason, as text, if one is neither parallel nor perpendicular to the fronts. */
 static const char *mirrors_find(struct sif_plane *plane)
 {
     for (int k = 0; k < plane->body_mirrors; k++) {
@@ -100,8 +102,8 @@ static const char *mirrors_find(struct sif_plane *plane)
     return NULL;
 }
 
-/* Computes the segment at[2] in which the plane cuts pre-crack c, oriented such that its normal is on the side of the
- * normal of the polygon. Returns false if the pre-crack is not parallel to the fronts. */
+/* Computes the segment at[0] .. at[1] in which the plane cuts pre-crack c [m], oriented such that its normal is on the
+ * side of the normal of the polygon. Returns false if the pre-crack is not parallel to the fronts. */
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
@@ -121,7 +123,8 @@ bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack
     return fabs(dot(area, plane->front, 3)) <= STRAIGHT * size;
 }
 
-/* Returns NULL if all pre-cracks are rectangles with edges along the fronts, else why they are not. */
+/* Returns NULL if all pre-cracks of l are rectangles with edges along the fronts, else the reason, as text, why they
+ * are not. */
 static const char *cracks_check(const struct crack_list *l, const struct sif_plane *plane)
 {
     for (int k = 0; k < l->n; k++) {
@@ -139,7 +142,7 @@ static const char *cracks_check(const struct crack_list *l, const struct sif_pla
     return NULL;
 }
 
-/* Returns NULL if all fronts run through the whole width of the body, else why they do not. */
+/* Returns NULL if all fronts run through the whole width of the body, else the reason, as text, why they do not. */
 static const char *fronts_check(const struct crack_tips *t, const struct particles *p, const struct sif_plane *plane)
 {
     const real h = plane->spacing;
@@ -172,8 +175,8 @@ const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, 
 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the share of particle i that belongs to the body: 1/2 for each plane of symmetry across the front on which it
- * lies. */
+/* Returns the share of particle i that belongs to the body [1]: 1, halved for each plane of symmetry across the front
+ * on which the particle lies. */
 static real share_beside_mirrors(const struct sif_plane *plane, const struct particles *p, int64_t i)
 {
     real share = 1;

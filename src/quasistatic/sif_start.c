@@ -13,8 +13,8 @@
     0.9 /* smallest distance of rows of particles: that of rows along a lattice axis, not a diagonal [spacings] */
 enum { ROW_LEAST = 4 }; /* particles of a row along the crack */
 
-/* Stores the length of the longest pre-crack that ends at the tip, and whether the tip is at the first corner of a
- * pre-crack. */
+/* Stores in tip->length_behind the length of the longest pre-crack that ends at the tip, and in tip->reversed whether
+ * the tip is at the first corner of a pre-crack. */
 static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *tip)
 {
     const struct scene *s = l->scene;

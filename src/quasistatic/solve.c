@@ -43,8 +43,8 @@ status engine_static_solver_make(struct run *e)
     return OK;
 }
 
-/* Returns the number of intact bonds that exceed their critical stretch. limit: that of an explicit run; in a static
- * solution no bond breaks. */
+/* Returns the number of intact bonds whose stretch exceeds the critical one, each bond once. limit: critical stretches
+ * of an explicit run; in a static solution no bond breaks. */
 static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     int64_t past = 0;
@@ -58,7 +58,7 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
     return past;
 }
 
-/* Warns of bonds beyond their critical stretch. past: their number. */
+/* Warns of bonds beyond their critical stretch, if there are any. past: number of these bonds. */
 static void warn_past_limit(struct warnings *to, int64_t past)
 {
     char text[200];
@@ -73,7 +73,8 @@ static void warn_past_limit(struct warnings *to, int64_t past)
     0.1 /* strain above which linear elasticity does not describe a solid [1]; a limit by judgement                    \
          */
 
-/* Warns of stresses beyond the strength of any solid, since a linear elastic body has an equilibrium under any load. */
+/* Warns of stresses above STRAIN_LARGE times Young's modulus, beyond the strength of any solid: a linear elastic body
+ * has an equilibrium under any load. */
 static void warn_large_strain(struct warnings *to, const struct particles *p, const struct material *material)
 {
     real most = 0;
@@ -88,8 +89,8 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
     if (!(most <= STRAIN_LARGE)) warnings_add_and_print(to, text);
 }
 
-/* Completes a solution: sets velocities to 0 and the time to the end of the duration, and updates work, probes and
- * warnings. */
+/* Completes a static solution: sets velocities to 0 and the time to the end of the duration, and updates work,
+ * stresses, probes and warnings. */
 static void solver_finish(struct run *e)
 {
     struct particles *p = &e->part;
@@ -111,8 +112,8 @@ static void solver_finish(struct run *e)
     warn_large_strain(&e->warnings, p, e->scene->material);
 }
 
-/* Returns FAILED with the reason why no equilibrium was found. tolerance: of the residual [1]. step: number of the last
- * iteration. */
+/* Returns FAILED with a message that contains the reason why no equilibrium was found. tolerance: required residual
+ * [1]; step: number of the last iteration. */
 static status not_converged(const struct static_solver *s, real tolerance, int64_t step)
 {
     if (!(s->residual < INFINITY))
@@ -131,8 +132,8 @@ static status not_converged(const struct static_solver *s, real tolerance, int64
                       (long long)step, s->residual, tolerance);
 }
 
-/* Makes one iteration of the solver for bonds, or one damped time step on the grid. Stores true in *done at
- * equilibrium. */
+/* Makes one iteration of the solver for bonds, or one damped time step on the grid. *done: set to true at equilibrium.
+ * Returns FAILED, with a message, if the step fails. */
 static status solve_step(struct run *e, bool *done)
 {
     const struct static_body body = static_body_of(e);
@@ -143,7 +144,7 @@ static status solve_step(struct run *e, bool *done)
     return OK;
 }
 
-/* Stores the forces before the first iteration, from which relaxation computes differences. */
+/* Stores the forces before the first iteration in s->before, from which dynamic relaxation computes differences. */
 static void solve_start(struct static_solver *s, const struct particles *p)
 {
     for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));

@@ -22,7 +22,8 @@ struct springs {
     int64_t *next; /* [n] next entry of each row to be stored; NULL in the first pass */
 };
 
-/* Adds the block K to the matrix at this row and column. In the first pass only counts it. */
+/* Adds the block K to the matrix at this row and column. In the first pass (s->next is NULL) the entry is only
+ * counted. */
 static void entry_add(struct springs *s, int64_t row, int64_t column, const real K[DIM_MAX][DIM_MAX])
 {
     const int dim = s->a->dim;
@@ -90,7 +91,7 @@ static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
     }
 }
 
-/* Adds the stiffness of the intact bonds of row r. */
+/* Adds the stiffness of the intact bonds of row r of the bonds to the matrix. */
 static void springs_row_add(struct springs *s, int64_t r)
 {
     for (struct bond_iterator it = bond_iterator_of_row(&s->e->bonds, r); bond_next(&it);)
@@ -99,8 +100,8 @@ static void springs_row_add(struct springs *s, int64_t r)
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
-/* Adds the stiffness of a contact: its stiffness times the product of the derivatives of its gap. context: a struct
- * springs. */
+/* Adds the stiffness of contact t to the matrix: its stiffness times the products of the derivatives of its gap.
+ * context: a struct springs. */
 static void contact_add_spring(void *context, const struct contact_term *t)
 {
     struct springs *s = context;
@@ -124,7 +125,7 @@ static void contact_add_spring(void *context, const struct contact_term *t)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the stiffness of cell I of the mesh. */
+/* Adds the stiffness of cell I of the mesh to the matrix. */
 static void cell_add(struct springs *s, int64_t I)
 {
     const struct mesh *mesh = &s->e->frame->mesh;
@@ -163,7 +164,8 @@ static void springs_visit(struct springs *s)
     contact_visit_springs(s->e->contact, &s->e->part, contact_add_spring, s);
 }
 
-/* Sorts the entries of a row by column and adds up those of one column. Returns the number of entries that remain. */
+/* Sorts the entries first .. end - 1 of a row by column and adds up entries of one column. Returns the number of
+ * entries that remain. */
 static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
 {
     const int size = a->dim * a->dim;
@@ -187,7 +189,8 @@ static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
     return kept - first;
 }
 
-/* Moves the rows together after entries have been added up. kept[rows]: number of entries of each row. */
+/* Moves the rows together after entries have been added up, and updates a->first. kept[a->n]: number of remaining
+ * entries of each row. */
 static void rows_close(struct block_matrix *a, const int64_t *kept)
 {
     const int size = a->dim * a->dim;
@@ -202,7 +205,8 @@ static void rows_close(struct block_matrix *a, const int64_t *kept)
     a->first[a->n] = to;
 }
 
-/* Assembles the matrix in two passes. */
+/* Assembles the matrix s->a in two passes: the first one counts entries, the second one stores them. Allocates its
+ * arrays. */
 static void matrix_fill(struct springs *s)
 {
     struct block_matrix *a = s->a;
@@ -223,8 +227,8 @@ static void matrix_fill(struct springs *s)
     memory_free(s->next);
 }
 
-/* Scales the largest entry to 1, since single precision overflows with products of large stiffnesses. The conjugate
- * gradient method does not depend on the scale of its preconditioner. */
+/* Divides all entries by the largest absolute one, since single precision overflows with products of large stiffnesses.
+ * The conjugate gradient method does not depend on the scale of its preconditioner. */
 static void matrix_scale(struct block_matrix *a)
 {
     const int64_t n = a->first[a->n] * a->dim * a->dim;
@@ -233,7 +237,8 @@ static void matrix_scale(struct block_matrix *a)
     for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
 }
 
-/* Returns the stiffness matrix of the present bonds, cells and contacts. */
+/* Returns the stiffness matrix of the present bonds, cells and contacts, scaled. It is freed by
+ * statics_precondition_free. */
 static struct block_matrix *matrix_make(const struct run *e)
 {
     const struct statics *s = e->statics;
@@ -302,8 +307,8 @@ void statics_precondition_apply(void *engine, const struct field *r, struct fiel
     remove_free_rigid_motion(e->statics, z);
 }
 
-/* Frees the preconditioner if the last solution took far more directions (`directions`) than the first one with it.
- * Until then bonds may break without a new one. */
+/* Frees the preconditioner if the last solution needed far more search directions than the first one with it: more than
+ * 1.5 times as many plus 8. directions: number of directions of the last solution. */
 void statics_precondition_check_cost(struct statics *s, int64_t directions)
 {
     if (!s->precondition) return;

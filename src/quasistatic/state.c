@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* Finds row and entry of the bonds of a list by their particles, since rows have been rebuilt. */
+/* Finds row, entry and weight of the bonds of list l by their particles, after rows have been rebuilt. */
 static void list_find(const struct bonds *bonds, struct break_list *l)
 {
     for (int64_t k = 0; k < l->n; k++) {
@@ -17,7 +17,7 @@ static void list_find(const struct bonds *bonds, struct break_list *l)
     }
 }
 
-/* Saves or restores the bonds of the next crack increment. */
+/* Saves or restores the list l of the bonds of the next crack increment. Returns the status of the archive. */
 static status statics_list_archive(struct break_list *l, const struct bonds *bonds, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/next", l->n);
@@ -27,7 +27,7 @@ static status statics_list_archive(struct break_list *l, const struct bonds *bon
     return OK;
 }
 
-/* Saves or restores the SIF-driven tips and their path. */
+/* Saves or restores the SIF-driven tips and the path of their cracks. Returns the status of the archive. */
 static status sif_archive(struct sif_cracks *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/led", l->known);
@@ -42,7 +42,7 @@ static status sif_archive(struct sif_cracks *l, struct archive *a)
     return l->segments > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->segments * sizeof *l->path) : OK;
 }
 
-/* Saves or restores the next crack increment and the SIF-driven tips. */
+/* Saves or restores the next crack increment and the SIF-driven tips. Returns the status of the archive. */
 static status increment_archive(struct statics *s, struct bonds *b, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
@@ -55,7 +55,7 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
 }
 
 /* Saves or restores scales and noise level of the solver, its counters, whether its preconditioner is still valid, and
- * the last record of the history. */
+ * the last record of the history. Returns the status of the archive. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
     struct newton_solver *q = &s->balance;

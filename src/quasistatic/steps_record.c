@@ -37,8 +37,9 @@ int statics_list_columns(const struct run *e, struct column *column)
     return n;
 }
 
-/* Returns the area by which the cracks grow per spacing [m^2]: spacing times the sum of the fronts of all pre-cracks,
- * or of one spacing without pre-cracks; for a bar its section. section: thickness or section of the body. */
+/* Returns the area by which the cracks grow per spacing [m^2]: spacing times the sum of the lengths of the fronts of
+ * all pre-cracks, or times one spacing without pre-cracks; for a bar its section. section: section of a bar [m^2],
+ * thickness of a plane body [m]. */
 static real growth_by_spacing(const struct crack_tips *t, real section)
 {
     real wide = 0;
@@ -49,8 +50,8 @@ static real growth_by_spacing(const struct crack_tips *t, real section)
     return t->spacing * wide;
 }
 
-/* Returns the damage of the particles of a lattice beside a cut between two of its planes: half of their bonds except
- * those parallel to it [1]. */
+/* Returns the damage of the particles beside a cut between two planes of a lattice [1]: half of the fraction of bonds
+ * that are not parallel to the cut. */
 static real damage_beside_cut(const struct scene *s)
 {
     const int reach = (int)s->horizon, wide = s->dim > 1 ? reach : 0, deep = s->dim > 2 ? reach : 0;
@@ -64,7 +65,7 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Returns the area of the path of the SIF-driven tips [m^2]. */
+/* Returns the area of the crack faces along the paths of the SIF-driven tips [m^2]. */
 static real sif_paths_area(const struct sif_cracks *l, const struct particles *p)
 {
     real area = 0;
@@ -73,11 +74,11 @@ static real sif_paths_area(const struct sif_cracks *l, const struct particles *p
     return area;
 }
 
-/* Updates the crack area, the energy released and the release rate over the last two growths. The crack area is that of
- * the path of SIF-driven tips, unless damaged particles indicate more than another spacing of growth; else that of the
- * damaged particles, or in space without SIF-driven tips that of the broken bonds. A length by damaged particles
- * changes in steps of one spacing, so its growth counts only after several spacings. A load step without growth leaves
- * the rate unchanged. */
+/* Updates the crack area, the energy released, and the release rate over the last two growths, in e->statics->record.
+ * The crack area is that of the paths of SIF-driven tips, unless damaged particles indicate more than another spacing
+ * of growth. Otherwise it is that of the damaged particles, or in space without SIF-driven tips that of the broken
+ * bonds. A length by damaged particles changes in steps of one spacing, so its growth counts only after several
+ * spacings. A load step without growth leaves the rate unchanged. */
 static void measure(struct run *e)
 {
     const struct statics *s = e->statics;

@@ -12,8 +12,8 @@
     1e-7 /* relative difference of stretch ratios below which bonds break together, so that round-off decides no order \
           */
 
-/* Returns the ratio of stretch to critical stretch of a bond of particle i [1]. With a critical stretch of 0 or less,
- * any larger stretch is beyond it. */
+/* Returns the ratio of stretch to critical stretch of a bond of particle i [1]. limit: rule for the critical stretch.
+ * If the critical stretch is 0 or less, the ratio has no meaning for the order of breaking. */
 static real stretch_ratio_of(const struct particles *p, const struct bond_limit *limit, const struct bond *bond,
                              int32_t i)
 {
@@ -21,7 +21,8 @@ static real stretch_ratio_of(const struct particles *p, const struct bond_limit 
     return stretch / bond_breaking_stretch(p, limit, i, bond->nbr);
 }
 
-/* Returns a lower bound of the critical stretches of all bonds [1]. */
+/* Returns a lower bound of the critical stretches of all bonds [1]: the least of all pairs of materials times the least
+ * strength of a particle. */
 static real critical_stretch_least(const struct bond_limit *limit, const struct particles *part)
 {
     real least = INFINITY, weakest = 1;
@@ -30,8 +31,8 @@ static real critical_stretch_least(const struct bond_limit *limit, const struct 
     return least * weakest;
 }
 
-/* Returns the largest stretch ratio in row block g if it exceeds `most`, else `most` [1]. weakest: lower bound of the
- * critical stretches, by which blocks are skipped [1]. */
+/* Returns the larger one of `most` and the largest stretch ratio of an intact bond in row block g [1]. weakest: lower
+ * bound of the critical stretches, by which blocks are skipped [1]. */
 static real row_block_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t g, real weakest, real most)
 {
@@ -59,8 +60,8 @@ static int descending(const void *a, const void *b)
 }
 
 /* Returns half of the energy that stretches a bond of particle i from zero force to its critical stretch [J]: the
- * energy it stores and the work still to be done. The work that a bond has already dissipated by yielding is not
- * included. */
+ * energy that it stores and the work still to be done. Work already dissipated by yielding is not included. limit: rule
+ * for the critical stretch. */
 static real half_energy_to_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                  const struct bond *bond, int32_t i)
 {
@@ -99,7 +100,7 @@ struct overstretched {
     struct broken_bond *record; /* [n] */
 };
 
-/* Appends a bond with the stretch ratio `over`. */
+/* Appends a bond, given by its record, with the stretch ratio `over` to o. */
 static void overstretched_add(struct overstretched *o, real over, const struct broken_bond *record)
 {
     GROW("statics.overloads", o->ratio, o->n + 1);
@@ -108,7 +109,8 @@ static void overstretched_add(struct overstretched *o, real over, const struct b
     o->record[o->n++] = *record;
 }
 
-/* Appends the bonds of row block g with a stretch ratio above `least`, in the order of rows. */
+/* Appends the bonds of row block g with a stretch ratio above `least` to o, in the order of rows. limit: rule for the
+ * critical stretch. */
 static void row_block_overstretched(struct overstretched *o, const struct bonds *b, const struct particles *p,
                                     const struct bond_limit *limit, int64_t g, real least)
 {
@@ -121,8 +123,8 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
         }
 }
 
-/* Returns the stretch ratio down to which bonds break: that of the pair number `most` in descending order, at least
- * `least`. ratio[n]. */
+/* Returns the stretch ratio above which bonds break: just below that of pair number `most` in descending order, but at
+ * least `least`. ratio[n]: stretch ratios of directed bonds, two for each pair. */
 static real stretch_ratio_to_break(const real *ratio, int64_t n, real least, int64_t most)
 {
     if (n <= 2 * most) return least;
@@ -140,8 +142,8 @@ void break_list_add(struct break_list *l, const struct broken_bond *record)
     l->bond[l->n++] = *record;
 }
 
-/* Appends the bonds with a stretch ratio above `down_to` to the list. Returns the mean square of their stretch ratios,
- * 1 if there are none. ratio[n], record[n]. */
+/* Appends the bonds with a stretch ratio above `down_to` to list l. ratio[n], record[n]: stretch ratios and records of
+ * bonds. Returns the mean square of the stretch ratios of the appended bonds, 1 if there are none. */
 static real break_list_add_above(struct break_list *l, const real *ratio, const struct broken_bond *record, int64_t n,
                                  real down_to)
 {
@@ -152,7 +154,8 @@ static real break_list_add_above(struct break_list *l, const real *ratio, const 
     return added > 0 ? sum / (real)added : 1;
 }
 
-/* Breaks the directed bond of a record; half of the energy of the bond becomes fracture energy of its row. */
+/* Breaks the directed bond of a record; half of the energy of the bond becomes fracture energy of its row. limit: rule
+ * for the critical stretch; the last force of softening bonds is not used. */
 static void bond_record_break(struct bonds *b, struct particles *p, struct bond_limit limit,
                               const struct broken_bond *record)
 {
@@ -160,10 +163,11 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Breaks the bonds whose stretch ratio is within `tolerance` of the largest one, at most `max_pairs` pairs, and appends
- * them to the list of the next increment. Adds their energy to *cost [J] and their area to *area. Returns the number of
- * directed bonds. The cost of state-based bonds, which have no energy of their own, follows from the energy lost as
- * they break: in a linear body the energy at the critical stretch times the square of the stretch ratio. */
+/* Breaks the bonds whose stretch ratio is within the fraction `tolerance` of the largest one, at most max_pairs pairs,
+ * and appends them to the list of the next increment. Adds their energy to *cost [J] and their area to *area [m^2]. The
+ * cost of state-based bonds, which have no energy of their own, follows from the energy lost as they break: in a linear
+ * body the energy at the critical stretch times the square of the stretch ratio. Returns the number of directed bonds
+ * broken. */
 int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area)
 {
     struct break_list *l = &e->statics->next;
@@ -190,9 +194,9 @@ int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pai
     return l->n - had;
 }
 
-/* Breaks all bonds of a list at once, although the last ones reach their critical stretch only after the first have
+/* Breaks all bonds of list l at once, although the last ones reach their critical stretch only after the first have
  * broken. Each bond therefore costs the fracture energy stored in its record (`held`); the difference from its present
- * energy is booked as lost. */
+ * energy is booked as lost, in the solver and in the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l)
 {
     real more = 0;

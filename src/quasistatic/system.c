@@ -42,7 +42,7 @@ void plastic_state_restore(struct run *e)
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-/* Adds the forces of mirror nodes to those of their images. */
+/* Adds the forces on mirror nodes of the mesh, with the signs of the reflection, to the forces on their image nodes. */
 static void mirror_forces_add(struct mesh *mesh)
 {
     for (int64_t k = 0; k < mesh->grid.mirror_nodes; k++) {
@@ -52,7 +52,7 @@ static void mirror_forces_add(struct mesh *mesh)
     }
 }
 
-/* Adds the applied forces to the forces of the loaded particles. */
+/* Adds the applied forces s->applied to the forces p->f of the loaded particles, each particle once. */
 static void applied_add(const struct statics *s, const struct loads *loads, struct particles *p)
 {
     for (int b = 0; b < loads->n && s->applied[0]; b++) {
@@ -78,7 +78,8 @@ static void forces_present(struct run *e)
     if (has_mesh) frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
 
-/* Computes the forces f at the displacements u (`force` of solver/equilibrium.h). context: a struct run. */
+/* Computes the forces f [N] on all unknowns at the displacements u [m] (callback `force` of solver/equilibrium.h),
+ * without components along free rigid motions. context: a struct run. */
 static void statics_forces(void *context, const struct field *u, struct field *f)
 {
     struct run *e = context;
@@ -102,7 +103,7 @@ void plastic_state_update(struct run *e)
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the energy scale of the body at unit strain, sum E V over the particles [J]. */
+/* Returns the energy scale of the body at unit strain: sum of Young's modulus times volume over the particles [J]. */
 static real energy_at_unit_strain(const struct particles *p, const struct material *material)
 {
     real sum = 0;

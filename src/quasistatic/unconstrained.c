@@ -52,7 +52,7 @@ struct search {
     struct candidate *candidate; /* [n] */
 };
 
-/* Joins the nodes of each cell of the mesh. */
+/* Joins the unknowns of the nodes of each mesh cell to one component. */
 static void cells_join(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -82,7 +82,7 @@ static int32_t unknown_of(const struct search *s, int64_t i)
     return -1;
 }
 
-/* Joins the components of all particles between which there is an intact bond. */
+/* Joins the components of all pairs of particles with an intact bond. */
 static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
@@ -194,7 +194,8 @@ static void supports_resist(const struct search *s)
     }
 }
 
-/* Adds the constraint of a bond between particle i and an image: it resists a change of its length. */
+/* Adds the constraint of a bond between particle i of fragment c and a mirror image to c: it resists a change of its
+ * length. */
 static void image_resists(const struct search *s, struct candidate *c, int64_t i, int64_t image)
 {
     const struct particles *p = s->part;
@@ -212,7 +213,7 @@ static void image_resists(const struct search *s, struct candidate *c, int64_t i
     resist(c, m, along);
 }
 
-/* Adds the constraints of all bonds to images. */
+/* Adds the constraints of all bonds between particles and mirror images to their fragments. */
 static void images_resist(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows && s->loads->images > 0; r++) {
@@ -248,7 +249,7 @@ static void mirror_nodes_resist(const struct search *s)
     }
 }
 
-/* Returns the fragment of a particle or an image, -1: none. */
+/* Returns the number of the fragment of a particle or mirror image, -1 if it has no unknown. */
 static int32_t fragment_of(const struct search *s, int32_t particle)
 {
     const int32_t k = unknown_of(s, image_source_particle(s->part, s->loads->image, particle));
@@ -322,7 +323,7 @@ static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][
 
 /* ---- free motions ------------------------------------------------------------------------------------------------ */
 
-/* Returns the scalar product of two motions over the nodes of a fragment. */
+/* Returns the scalar product of motions number a and b over the nodes of fragment f. dim: number of components. */
 static real motion_dot(const struct unconstrained_fragment *f, int dim, int a, int b)
 {
     real sum = 0;
@@ -379,7 +380,7 @@ static void fragment_motions(const struct search *s, struct unconstrained_fragme
     unknown_position(s->statics, s->part, s->mesh, f->node[f->n / 2], f->middle);
 }
 
-/* Numbers the fragments in the order of their first nodes, and computes their centres and radii. */
+/* Numbers the fragments in the order of their first nodes, s->fragment, and computes their centres and radii. */
 static void fragment_candidates_find(struct search *s)
 {
     const int64_t nodes = s->statics->balance.n;

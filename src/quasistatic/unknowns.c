@@ -9,11 +9,11 @@
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Returns true if there is a mesh whose node I has mass. */
+/* Returns true if there is a mesh and its node I has mass. */
 static bool node_has_mass(const struct mesh *mesh, int64_t I) { return mesh->points > 0 && mesh->grid.mass[I] > 0; }
 
-/* Returns flags [mesh->grid.n] that are 1 for mirror nodes, which follow their images and are no unknowns. The caller
- * frees them. */
+/* Returns an array [mesh->grid.n] that is 1 for mirror nodes, which follow their images and are no unknowns, else 0.
+ * The caller frees it. */
 static uint8_t *mirror_node_flags(const struct mesh *mesh)
 {
     uint8_t *follows = NEW("statics.follows", mesh->grid.n, uint8_t);
@@ -21,8 +21,8 @@ static uint8_t *mirror_node_flags(const struct mesh *mesh)
     return follows;
 }
 
-/* Lists the unknowns: peridynamic particles, then mesh nodes. Stores the number of the particles in *particles. node:
- * receives the indices, or NULL if they are only to be counted. Returns the number of unknowns. */
+/* Lists the unknowns: peridynamic particles, then mesh nodes with mass. *particles: receives the number of particles.
+ * node: receives the indices of particles and nodes; NULL: they are only counted. Returns the number of unknowns. */
 static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, int32_t *node, int64_t *particles)
 {
     int64_t n = 0;
@@ -40,14 +40,15 @@ static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, in
     return n;
 }
 
-/* Marks component d of node k as prescribed by boundary `load` (-1: by a mirror). */
+/* Marks component d of unknown k as prescribed by boundary number `load`; -1: by a mirror. */
 static void component_hold(struct statics *s, int64_t k, int d, int load)
 {
     s->balance.held[k] |= (uint8_t)(1 << d);
     s->load[k * DIM_MAX + d] = (int16_t)load;
 }
 
-/* Marks the particles on planes of symmetry: their normal displacement is 0, and half of each belongs to the body. */
+/* Marks the particles on planes of symmetry: their normal displacement is 0 (on clamped planes every component), and
+ * half of each belongs to the body. */
 static void mirror_particles_mark(struct statics *s, const struct particles *p, const struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -63,8 +64,8 @@ static void mirror_particles_mark(struct statics *s, const struct particles *p, 
     }
 }
 
-/* Marks the components of particles and mesh nodes that supports prescribe; where two supports overlap, the later one
- * prescribes. particle_at, node_of_mesh: unknown of each particle and mesh node, -1: none. */
+/* Marks the components of particles and mesh nodes that supports prescribe. Where two supports overlap, the later one
+ * prescribes. particle_at, node_of_mesh: unknown of each particle and of each mesh node, -1: none. */
 static void supports_mark(struct statics *s, const struct loads *loads, const struct mesh *mesh,
                           const int32_t *particle_at, const int32_t *node_of_mesh)
 {
@@ -173,7 +174,7 @@ void image_displacement_signs(const struct particles *p, const struct loads *loa
 /* ---- loads and supports ------------------------------------------------------------------------------------------ */
 
 /* Computes the applied forces at pseudo-time t [s] and stores them in s->applied, dim components for each particle of
- * the body [N]. */
+ * the body [N]. Allocates these arrays on the first call. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real t)
 {
     for (int d = 0; d < p->dim; d++) {

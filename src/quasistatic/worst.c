@@ -58,15 +58,16 @@ struct found {
     real largest, back, beside;
 };
 
-/* Replaces the time of the largest loads by t if those at t are larger. own: scalar product of the loads at t with
- * themselves. */
+/* Replaces worst->largest, the time of the largest loads, by t if those at t are larger. own: scalar product of the
+ * loads at t with themselves; found: largest scalar product so far. */
 static void largest_update(real t, real own, struct worst *worst, struct found *found)
 {
     if (own > found->largest * (1 + 1e-9)) found->largest = own, worst->largest = t;
 }
 
-/* Replaces the times of the loads most opposed and most perpendicular to the largest ones by t if those at t are more
- * so. own: scalar product of the loads at t with themselves; with: with the largest loads. */
+/* Replaces the times of the loads most opposed (worst->back) and most perpendicular (worst->beside) to the largest ones
+ * by t, if those at t are more so. own: scalar product of the loads at t with themselves; with: with the largest
+ * loads. */
 static void others_update(real t, real own, real with, struct worst *worst, struct found *found)
 {
     const real size = found->largest, back = -with, beside = own - square(with) / size;
@@ -74,8 +75,8 @@ static void others_update(real t, real own, real with, struct worst *worst, stru
     if (beside > real_max(found->beside, square(SIDEWAYS) * size)) found->beside = beside, worst->beside = t;
 }
 
-/* Stores LOAD_TIMES evenly spread times up to `end` [s], and the times in the tables of the loads before it, in t; t
- * NULL: they are only counted. Returns their number. */
+/* Stores in t[] LOAD_TIMES evenly distributed times up to `end` [s], and the times in the tables of the loads before
+ * `end`. t: NULL: count only. Returns the number of times. */
 static int64_t load_times(const struct loads *loads, real end, real *t)
 {
     int64_t n = 0;
@@ -92,7 +93,8 @@ static int64_t load_times(const struct loads *loads, real end, real *t)
     return n;
 }
 
-/* Finds the load times of both sorts of loads, worst[SORTS], and their products, found[SORTS]. */
+/* Finds the times of the largest, most opposed and most perpendicular loads, worst[SORTS], and their scalar products,
+ * found[SORTS], for displacements and for forces. */
 static void worst_times_find(const struct run *e, struct worst *worst, struct found *found)
 {
     const int64_t n = load_times(&e->loads, e->scene->duration, NULL);
@@ -120,8 +122,8 @@ status engine_find_trial_equilibrium(struct run *e, real t)
     return unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
 }
 
-/* Finds the equilibrium at load time t [s] (NAN: does nothing), and stores t and the largest stretch ratio if it
- * exceeds *ratio. */
+/* Finds the equilibrium at load time t [s]; NAN: does nothing. If its largest stretch ratio exceeds *ratio, it is
+ * stored in *ratio and t in *at. Returns FAILED, with a message, if there is no equilibrium. */
 static status worst_try(struct run *e, real t, real *at, real *ratio)
 {
     if (isnan(t)) return OK;
