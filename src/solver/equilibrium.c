@@ -41,7 +41,7 @@ enum { WORK_PARTS = 16 };
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
-/* Lists the addresses of all vectors of q in list [FIELDS]. */
+/* Stores the addresses of all vectors (struct field) of the solver q in list[FIELDS]. */
 static void all_fields(struct newton_solver *q, struct field **list)
 {
     struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before, &q->grown};
@@ -72,7 +72,7 @@ void newton_solver_free(struct newton_solver *q)
 
 static bool is_held(const struct newton_solver *q, int64_t i, int d) { return q->held[i] >> d & 1; }
 
-/* Computes to = a x + b y. */
+/* Computes the vector to = a x + b y, over free and held components. `to` may be x or y. */
 static void combine(const struct newton_solver *q, struct field *to, real a, const struct field *x, real b,
                     const struct field *y)
 {
@@ -90,8 +90,8 @@ struct product {
     const struct field *a, *b;
 };
 
-/* Adds the products a b over free components to sum[0] and those over constrained (held) components to sum[1], for
- * nodes first .. end - 1. */
+/* Adds the products a b over free components to sum[0] and over held components, those with prescribed displacement, to
+ * sum[1], for nodes first .. end - 1; a block function of reproducible_sums. context: a struct product. */
 static void dot_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -99,7 +99,7 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
         for (int64_t i = first; i < end; i++) sum[is_held(s->q, i, d)] += s->a->of[d][i] * s->b->of[d][i];
 }
 
-/* Computes the product of a and b over free components, sum[0], and over held components, sum[1]. */
+/* Computes the scalar product of vectors a and b over free components, sum[0], and over held components, sum[1]. */
 static void dots(const struct newton_solver *q, const struct field *a, const struct field *b, real sum[2])
 {
     reproducible_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
@@ -114,14 +114,15 @@ static real dot_free(const struct newton_solver *q, const struct field *a, const
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the forces at displacement u and counts the evaluation. */
+/* Computes the forces f [N] at the displacements u [m] and counts the evaluation. */
 static void forces_at(struct newton_solver *q, const struct field *u, struct field *f)
 {
     q->force(q->context, u, f);
     q->forces++;
 }
 
-/* Adds the products a b over all components, free and constrained, to *sum, for nodes first .. end - 1. */
+/* Adds the products a b over all components, free and held, to *sum, for nodes first .. end - 1; a block function of
+ * reproducible_sums. context: a struct product. */
 static void plain_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -134,7 +135,7 @@ static void plain_block(const void *context, int64_t first, int64_t end, real *s
     }
 }
 
-/* Returns the scalar product of a and b over all components, free and constrained. */
+/* Returns the scalar product of vectors a and b over all components, free and held. */
 static real dot_all(const struct newton_solver *q, const struct field *a, const struct field *b)
 {
     real sum;
@@ -142,22 +143,23 @@ static real dot_all(const struct newton_solver *q, const struct field *a, const 
     return sum;
 }
 
-/* Returns the length over which an increment rotates bonds [m]: the extent of the region of nodes that move about as
- * much as the largest component `most` of the increment [m]. */
+/* Returns the length over which a displacement increment rotates bonds [m]: the extent of the region of nodes that move
+ * by about its largest component. most: this component [m]. */
 static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
 }
 
-/* Returns the factor by which an increment is multiplied for a difference of forces: small enough that strains and
- * rotations of bonds stay within DIFFERENCE_STRAIN and DIFFERENCE_TURN. most: its largest component [m]. */
+/* Returns the factor by which a displacement increment is multiplied for a difference of forces [1]. It is so small
+ * that strains and rotations of bonds stay within DIFFERENCE_STRAIN and DIFFERENCE_TURN. most: largest component of the
+ * increment [m]. */
 static real difference_step(const struct newton_solver *q, const struct field *increment, real most)
 {
     return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
 }
 
 /* Computes the product of the tangent stiffness at u with the vector `in`, by a one-sided difference of forces: out =
- * (f(u) - f(u + step in))/step. q->f must contain f(u). Overwrites q->at. */
+ * (f(u) - f(u + step in))/step. q->f must contain f(u). Overwrites the vector q->at. */
 static void stiffness(struct newton_solver *q, const struct field *in, struct field *out)
 {
     const real most = field_largest_component(in, q->dim, q->n);
@@ -170,16 +172,16 @@ static void stiffness(struct newton_solver *q, const struct field *in, struct fi
         combine(q, out, 0, out, 0, out);
 }
 
-/* Stores the ratio of strain to largest component of direction d, from which the step of the next difference of forces
- * follows. curvature: d . K d. */
+/* Stores in q->strain_ratio the ratio of strain to largest component of direction d [1/m], from which the step of the
+ * next difference of forces follows. curvature: d . K d with the tangent stiffness K. */
 static void strain_note(struct newton_solver *q, const struct field *d, real curvature)
 {
     const real most = field_largest_component(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
-/* Computes from the present forces the residual relative to the scale, the scale itself (norm of applied forces and
- * reactions) and the node with the largest residual. */
+/* Computes from the present forces q->f the scale (largest norm of applied forces, reactions or noise), the residual
+ * relative to it, and the node with the largest residual, q->worst. */
 static void equilibrium_measure(struct newton_solver *q)
 {
     real sum[2], most = -1;
@@ -196,8 +198,8 @@ static void equilibrium_measure(struct newton_solver *q)
 
 /* ---- one correction ---------------------------------------------------------------------------------------------- */
 
-/* Computes the residual r = f - K x of the initial increment x, which contains the motion of supports; 0 on constrained
- * components. */
+/* Computes the residual r = f - K x of the initial increment q->x, which contains the motion of supports, in q->r; 0 on
+ * held components. */
 static void residual_of_guess(struct newton_solver *q)
 {
     if (field_largest_component(&q->x, q->dim, q->n) == 0) {
@@ -211,8 +213,8 @@ static void residual_of_guess(struct newton_solver *q)
             if (is_held(q, i, d)) q->r.of[d][i] = 0;
 }
 
-/* Sets the free components of the initial increment x to 0 if the residual is smaller without them: a fragment that
- * broke off and rotated does not follow proportional loads. */
+/* Sets the free components of the initial increment q->x to 0 if the residual is smaller without them: a fragment that
+ * broke off and rotated does not move in proportion to the loads. */
 static void guess_check(struct newton_solver *q)
 {
     residual_of_guess(q);
@@ -231,8 +233,8 @@ struct step {
     real scale;
 };
 
-/* Computes x += scale d, and r -= scale K d on free components, for nodes first .. end - 1; K d is in q->q. Adds r . r
- * to *sum. */
+/* Computes x += scale d, and r -= scale K d on free components (r = 0 on held ones), for nodes first .. end - 1; K d is
+ * in q->q. Adds r . r to *sum. A block function of reproducible_sums. context: a struct step. */
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct step *s = context;
@@ -250,16 +252,18 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-/* Extends x along d, a direction of negative stiffness, by a rotation of at most TURN_MOST. */
+/* Extends the correction q->x along q->d, a direction of negative stiffness, such that bonds rotate by at most
+ * TURN_MOST [rad]. */
 static void follow_negative(struct newton_solver *q)
 {
     const real most = field_largest_component(&q->d, q->dim, q->n);
     if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
 }
 
-/* Solves K x = f on free components from the initial x; held components of x do not change. Stops at a residual of
- * `wanted` [N], or of FORCING_LEAST of that of the initial x. At a direction of negative stiffness x is extended
- * along it (Steihaug 1983), unless supports move. */
+/* Solves K x = f on free components by preconditioned conjugate gradients from the initial q->x; held components of x
+ * do not change. Stops at a residual of `wanted` [N], or of FORCING_LEAST times that of the initial x, or without
+ * progress. At a direction of negative stiffness x is extended along it (Steihaug 1983), unless supports move
+ * (`prescribed` true). */
 static void correction(struct newton_solver *q, real wanted, bool prescribed)
 {
     real rz = 0, left2, best2 = INFINITY;
@@ -288,7 +292,7 @@ static void correction(struct newton_solver *q, real wanted, bool prescribed)
 
 /* ---- its length -------------------------------------------------------------------------------------------------- */
 
-/* Computes the displacement z = u + share x and the forces there, in q->q. */
+/* Computes the displacement q->z = u + share x, and the forces there in q->q. */
 static void forces_along(struct newton_solver *q, real share)
 {
     combine(q, &q->z, 1, &q->u, share, &q->x);
@@ -297,8 +301,8 @@ static void forces_along(struct newton_solver *q, real share)
 
 /* Returns the factor of the correction x at which the forces along x nearly vanish; 1 for linear bodies. The energy
  * decreases up to that point: the factor is reduced if forces point against x and increased if they still point along
- * it. prescribed: supports move, and the increment is made in full. left: residual before the correction [N]. Stores
- * the displacement in z and the forces there in q->q. */
+ * it. left: norm of the residual before the correction [N]; prescribed: supports move, so that the increment is made in
+ * full. Stores the displacement in q->z and the forces there in q->q. */
 static real line_search(struct newton_solver *q, real left, bool prescribed)
 {
     const real push = dot_free(q, &q->f, &q->x), most = field_largest_component(&q->x, q->dim, q->n);
@@ -321,8 +325,9 @@ static real line_search(struct newton_solver *q, real left, bool prescribed)
     return share;
 }
 
-/* Returns the work of all forces over the increment share x [J], by Simpson's rule if forces are not linear along
- * it. Loads on the increment have grown in proportion since `before`. Overwrites at and r. */
+/* Returns the work of all forces over the increment share x [J]: by the trapezoidal rule, or by Simpson's rule if
+ * forces are not linear along it. Loads grow in proportion over the increment, from those of q->before. left: norm of
+ * the residual before the increment [N]. Overwrites the vectors q->at and q->r. */
 static real work_along(struct newton_solver *q, real share, real left)
 {
     real ends[2], after[2], middle[2], grown[2], sum = 0;
@@ -342,8 +347,8 @@ static real work_along(struct newton_solver *q, real share, real left)
     return (2 * even + share * sum) / (3 * parts);
 }
 
-/* Adds the correction x, times the factor of the line search, to u and updates the forces. left: residual before it
- * [N]; prescribed: supports move. Returns the work of all forces along the increment [J]. */
+/* Adds the correction q->x, times the factor of the line search, to q->u and updates the forces. left: norm of the
+ * residual before it [N]; prescribed: supports move. Returns the work of all forces along the increment [J]. */
 static real advance(struct newton_solver *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);
@@ -355,7 +360,7 @@ static real advance(struct newton_solver *q, real left, bool prescribed)
     return work;
 }
 
-/* Returns the work of the forces on supports along the increment [J]. */
+/* Returns the work of the present forces q->f on held components, i.e. on supports, along the increment [J]. */
 static real dot_held(const struct newton_solver *q, const struct field *increment)
 {
     real sum[2];
@@ -364,9 +369,9 @@ static real dot_held(const struct newton_solver *q, const struct field *incremen
 }
 
 /* Corrects work and losses for the path between two equilibria. The first correction assumed that loads grow linearly
- * along it, later ones that they are complete. In fact the states form a curve: with the increment c s + d s^2 for the
- * share s of the growth, loads do 1/6 of `more` beyond the mean of both ends, and nothing is lost. more: growth of
- * loads times the increments of later corrections [J]. */
+ * along it, later ones that they are complete. In fact the states form a curve, c s + d s^2 for the share s of the
+ * growth: loads do 1/6 of `more` beyond the mean of both ends, and nothing is lost. more: growth of loads times the
+ * increments of later corrections [J]. */
 static void loads_bend(struct newton_solver *q, real more)
 {
     q->bent = more / 6;
@@ -378,8 +383,8 @@ static bool is_balanced(const struct newton_solver *q)
     return q->residual <= q->tolerance || q->residual * q->scale <= q->noise;
 }
 
-/* Updates the branches of the material laws and contacts for the present state (q->settle). Returns true if nothing has
- * changed; else recomputes the forces and returns false. */
+/* Updates the branches of material laws and the active contacts for the present state, by q->settle. Returns true if
+ * nothing has changed; else recomputes the forces and returns false. */
 static bool laws_settle(struct newton_solver *q)
 {
     if (!q->settle || q->settle(q->context)) return true;

@@ -20,8 +20,9 @@ enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 /* A node has no stiffness if its diagonal is below this share of the largest one. */
 #define STIFFNESS_LEAST 1e-12
 
-/* Replaces the diagonal of row i by minus the sum of the other entries if they differ by rounding only, so that a
- * rigid translation has exactly no energy. Larger differences (supports, foundations) are kept in `rest`. */
+/* Computes diagonal block, scale and constraint mark of row i. The diagonal is replaced by minus the sum of the other
+ * entries if they differ by rounding only, so that a rigid translation has exactly no energy. Larger differences
+ * (supports, foundations) are stored in l->rest. */
 static void diagonal_exact(const struct multigrid_level *l, int64_t i)
 {
     const int size = l->width * l->width;
@@ -42,8 +43,8 @@ static void diagonal_exact(const struct multigrid_level *l, int64_t i)
     l->scale[i] = trace / l->width;
 }
 
-/* Sets up the finest level from the matrix. Returns FAILED if an entry is not finite or a diagonal stiffness is
- * negative. */
+/* Sets up the finest level l from the matrix a, which is kept by reference. held[a->n]: constrained components of each
+ * node, bit d: component d. Returns FAILED, with a message, if a diagonal stiffness is negative or not finite. */
 static status finest_make(struct multigrid_level *l, const struct block_matrix *a, const uint8_t *held)
 {
     const unsigned all = (1u << a->dim) - 1;
@@ -70,7 +71,8 @@ static status finest_make(struct multigrid_level *l, const struct block_matrix *
     return OK;
 }
 
-/* Computes the rigid motions: translations, then rotations as velocities at the distance from the centre. */
+/* Computes l->mode, the rigid motions at each node: translations, then rotations as velocities at the distance from the
+ * centre; 0 on held components. position: [width][n] [m]. */
 static void finest_modes(struct multigrid_level *l, real *const *position)
 {
     const int w = l->width, m = l->modes;
@@ -97,14 +99,14 @@ static void finest_modes(struct multigrid_level *l, real *const *position)
 
 /* ---- all levels -------------------------------------------------------------------------------------------------- */
 
-/* Allocates the vectors of a level. */
+/* Allocates the vectors (load, solution, residual and working memory) of level l. */
 static void level_vectors(struct multigrid_level *l)
 {
     real **vector[] = {&l->b, &l->x, &l->y, &l->d, &l->t};
     for (size_t k = 0; k < COUNT_OF(vector); k++) *vector[k] = NEW("multigrid.vector", l->n * l->width, real);
 }
 
-/* Copies the diagonal blocks of a coarse level from its matrix and inverts them. */
+/* Copies the diagonal blocks of coarse level l from its matrix to l->diagonal, and inverts them. */
 static void coarse_diagonal(struct multigrid_level *l)
 {
     const int size = l->width * l->width;
@@ -115,7 +117,7 @@ static void coarse_diagonal(struct multigrid_level *l)
     multigrid_invert_blocks(l);
 }
 
-/* Builds the next level; returns false if it would not have clearly fewer nodes. */
+/* Builds the next coarser level of m. Returns false if it would not have clearly fewer nodes than the last one. */
 static bool coarsen(struct multigrid *m)
 {
     struct multigrid_level *l = &m->level[m->levels - 1], *next = l + 1;
@@ -156,7 +158,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *a, real
     return OK;
 }
 
-/* Frees a level, but not the matrix that the finest level has by reference. */
+/* Frees the arrays of level l, but not the matrix that the finest level has by reference. */
 static void level_free(struct multigrid_level *l)
 {
     void *owned[] = {
@@ -179,8 +181,9 @@ void multigrid_free(struct multigrid *m)
 
 /* ---- the cycle --------------------------------------------------------------------------------------------------- */
 
-/* Relaxes by the Chebyshev polynomial that is small from largest/RANGE to largest (Saad, Iterative Methods for
- * Sparse Linear Systems, algorithm 12.1). zero: x is 0 on entry. */
+/* Relaxes level l by the Chebyshev polynomial that is small between largest/RANGE and largest eigenvalue (Saad,
+ * Iterative Methods for Sparse Linear Systems, algorithm 12.1). degree: number of steps; zero: true if x is 0 on
+ * entry. */
 static void level_smooth(struct multigrid_level *l, int degree, bool zero)
 {
     const real theta = 0.5 * l->largest * (1 + 1 / RANGE), delta = 0.5 * l->largest * (1 - 1 / RANGE);
@@ -194,7 +197,8 @@ static void level_smooth(struct multigrid_level *l, int degree, bool zero)
     }
 }
 
-/* Solves for x of level k with load b by a V-cycle. */
+/* Solves K x = b of level k approximately by a V-cycle over this and the coarser levels. b and x are vectors of the
+ * level. */
 static void cycle(struct multigrid *m, int k)
 {
     struct multigrid_level *l = &m->level[k];

@@ -8,7 +8,7 @@
  * rows. */
 #define WEAK 0.1
 
-/* Returns the Frobenius norm of entry q. */
+/* Returns the Frobenius norm of matrix entry q, a block of width x width values. */
 static float entry_norm(const struct multigrid_level *l, int64_t q)
 {
     const int size = l->width * l->width;
@@ -20,8 +20,8 @@ static float entry_norm(const struct multigrid_level *l, int64_t q)
     return (float)sqrt(sum);
 }
 
-/* Returns the strength of each matrix entry [first[n]]: its norm if it connects two free nodes strongly enough (WEAK),
- * else 0. The caller frees it. */
+/* Returns the strength of each matrix entry, an array [first[n]]: the norm of the entry if it connects two free nodes
+ * strongly enough (WEAK), else 0. The caller frees it. */
 static float *strengths_make(const struct multigrid_level *l)
 {
     float *strength = BARE("multigrid.strength", l->first[l->n], float), *most = NEW("multigrid.strength", l->n, float);
@@ -40,7 +40,8 @@ static float *strengths_make(const struct multigrid_level *l)
     return strength;
 }
 
-/* Makes a new aggregate of node i and those of its strongly connected neighbours that belong to no aggregate. */
+/* Makes a new aggregate of node i and of those of its strongly connected neighbours that belong to no aggregate.
+ * strength: of strengths_make. */
 static void aggregate_found(struct multigrid_level *l, const float *strength, int64_t i)
 {
     const int32_t name = (int32_t)l->coarse++;
@@ -49,7 +50,8 @@ static void aggregate_found(struct multigrid_level *l, const float *strength, in
         if (strength[q] > 0 && l->aggregate[l->column[q]] < 0) l->aggregate[l->column[q]] = name;
 }
 
-/* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate. */
+/* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate. strength: of
+ * strengths_make. */
 static bool neighbours_free(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     bool any = false;
@@ -61,7 +63,8 @@ static bool neighbours_free(const struct multigrid_level *l, const float *streng
     return any;
 }
 
-/* Returns the aggregate whose nodes have the largest sum of connection strengths with node i, or -1. */
+/* Returns the aggregate whose nodes have the largest sum of connection strengths with node i, or -1 if there is none.
+ * strength: of strengths_make. */
 static int32_t aggregate_nearest(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };
@@ -108,8 +111,8 @@ void multigrid_aggregate_nodes(struct multigrid_level *l)
  * aggregate. */
 #define DROPPED 1e-9
 
-/* Returns the scalar product of columns a and c of the matrix v (m columns, w rows per node) over the n nodes in
- * `member`. */
+/* Returns the scalar product of columns a and c of the matrix v over the n nodes in `member`. v: m columns, w rows for
+ * each node of the level. */
 static real column_dot(const real *v, const int32_t *member, int64_t n, int w, int m, int a, int c)
 {
     real sum = 0;
@@ -121,8 +124,9 @@ static real column_dot(const real *v, const int32_t *member, int64_t n, int w, i
     return sum;
 }
 
-/* Makes the m columns of v over the n nodes of an aggregate orthonormal in place (Gram-Schmidt, twice) and stores the
- * factors in r [m][m], such that the old v is the new v times r. */
+/* Makes the m columns of v over the n nodes in `member`, an aggregate, orthonormal in place (Gram-Schmidt, twice).
+ * r[m][m]: receives the factors, such that the old v is the new v times r; 0 before. w: rows of v for each node.
+ * Dependent columns become 0. */
 static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w, int m, real *r)
 {
     for (int c = 0; c < m; c++) {
@@ -148,7 +152,8 @@ static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w
     }
 }
 
-/* Lists the members of every aggregate: member[first[a] .. first[a + 1] - 1]. */
+/* Lists the nodes of every aggregate a: member[first[a]] .. member[first[a + 1] - 1], ascending. first: [coarse + 1], 0
+ * before; member: [n]. */
 static void members_list(const struct multigrid_level *l, int64_t *first, int32_t *member)
 {
     for (int64_t i = 0; i < l->n; i++)

@@ -22,7 +22,7 @@ struct tables {
     int32_t *where;
 };
 
-/* Returns the table of the calling thread. */
+/* Returns the table [t->n] of the calling thread. */
 static int32_t *table_own(const struct tables *t) { return t->where + omp_get_thread_num() * t->n; }
 
 /* The product of matrix and prolongation for a slab of rows, with its pattern for all rows. */
@@ -45,8 +45,8 @@ static int compare_columns(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds the columns of row i of the product of patterns a and b, stored in ascending order unless list is NULL;
- * returns their number. */
+/* Finds the columns of row i of the product of patterns a and b. where: table of the thread, entries other than i for
+ * columns not yet found; list: receives the columns in ascending order; NULL: count only. Returns their number. */
 static int64_t product_row(const int64_t *a_first, const int32_t *a_column, const int64_t *b_first,
                            const int32_t *b_column, int64_t i, int32_t *where, int32_t *list)
 {
@@ -63,7 +63,8 @@ static int64_t product_row(const int64_t *a_first, const int32_t *a_column, cons
     return n;
 }
 
-/* Computes the pattern of the product of patterns a (n rows) and b. */
+/* Computes the pattern of the product of patterns a (n rows) and b, with ascending columns, and allocates its arrays in
+ * *out. t: a table for each thread, with one entry for each column of b. */
 static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first, const int32_t *a_column,
                          const int64_t *b_first, const int32_t *b_column, const struct tables *t)
 {
@@ -84,7 +85,7 @@ static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first,
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Computes out += a b for blocks [r][k] and [k][c]; r, k and c are literals. */
+/* Computes out += a b for row-major blocks a[r][k] and b[k][c]; r, k and c are literals in calls. */
 static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, const real *restrict b, const int r,
                                     const int k, const int c)
 {
@@ -101,8 +102,8 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
     }
 }
 
-/* Computes row i of the product of matrix and prolongation. w, m: unknowns per node of this and of the coarser
- * level. */
+/* Computes row i of the product of matrix and prolongation, in the slab p->block. w, m: components per node of this and
+ * of the coarser level, literals in calls. */
 static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
 {
     const struct multigrid_level *l = p->l;
@@ -124,8 +125,8 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     }
 }
 
-/* Adds the contributions of the rows in the slab to row c of the coarser matrix. w, m: unknowns per node of this and of
- * the coarser level. */
+/* Adds the contributions of the rows in the slab to row c of the coarser matrix. w, m: components per node of this and
+ * of the coarser level, literals in calls. */
 static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
 {
     const struct transfer *up = &p->l->up;
@@ -156,8 +157,8 @@ static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int
         }                                                                                                              \
     } while (0)
 
-/* Computes the coarser matrix slab by slab. The unknowns per node of both levels are literals in each case, for
- * speed. */
+/* Computes the product of matrix and prolongation for the rows of a slab, and adds its contributions to the coarser
+ * matrix. The components per node of both levels are literals in each case, for speed. */
 static void slab_product(const struct product *p)
 {
     const int kind = 10 * p->l->width + p->l->modes;
@@ -173,7 +174,7 @@ static void slab_product(const struct product *p)
         SLABS(6, 6);
 }
 
-/* Returns the number of blocks of the largest slab. */
+/* Returns the number of blocks in the largest slab, i.e. of SLAB successive rows of the product. */
 static int64_t slab_largest(const struct product *p)
 {
     int64_t most = 0;

@@ -7,8 +7,8 @@
 #include "base/team.h"
 #include "multigrid_parts.h"
 
-/* Inverts the symmetric block a [w][w] by U'DU. Components in `held` are left out; a pivot below least x scale is
- * replaced by scale. */
+/* Inverts the symmetric block a[w][w] by U'DU, row major in `inverse`. Components with a bit in `held` are left out (0
+ * in the inverse). A pivot below least * scale is replaced by scale. */
 static void block_invert(const real *a, real *inverse, int w, unsigned held, real least, real scale)
 {
     real u[WIDTH_MOST][WIDTH_MOST], pivot[WIDTH_MOST];
@@ -48,7 +48,7 @@ void multigrid_invert_blocks(struct multigrid_level *l)
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if all components of entry q are 0. */
+/* Returns true if all components of matrix entry q of a coarse level are 0. */
 static bool entry_is_zero(const struct multigrid_level *l, int64_t q)
 {
     const int size = l->width * l->width;
@@ -57,8 +57,8 @@ static bool entry_is_zero(const struct multigrid_level *l, int64_t q)
     return true;
 }
 
-/* Lists all nodes that are connected with node i, directly or through others, in list[0 .. n - 1] and sets seen[] for
- * them. Returns n. */
+/* Lists all nodes that are connected with node i, directly or through others, in list[], and sets seen[] to 1 for them.
+ * seen, list: [n]. Returns their number. */
 static int64_t piece_list(const struct multigrid_level *l, int64_t i, uint8_t *seen, int32_t *list)
 {
     int64_t n = 0;
@@ -105,7 +105,8 @@ struct three_vectors {
     const real *a, *b, *c;
 };
 
-/* Adds the products a b to sum[0] and b c to sum[1] for entries first .. end - 1, for reproducible_sums. */
+/* Adds the products a b to sum[0] and b c to sum[1] for entries first .. end - 1; a block function of
+ * reproducible_sums. context: a struct three_vectors. */
 static void three_vectors_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct three_vectors *v = context;
@@ -115,7 +116,8 @@ static void three_vectors_block(const void *context, int64_t first, int64_t end,
     }
 }
 
-/* Computes d = D^-1 t, D being the diagonal blocks, and the scalar products sum[0] = x . t and sum[1] = t . d. */
+/* Computes l->d = D^-1 t with the diagonal blocks D and t = l->t, and the scalar products sum[0] = x . t and sum[1] = t
+ * . d. */
 static void lanczos_scale(struct multigrid_level *l, real *sum)
 {
     const int w = l->width;
@@ -129,7 +131,8 @@ static void lanczos_scale(struct multigrid_level *l, real *sum)
     reproducible_sums(l->n * w, 2, three_vectors_block, &(struct three_vectors){l->x, l->t, l->d}, sum);
 }
 
-/* Makes the next Lanczos vector -(d + a x + b y)/length in y, and exchanges x and y, so that x is the newest one. */
+/* Makes the next Lanczos vector -(d + a x + b y)/length in l->y, and exchanges l->x and l->y, so that x is the newest
+ * one. a, b: coefficients of the recurrence; length: its norm. */
 static void lanczos_turn(struct multigrid_level *l, real a, real b, real length)
 {
 #pragma omp parallel for schedule(static)

@@ -4,7 +4,7 @@
 
 /* ---- pattern ----------------------------------------------------------------------------------------------------- */
 
-/* Inserts `value` into the ascending list of *n values, unless it is in the list. */
+/* Inserts `value` into the ascending list of *n values, unless the list contains it. The list must have room for it. */
 static void sorted_add(int32_t *list, int *n, int32_t value)
 {
     int k = *n;
@@ -14,7 +14,8 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
     list[k] = value, ++*n;
 }
 
-/* Lists the aggregates of the neighbours of node i; returns their number, at most that of its neighbours. */
+/* Stores the aggregates of the neighbours of node i, ascending, in list[]; none if the node has no stiffness. Returns
+ * their number, at most that of the neighbours. */
 static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *list)
 {
     int n = 0;
@@ -24,7 +25,7 @@ static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *l
     return n;
 }
 
-/* Computes the pattern of the prolongation. */
+/* Computes the pattern of the prolongation l->down, rows and columns; its blocks are not allocated. */
 static void down_pattern(struct multigrid_level *l)
 {
     int32_t *list = BARE("multigrid.pattern", l->first[l->n], int32_t);
@@ -45,7 +46,7 @@ static void down_pattern(struct multigrid_level *l)
 enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
 /* Computes force[k][w][m], the product of matrix row i with the rigid motions (tentative prolongation) of aggregate
- * name[k], for k < n. w, m: unknowns per node of this and of the coarser level. */
+ * name[k], for k < n. w, m: components per node of this and of the coarser level, literals in calls. */
 static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i, const int32_t *name, int n,
                                       real *force, const int w, const int m)
 {
@@ -64,7 +65,8 @@ static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i
     }
 }
 
-/* Computes row i of the smoothed prolongation: the rigid motions of the aggregates minus step D^-1 K times them. */
+/* Computes row i of the smoothed prolongation l->down: the rigid motions of the aggregates minus step D^-1 K times
+ * them. w, m: components per node of this and of the coarser level, literals in calls. */
 static ALWAYS_INLINE void down_row(const struct multigrid_level *l, int64_t i, real step, const int w, const int m)
 {
     const struct transfer *p = &l->down;
@@ -83,7 +85,7 @@ static ALWAYS_INLINE void down_row(const struct multigrid_level *l, int64_t i, r
     }
 }
 
-/* Computes the transpose `up` of the prolongation p. */
+/* Computes the transpose `up` of the prolongation p, and allocates its arrays. */
 static void transfer_transpose(const struct multigrid_level *l, const struct transfer *p, struct transfer *up)
 {
     const int w = l->width, m = l->modes;

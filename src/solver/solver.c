@@ -50,7 +50,8 @@ struct constrained_forces {
     const uint8_t *held;
 };
 
-/* Adds squares of forces on free components to sum[0], and of forces on constrained ones to sum[1]. */
+/* Adds the squares of forces on free components to sum[0], and on constrained components to sum[1], for particles first
+ * .. end - 1 [N^2]; a block function of reproducible_sums. context: a struct constrained_forces. */
 static void solver_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct constrained_forces *f = context;

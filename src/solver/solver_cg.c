@@ -15,7 +15,8 @@
 /* Returns true if a support or a plane of symmetry constrains component d of particle i. */
 static bool is_constrained(const struct static_solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
 
-/* Adds the weighted product d . K d over free components to sum[0]. K d is in s->q. */
+/* Adds the weighted product d . K d over free components to sum[0], for particles first .. end - 1; K d is in s->q. A
+ * block function of reproducible_sums. context: the solver. */
 static void curvature_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -24,7 +25,8 @@ static void curvature_block(const void *context, int64_t first, int64_t end, rea
             if (!is_constrained(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds the weighted product u . K u over all components to sum[0]. K u is in s->q. */
+/* Adds the weighted product u . K u over all components to sum[0], for particles first .. end - 1; K u is in s->q. A
+ * block function of reproducible_sums. context: the solver. */
 static void energy_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -32,7 +34,8 @@ static void energy_block(const void *context, int64_t first, int64_t end, real *
         for (int64_t i = first; i < end; i++) sum[0] += s->weight[i] * s->u.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds the weighted product r . r/Lambda to sum[0], and r . r without weights to sum[1]. */
+/* Adds the weighted product r . r/Lambda to sum[0], and r . r without weights to sum[1], for particles first .. end -
+ * 1. A block function of reproducible_sums. context: the solver. */
 static void residual_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -44,7 +47,7 @@ static void residual_block(const void *context, int64_t first, int64_t end, real
         }
 }
 
-/* Returns the energy of the body at unit strain, sum E V [J]. */
+/* Returns the energy scale of the body at unit strain: sum of Young's modulus times volume over the particles [J]. */
 static real unit_energy(const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -55,7 +58,7 @@ static real unit_energy(const struct static_body *body)
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* Computes the residual b - K u from the displacements, not by recurrence, into part.f. The reactions on constrained
+/* Computes the residual b - K u from the displacements, not by recurrence, in p->f [N]. The reactions on constrained
  * components are measured, then set to 0. */
 static void true_residual(struct static_solver *s, const struct static_body *body)
 {
@@ -71,7 +74,8 @@ static void true_residual(struct static_solver *s, const struct static_body *bod
     loads_collect_static_reactions(body->loads, p);
 }
 
-/* Sets r = part.f and restarts the search directions. */
+/* Sets the residual s->r to the forces p->f, 0 on constrained components, and restarts the search directions from
+ * it. */
 static void restart(struct static_solver *s, const struct particles *p)
 {
     real sum[2];
@@ -84,7 +88,7 @@ static void restart(struct static_solver *s, const struct particles *p)
     s->rz = sum[0];
 }
 
-/* Computes initial displacement, residual and direction. */
+/* Computes initial displacement, residual and search direction of the iteration. */
 static void solver_cg_start(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -96,7 +100,7 @@ static void solver_cg_start(struct static_solver *s, const struct static_body *b
     restart(s, p);
 }
 
-/* Computes u += alpha d and r -= alpha K d, and the next search direction d. Returns r . r. */
+/* Computes u += alpha d and r -= alpha K d, with K d in s->q, and the next search direction d. Returns r . r [N^2]. */
 static real solver_cg_advance(struct static_solver *s, real alpha)
 {
     real sum[2];
@@ -117,7 +121,8 @@ static real solver_cg_advance(struct static_solver *s, real alpha)
     return sum[1];
 }
 
-/* Sets x = X + u and computes the bond forces there, from which energies and stresses of state-based models follow. */
+/* Sets the positions of the particles to x = X + u and computes the bond forces there, from which energies and stresses
+ * of state-based models follow. */
 static void solver_cg_displace(const struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -126,8 +131,9 @@ static void solver_cg_displace(const struct static_solver *s, const struct stati
     static_body_bond_forces(body);
 }
 
-/* Sets *done if the true residual is below the tolerance. If the recursive residual (by_recurrence [N]) differs from
- * it by round-off, the iteration is restarted; returns FAILED after STALLS_MOST restarts without progress. */
+/* Computes the true residual and sets *done to true if it is at most the tolerance, else to false. If the recursive
+ * residual (by_recurrence [N]) differs from it by round-off, the iteration is restarted. step: number of the iteration.
+ * Returns FAILED, with a message, after STALLS_MOST restarts without progress. */
 static status check(struct static_solver *s, const struct static_body *body, int64_t step, real by_recurrence,
                     bool *done)
 {

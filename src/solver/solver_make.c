@@ -28,7 +28,8 @@ struct scaled {
     const struct static_body *body;
 };
 
-/* Computes y = Lambda^-1/2 K Lambda^-1/2 x, both [dim n]; overwrites `before` and v. */
+/* Computes y = Lambda^-1/2 K Lambda^-1/2 x, x and y of [dim n] values; an operator of largest_eigenvalue. context: a
+ * struct scaled. Overwrites s->before and the velocities of the particles. */
 static void solver_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled *scaled = context;
@@ -45,9 +46,9 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
 
 #define MARGIN_OF_EIGENVALUE 1.02 /* the iteration converges from below */
 
-/* Computes the diagonal Lambda that scales the unknowns, Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci
- * 2010), with the bonds as springs; multiplies it by the largest eigenvalue if the model is stiffer than these
- * springs. */
+/* Computes s->diagonal, Lambda, which scales the unknowns: Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci
+ * 2010), with the bonds as springs. It is multiplied by the largest eigenvalue of Lambda^-1 K/4 if the model is stiffer
+ * than these springs. */
 static void make_diagonal(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -75,7 +76,7 @@ static void make_diagonal(struct static_solver *s, const struct static_body *bod
 }
 
 /* Sets weights and constraints of particles on planes of symmetry: they stay on the plane, and only half of each
- * belongs to the body. */
+ * belongs to the body. The weights of all other particles are 1. */
 static void make_weights(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -91,8 +92,9 @@ static void make_weights(struct static_solver *s, const struct static_body *body
     }
 }
 
-/* Returns the number of steps in which supports move to their final positions. Relaxation spreads by at most one
- * spacing per step: over as many steps as the body has spacings, supports strain bonds about as much as the body. */
+/* Returns the number of steps in which supports move to their final positions, 0 if none moves. Relaxation spreads by
+ * at most one spacing per step: over as many steps as the body has spacings, supports strain bonds about as much as the
+ * body. */
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
     const real most = field_largest_component(&s->driven, s->dim, s->n);
@@ -111,7 +113,7 @@ static void make_applied(struct static_solver *s, const struct static_body *body
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
 }
 
-/* Computes the norm of the forces caused by round-off of positions in a body at rest [N], times a margin of ten. */
+/* Computes s->noise: ten times the norm of the forces caused by round-off of positions in a body at rest [N]. */
 static void make_noise(struct static_solver *s, const struct particles *p)
 {
     real sum = 0;
@@ -131,7 +133,8 @@ static bool component_constrained(const struct loads *l, int d)
     return false;
 }
 
-/* Returns REFUSED for applied forces along d that are neither balanced nor carried by supports. */
+/* Returns REFUSED, with a message, for applied forces along axis d that are neither balanced nor carried by
+ * supports. */
 static status force_balanced(const struct loads *loads, int d)
 {
     real sum = 0, size = 0;
@@ -151,7 +154,8 @@ static status force_balanced(const struct loads *loads, int d)
         "xyz"[d], sum);
 }
 
-/* Returns REFUSED for loads that have no equilibrium. Moments are checked for one plane body without supports. */
+/* Returns REFUSED, with a message, for loads that have no equilibrium: forces along each axis are checked, moments for
+ * one plane body without supports. */
 static status loads_balanced(const struct static_body *body)
 {
     struct loads *l = body->loads;
