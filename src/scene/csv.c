@@ -52,7 +52,8 @@ void csv_detect_separator(struct csv_file *c)
     c->separator = strchr(c->text, ';') ? ';' : tabs > commas ? '\t' : ',';
 }
 
-/* Returns a field without surrounding blanks and without double quotes; shortens the text. */
+/* Strips surrounding blanks and double quotes from a field of a CSV line, repeatedly. Overwrites the text behind the
+ * field with zeros. Returns the first character of the stripped field, which lies in `field`. */
 static char *csv_trim(char *field)
 {
     size_t n = strlen(field);
@@ -64,15 +65,17 @@ static char *csv_trim(char *field)
     return csv_trim(field + 1);
 }
 
-/* Returns the position from which the separator after a field is searched: the closing quote of a quoted field, else
- * its beginning. */
+/* Returns the position in `field` from which the separator that ends the field is searched: the closing quote of a
+ * quoted field, else the beginning of the field. */
 static char *csv_behind_quotes(char *field)
 {
     char *start = field + strspn(field, " "), *close = *start == '"' ? strchr(start + 1, '"') : NULL;
     return close ? close : field;
 }
 
-/* Cuts the next field off *rest in a line whose fields are separated by any number of blanks. */
+/* Cuts the next field off a line whose fields are separated by any number of blanks. field: the text that has not been
+ * read yet. *rest: receives the text behind the field, or NULL if the line ends there. Returns the field without blanks
+ * and quotes, terminated in place. */
 static char *csv_word(char *field, char **rest)
 {
     static const char blanks[] = " \t\r\n";

@@ -17,7 +17,8 @@
 #include "base/team.h"
 #include "fill_draft.h"
 
-/* Least distance of two particles; closer ones are refused as one particle given twice [spacings]. */
+/* Least distance of two particles [spacings]. Two particles closer than this are refused as one particle given
+ * twice. */
 static const real too_close = 1e-3;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 };
@@ -79,9 +80,9 @@ static real axis_place(const struct axis *a, int64_t k)
     return a->centre + ((real)k + 0.5 - a->half_count) * a->spacing;
 }
 
-/* Rounds centre and half the spacing to multiples of a power of two, such that every position is an exact double and
- * is within half of LATTICE_NEAR of its nominal position. A body of 10,000 spacings has no such power of two; its
- * positions are rounded one by one. */
+/* Rounds the centre and half the spacing of an axis to multiples of a power of two, such that every lattice position is
+ * an exact double within half of LATTICE_NEAR spacings of its nominal value. Leaves the axis unchanged where no such
+ * power of two exists, as for a body of 10,000 spacings; its positions are then rounded one by one. */
 static void axis_round(struct axis *a)
 {
     const real ends =
@@ -93,8 +94,8 @@ static void axis_round(struct axis *a)
     a->spacing = 2 * half;
 }
 
-/* Writes the bounding box of the first added solid of a shape, or of the whole shape if it is an intersection [m].
- * Returns false if the box is unbounded. */
+/* Writes the corners low[dim], high[dim] of the bounding box of the first added solid of a shape, or of the whole shape
+ * if it is an intersection of solids [m]. Returns false if the box is unbounded. */
 static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MAX], real high[DIM_MAX])
 {
     if (shape->n > 0 && shape->solid[0].intersect) return region_bounds(shape, dim, low, high);
@@ -104,8 +105,8 @@ static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MA
     return false;
 }
 
-/* Returns a uniform random number in [-1/2, 1/2) that depends on seed, particle and component alone, by
- * hash_add_word of a counter. */
+/* Returns a uniform random number in [-1/2, 1/2) that depends on its arguments alone: the hash of `seed` with the
+ * counter id * DIM_MAX + component. id: index of the particle; component: axis of its position. */
 static real scatter(uint64_t seed, int64_t id, int component)
 {
     return (real)(hash_add_word(seed, (uint64_t)id * DIM_MAX + (uint64_t)component) >> 11) * 0x1p-53 - 0.5;
@@ -113,8 +114,8 @@ static real scatter(uint64_t seed, int64_t id, int component)
 
 static real cell_volume(const struct scene *s) { return lattice_volume(scene_section_factor(s), s->spacing, s->dim); }
 
-/* Sets the axes of the lattice that covers the whole shape of a body. REFUSED if the shape is unbounded or too large
- * for the spacing. */
+/* Sets axis[dim] to the axes of the lattice that covers the whole shape of a body of d->scene. body: index of the body.
+ * Returns REFUSED if the shape is unbounded or too large for the spacing. */
 static status lattice_axes(const struct particle_draft *d, int body, struct axis axis[DIM_MAX])
 {
     const struct scene *s = d->scene;
@@ -141,7 +142,8 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
     return OK;
 }
 
-/* Counts a particle at X = place [m] that is not created, and extends the bounding box of these particles. */
+/* Counts a particle that is inside a body but not created, and extends the bounding box d->low, d->high of these
+ * particles by its position place[dim] [m]. Returns OK. */
 static status place_skip(struct particle_draft *d, const real *place)
 {
     for (int a = 0; a < d->scene->dim; a++) {
@@ -152,7 +154,9 @@ static status place_skip(struct particle_draft *d, const real *place)
     return OK;
 }
 
-/* Adds a particle at a lattice position [m], shifted at random by the irregularity, if the position is in the body. */
+/* Adds a particle to the draft d if the lattice position place[dim] [m] is in the shape of the body. Its position is
+ * shifted at random by up to half of `particles.irregularity` spacings along each axis (Imachi et al. 2019, eq. 49).
+ * volume: volume of the particle [m^3]. Returns REFUSED if the draft cannot take it. */
 static status lattice_point(struct particle_draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
@@ -164,7 +168,8 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
     return particle_draft_add(d, X, volume, scene_material_at(s, &s->body[body], place, s->body[body].material), body);
 }
 
-/* Fills the shape of a body with the particles of its lattice, x fastest. */
+/* Adds the particles of the lattice in the shape of a body to the draft d, x varying fastest. body: index in the scene.
+ * Returns REFUSED if the scene has no spacing or the shape does not fit it. */
 static status fill_lattice(struct particle_draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
@@ -195,8 +200,8 @@ status fill_lattice_site(const struct scene *s, int body, real *X)
 
 /* ---- all ------------------------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED with the message that a body has no particles. listed: they would come from a list; otherwise the
- * message gives the size of the body's shape. */
+/* Returns REFUSED with the message that a body has no particles. body: index in the scene. listed: true if its
+ * particles were to come from a list; otherwise the message gives the extents of the body's shape. */
 static status draft_empty(const struct particle_draft *d, int body, bool listed)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -212,7 +217,8 @@ static status draft_empty(const struct particle_draft *d, int body, bool listed)
     return particle_draft_refuse_body(d, body, why);
 }
 
-/* Collects the particles of all bodies. REFUSED for a body without particles. */
+/* Collects the particles of all bodies of d->scene in the draft d: from their lists, or from lattices in their shapes.
+ * Returns REFUSED for a body without particles or with an invalid list or shape. */
 static status draft_make(struct particle_draft *d)
 {
     for (int body = 0; body < d->scene->bodies; body++) {
@@ -226,11 +232,11 @@ static status draft_make(struct particle_draft *d)
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-/* Returns the volume of particle i, as a term of a sum. */
+/* Returns volume[i], the volume of particle i [m^3], as a term of reproducible_sum. volume: array of reals. */
 static real volume_term(const void *volume, int64_t i) { return ((const real *)volume)[i]; }
 
-/* Returns the spacing of the scene [m], or the edge of a particle of mean volume if the scene has none because all
- * particles come from lists. */
+/* Returns the spacing of the scene [m]. If the scene has none because all particles come from lists, returns the edge
+ * of a square or cube of the mean particle volume. */
 static real spacing_of(const struct particle_draft *d)
 {
     const struct scene *s = d->scene;
@@ -238,8 +244,9 @@ static real spacing_of(const struct particle_draft *d)
     return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section_factor(s)), 1.0 / s->dim);
 }
 
-/* Creates the particles from the draft, with velocity, mass and method from their bodies where the draft has none.
- * optional: arrays to be created (WITH_*). */
+/* Creates the particles p from the draft d. Velocities and masses that the draft leaves NAN follow from the body's
+ * velocity and the material's density; the method of the scene sets the kind of the particles. optional: arrays to
+ * create besides the usual ones (WITH_*). */
 static void take_draft(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;
@@ -262,7 +269,8 @@ static void take_draft(struct particles *p, const struct particle_draft *d, int 
     }
 }
 
-/* Adds the number and the bounding box of the particles that are not created to p. */
+/* Sets p->n_body to the number of particles including those that were not created (d->skipped), and p->low, p->high to
+ * the bounding box of both [m]. */
 static void take_skipped(struct particles *p, const struct particle_draft *d)
 {
     for (int a = 0; a < p->dim && d->skipped > 0; a++) {
@@ -272,8 +280,8 @@ static void take_skipped(struct particles *p, const struct particle_draft *d)
     p->n_body = p->n + d->skipped;
 }
 
-/* Returns REFUSED if a particle is farther than FILL_FARTHEST from the origin or its mass is not a positive finite
- * number. */
+/* Returns REFUSED if a particle is farther than FILL_FARTHEST spacings from the origin or its mass is not a positive
+ * finite number. d: draft, for the name of the body in the message. spacing [m]. */
 static status check_values(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -288,8 +296,9 @@ static status check_values(const struct particles *p, const struct particle_draf
     return OK;
 }
 
-/* Returns REFUSED if the initial state moves a particle farther than FILL_FARTHEST, makes its volume negative or 0,
- * or makes a velocity or stress that is not finite. */
+/* Returns REFUSED if the initial state (`initial` of the scene) moves a particle farther than FILL_FARTHEST spacings
+ * from the origin, makes its volume 0 or negative, or gives it a velocity or stress that is not finite. d: draft, for
+ * the name of the body in the message. spacing [m]. */
 static status check_start(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -307,8 +316,8 @@ static status check_start(const struct particles *p, const struct particle_draft
     return OK;
 }
 
-/* Returns REFUSED if two particles are closer than too_close. The message names the first pair in the sorted order,
- * which does not depend on the number of threads. */
+/* Returns REFUSED if two particles are closer than too_close spacings. The message names the pair whose first particle
+ * has the smallest index, so that it does not depend on the number of threads. spacing [m]. */
 static status check_distances(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     struct cells cells;
@@ -342,8 +351,9 @@ static status check_distances(const struct particles *p, const struct particle_d
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
 
-/* Returns the derivative of component a of the formula along axis b as a central difference over one spacing around
- * X; 0 without a formula, and where the formula has no value on both sides [1/s]. */
+/* Returns df_a/dx_b [1/m] at X[dim] [m], where f_a is the formula of velocity component a of the initial state s: a
+ * central difference over one spacing. Returns 0 if component a has no formula, or if the formula has no finite value
+ * on both sides of X. */
 static real start_slope(const struct scene_initial *s, int a, int b, const real *X, int dim, real spacing)
 {
     real before[DIM_MAX] = {0}, after[DIM_MAX] = {0};
@@ -356,8 +366,9 @@ static real start_slope(const struct scene_initial *s, int a, int b, const real 
     return isfinite(slope) ? slope : 0;
 }
 
-/* Sets the velocity of particle i to v = velocity + G arm with the velocity gradient G and arm = X - centre [m], and
- * stores G in particles with a velocity gradient. */
+/* Sets the velocity of particle i to v = v0 f(X) + G arm and stores the velocity gradient G + grad f in particles that
+ * have one (APIC). s: initial state with velocity v0, formulas f and G [1/s]. X[dim]: position of the particle [m].
+ * arm[dim]: X minus the centre of s [m]. */
 static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *X,
                            const real *arm, real spacing)
 {
@@ -373,8 +384,9 @@ static void start_velocity(struct particles *p, int64_t i, const struct scene_in
     }
 }
 
-/* Sets the initial strain of particle i: x = X + H arm with arm = X - centre [m], stress C : sym H, and volume
- * factor 1 + tr H (small strain). */
+/* Sets position, stress and volume of particle i for the uniform displacement gradient H of the initial state s (small
+ * strain): x = X + H arm, stress = C : sym H, volume = volume0 (1 + tr H). m: material, for the stiffness C. arm[dim]:
+ * X minus the centre of s [m]. */
 static void fill_start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
                               const real *arm)
 {
@@ -396,7 +408,8 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
     p->volume[i] = p->volume0[i] * growth;
 }
 
-/* Adds a plane wave to the displacement, velocity, stress, stretch and volume of particle i at X [m] (small strain). */
+/* Adds the plane wave w to the displacement, velocity, stress, stretch and volume of particle i (small strain). m:
+ * material of the particle, for wave speed and stiffness. X[dim]: its reference position [m]. */
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {
@@ -419,7 +432,8 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
     p->volume[i] *= 1 + wave.strain * dot(along, moved, dim);
 }
 
-/* Returns REFUSED if an initial displacement gradient inverts the body. */
+/* Returns REFUSED if the displacement gradient H of an initial state inverts the body: 1 + tr H <= 0, or a stretch 1 +
+ * H_aa <= 0. */
 static status check_initial(const struct scene *s, const struct scene_initial *initial)
 {
     real growth = 1;
@@ -435,7 +449,8 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
         status_set(REFUSED, "its displacement gradient turns the body inside out; strains near 1e-3 are usual"));
 }
 
-/* Applies the initial states that apply to particle i, in the order of the scene. */
+/* Applies to particle i every initial state of the scene s whose body and region contain it, in the order of the scene.
+ * spacing [m]: scales the tolerance with which a particle on the boundary of a region is inside. */
 static void start_particle(struct particles *p, int64_t i, const struct scene *s, real spacing)
 {
     const real tolerance = ON_SURFACE * spacing;
@@ -450,15 +465,17 @@ static void start_particle(struct particles *p, int64_t i, const struct scene *s
     }
 }
 
-/* Sets velocities and velocity gradients (APIC) to 0 for a static equilibrium. */
+/* Sets the velocity of particle i, and its velocity gradient if it has one (APIC), to 0: the start of a static
+ * equilibrium. */
 static void start_at_rest(struct particles *p, int64_t i)
 {
     for (int a = 0; a < p->dim; a++) p->v[a][i] = 0;
     for (int k = 0; k < p->dim * p->dim && p->gradient[k] != NULL; k++) p->gradient[k][i] = 0;
 }
 
-/* Creates the particles of a draft, checks them, applies the initial states and sorts them. optional: arrays to be
- * created (WITH_*). REFUSED for invalid values, lists or positions. */
+/* Creates the particles p of the draft d, applies the initial states, checks values and distances, and sorts the
+ * particles. optional: arrays to create besides the usual ones (WITH_*). Returns REFUSED for invalid values, lists or
+ * positions. */
 static status fill_made(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;

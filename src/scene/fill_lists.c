@@ -10,22 +10,23 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* Bodies of at most this many particles are not checked: they are mass points placed one by one. */
+/* Bodies of at most this many particles are not checked: they are mass points, placed one by one, without
+ * neighbours. */
 enum { FEW = 7 };
-/* Number of particles sampled per body, each compared with all particles of the body. A share of a long list is then
- * accurate to 4 %, whatever the shape of the body. */
+/* Number of particles sampled per body. Each is compared with all particles of the body. Shares estimated from the
+ * sample are accurate to 4 %, whatever the shape of the body. */
 enum { LOOKED_AT = 128 };
-/* A list is refused where a larger share of the sample has no neighbour. In a wrong unit nearly all particles have
- * none. Correct lists stay below: grains of several particles have neighbours of their own grain, chips of one particle
- * are fewer than the particles of the fragments they broke off, and particles placed at random at the density of the
- * spacing leave 2 % without a neighbour on a line, and one in 1e5 elsewhere. */
+/* Largest share of the sample that may have no neighbour [1]; a list with more is refused. In a wrong unit nearly all
+ * particles have none. Correct lists have fewer: grains of several particles have neighbours of their own grain, chips
+ * of one particle are fewer than the particles of the fragments they broke off, and particles placed at random at the
+ * density of the spacing leave 2 % without a neighbour on a line, and one in 1e5 in 2D and 3D. */
 #define LONE_MOST 0.5
-/* A list is refused where the median distance of nearest neighbours is less than this share of a spacing: units differ
- * by factors of 10 and more, the finest and the coarsest parts of a graded body rarely by more than 4. */
+/* Least median distance of nearest neighbours [spacings]; a list with a smaller one is refused. Units differ by factors
+ * of 10 and more, the finest and the coarsest parts of a graded body rarely by more than 4. */
 #define CLOSE_LEAST (1.0 / 6)
-/* A list is refused where the median particle volume and the space up to the nearest neighbour differ by more than this
- * factor: in another unit they differ by 1e3 and more; at random places by 2 on a line, 4 in the plane and 6 in
- * space. */
+/* Largest factor between the median particle volume and the volume of a cell whose edge is the distance of the nearest
+ * neighbour [1]; a list with a larger factor is refused. In another unit the two differ by 1e3 and more; for particles
+ * at random positions by 2 on a line, 4 in the plane and 6 in space. */
 #define VOLUME_MOST 100.0
 #define CROWDED 0.5     /* nearest neighbours closer than this: memory of bonds is estimated first [spacings] */
 #define ONE_PLACE 1e-9  /* least distance of two positions [longest edge of the body]; refused in fill.c */
@@ -50,8 +51,8 @@ struct verdict {
     real filled; /* median volume over space up to the nearest [1]             */
 };
 
-/* Copies the positions and volumes of the particles of body c->body to new arrays of c, and sets their number and the
- * distance below which positions count as equal. */
+/* Copies the positions and volumes of the particles of body c->body to new arrays c->X, c->volume, and sets the number
+ * of particles c->n and c->one_place, the distance below which positions count as equal [m]. */
 static void crowd_take(struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -75,8 +76,9 @@ static void crowd_take(struct crowd *c)
     c->one_place = ONE_PLACE * longest;
 }
 
-/* Returns the square of the distance from X [dim, m] to the nearest other position [m^2]. others: coordinates of n
- * particles [dim][n, m]. *within: number of these particles within reach of X, including a particle at X. */
+/* Returns the square of the distance from X[dim] [m] to the nearest of n other particles that is not at X itself [m^2];
+ * INFINITY if there is none. others: coordinates of the particles [dim][n, m]. *within: receives the number of these
+ * particles within c->reach of X, including one at X. */
 static real nearest_of(const struct crowd *c, real *const *others, int64_t n, const real *X, int64_t *within)
 {
     const real reach2 = square(c->reach), place2 = square(c->one_place);
@@ -95,9 +97,9 @@ static real nearest_of(const struct crowd *c, real *const *others, int64_t n, co
     return nearest;
 }
 
-/* Computes the statistics of a body from a sample of its particles, spread over its list by a Weyl sequence of the
- * golden ratio, so that no pattern of the list matters. Particles of other bodies count as neighbours unless the
- * whole scene is peridynamic, as bonds do not join bodies. */
+/* Returns the statistics of the body in c from a sample of at most LOOKED_AT particles. The sample is spread over the
+ * list by a Weyl sequence of the golden ratio, so that no pattern of the list matters. Particles of other bodies count
+ * as neighbours unless the whole scene is peridynamic, because bonds do not join bodies. */
 static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -123,10 +125,9 @@ static struct verdict crowd_look(const struct crowd *c)
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
-/* Returns a guess of the unit of a list from the ratio of a length to its expected value, or "" if no unit is near.
- * A list in mm whose particles are a tenth as far apart as the spacing cannot be told from one in cm: then both
- * units are named. by_volume: the ratio from volumes that the list gives in m^3, which decides between both; NAN if
- * there are none. */
+/* Returns a guess of the unit of a list as text for a message, or "". ratio: a length of the list over its expected
+ * value, such as 1e3 for mm. by_volume: the same ratio from the volumes that the list gives in m^3; NAN if there are
+ * none. It decides between cm and mm where the lengths fit both; without it the text names both units. */
 static const char *unit_guess(real ratio, real by_volume)
 {
     static const struct {
@@ -161,7 +162,8 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
                       why);
 }
 
-/* Returns REFUSED if the statistics show units that do not match, or bonds that exceed the memory. */
+/* Returns REFUSED with a message if the statistics v of the list of body c->body show units that do not match the
+ * spacing, or bonds that exceed the memory. */
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
@@ -205,8 +207,8 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
 
 /* ---- all lists --------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance over which particles interact [spacings]: the horizon of bonds, or about one cell of the grid,
- * at least REACH_LEAST. */
+/* Returns the distance over which particles of the scene interact [spacings]: the larger of the horizon of bonds and
+ * one cell of the grid, at least REACH_LEAST. */
 static real fill_lists_reach_of(const struct scene *s)
 {
     const real bonds = s->method == METHOD_MPM ? 0 : s->horizon, grid = s->method == METHOD_PD ? 0 : s->cell;

@@ -30,7 +30,8 @@ static int site_order(const void *a, const void *b)
 
 static int list_body(const struct particle_list *l, int64_t i) { return l->body ? (int)l->body[i] : 0; }
 
-/* Sorts the sites and returns true if enough of them have a neighbour along x (NEIGHBOURS_LEAST). */
+/* Sorts site[n] by body and position, and returns true if at least NEIGHBOURS_LEAST of the sites have a neighbour along
+ * x. */
 static bool sites_dense(struct site *site, int64_t n)
 {
     int64_t beside = 0;
@@ -65,7 +66,8 @@ bool list_is_lattice(const struct particle_list *l, real spacing, real volume)
     return lattice;
 }
 
-/* Returns the largest power of two of which all coordinates up to `most` are multiples in double precision. */
+/* Returns the largest power of two such that all its multiples up to `most` are exact doubles: 2^(ceil(log2 most) -
+ * 53). */
 static real lattice_unit(real most) { return exp2(ceil(log2(most)) - 53); }
 
 void list_round_to_lattice(real *X, int64_t n, real spacing, real anchor)

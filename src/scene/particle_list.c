@@ -27,8 +27,8 @@ struct table {
     real factor; /* factor from the unit of the dataset to SI */
 };
 
-/* Reads the shape of a dataset. Returns false unless it is a list of numbers with at most PARTICLES_MAX rows and
- * DIM_MAX columns. */
+/* Reads the number of rows and columns of the HDF5 dataset `set` into t. Returns false, and sets both to 0, unless the
+ * dataset is a list of numbers with at most PARTICLES_MAX rows and DIM_MAX columns. */
 static bool table_shape(hid_t set, struct table *t)
 {
     hid_t space = H5Dget_space(set), type = H5Dget_type(set);
@@ -44,11 +44,12 @@ static bool table_shape(hid_t set, struct table *t)
     return good;
 }
 
-/* Largest number of rows per byte of the file, a bound on the memory that a small file can claim: gzip does not
+/* Largest number of rows per byte of an HDF5 file. Bounds the memory that a small file can claim; gzip does not
  * compress equal numbers further. */
 enum { ROWS_PER_BYTE_MOST = 1024 };
 
-/* Returns REFUSED if a dataset claims more rows than its file can hold or the memory allows. */
+/* Returns REFUSED if the dataset `name` of the file `path` claims more rows t->rows than a file of that size can hold,
+ * or than the memory allows. */
 static status table_check(const struct table *t, const char *path, const char *name)
 {
     struct stat about;
@@ -58,8 +59,9 @@ static status table_check(const struct table *t, const char *path, const char *n
     return list_check_memory(path, t->rows);
 }
 
-/* Reads a dataset of numbers into t->value, [rows][columns]; the caller frees it. REFUSED for links, for data in other
- * files, and for datasets that are no list of numbers. */
+/* Reads the dataset `name` of an open HDF5 file into t->value [rows][columns], which the caller releases with
+ * memory_free. path: name of the file, for messages. Returns REFUSED for links, for data stored in other files, and for
+ * datasets that are no list of numbers. */
 static status table_read(hid_t file, const char *path, const char *name, struct table *t)
 {
     if (hdf_is_linked(file, name))
@@ -85,7 +87,8 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     return status_set(REFUSED, "%s: %s: cannot be read as one list of numbers", path, name);
 }
 
-/* Copies column k of a dataset to column `column` of the list. REFUSED for an invalid value. */
+/* Copies column k of the dataset t, converted to SI, to a new array for column `column` of the list l (COLUMN_*). path:
+ * name of the file, for messages. Returns REFUSED for an invalid value. */
 static status table_take(struct particle_list *l, int column, const struct table *t, int k, const char *path)
 {
     real *array = NEW("list.column", l->n, real);
@@ -100,8 +103,10 @@ static status table_take(struct particle_list *l, int column, const struct table
     return OK;
 }
 
-/* Reads a dataset as `count` columns of the list, from `column` on. The positions set the number of entries;
- * positions and velocities may have more components than the space. */
+/* Reads the dataset `name` of an HDF5 file as `count` columns of the list l, beginning with `column` (COLUMN_*). The
+ * positions set the number of entries l->n; positions and velocities may have more components than the space. path:
+ * name of the file, for messages. Returns REFUSED for another number of rows or columns, a wrong unit or an invalid
+ * value. */
 static status hdf5_column(struct particle_list *l, hid_t file, const char *path, const char *name, int column,
                           int count)
 {
@@ -144,7 +149,8 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
         REFUSED, "%s: mass and density are both given, and each determines the other; leave one of them out", path);
 }
 
-/* Reads a list from an HDF5 file. A crash of the library on a damaged file is reported with the name of the file. */
+/* Reads the list l from the HDF5 file `path`. If the library crashes on a damaged file, the crash message names the
+ * file. Returns REFUSED if the file is not HDF5 or its datasets are invalid. */
 static status hdf5_read(struct particle_list *l, const char *path)
 {
     status s;
@@ -163,7 +169,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
 
 /* ---- choice of the format ---------------------------------------------------------------------------------------- */
 
-/* Returns true if a path has the given ending, in capital or small letters. */
+/* Returns true if a path ends with `ending` and is longer, in capital or small letters. */
 static bool ends_with(const char *path, const char *ending)
 {
     size_t length = strlen(path), tail = strlen(ending);
@@ -172,7 +178,8 @@ static bool ends_with(const char *path, const char *ending)
 
 enum { NO_LIST, LIST_CSV, LIST_HDF5, LIST_EXODUS };
 
-/* Returns the format that the file name extension implies. */
+/* Returns the format of a particle list (LIST_CSV, LIST_HDF5, LIST_EXODUS) from its file name extension; NO_LIST for
+ * any other extension. */
 static int list_format(const char *path)
 {
     static const char *const endings[] = {".csv", ".tsv", ".txt", ".dat", ".h5", ".hdf5", ".hdf"};
@@ -183,7 +190,9 @@ static int list_format(const char *path)
 
 bool is_particle_list_name(const char *path) { return list_format(path) != NO_LIST; }
 
-/* Reads a list of any format. head: true to read only the column names. */
+/* Reads a particle list of any format into l. form: unit and columns that the scene gives; NULL: none. dim: coordinates
+ * per position. head: true to read only the column names (CSV files). Returns REFUSED, with l released, if the file is
+ * missing or invalid. */
 static status list_read(struct particle_list *l, const char *path, const struct particle_list_form *form, int dim,
                         bool head)
 {

@@ -20,8 +20,8 @@ struct csv {
     int64_t room;
 };
 
-/* Returns k for a column name `vector:k` or `vector_k`, the two forms in which ParaView writes component k of a
- * vector; -1 for other names. Capitals are equal to small letters. */
+/* Returns k if `name` is `vector:k` or `vector_k`, the two forms in which ParaView writes component k of a vector; -1
+ * for other names. Capitals are equal to small letters. */
 static int component_named(const char *name, const char *vector)
 {
     const size_t length = strlen(vector);
@@ -30,14 +30,15 @@ static int component_named(const char *name, const char *vector)
     return name[length + 1] >= '0' && name[length + 1] < '0' + DIM_MAX ? name[length + 1] - '0' : -1;
 }
 
-/* Returns true for the column names of mesh blocks in Peridigm and PeriLab, which count from 1. A block is read as a
- * material, not as a body, because bonds join blocks but not bodies. */
+/* Returns true for the column names of mesh blocks in Peridigm and PeriLab, which number blocks from 1. A block is read
+ * as a material, not as a body, because bonds join blocks but not bodies. */
 static bool names_block(const char *name)
 {
     return strcasecmp(name, "block_id") == 0 || strcasecmp(name, "block") == 0;
 }
 
-/* Returns the column of a list that a name in the header stands for; COLUMN_NONE if there is none. */
+/* Returns the list column (COLUMN_*) that a column name of the file means; COLUMN_NONE if there is none, or if it has
+ * no use in `dim` dimensions. */
 static int column_named(const char *name, int dim)
 {
     const int place = component_named(name, "points"), velocity = component_named(name, "velocity");
@@ -50,7 +51,8 @@ static int column_named(const char *name, int dim)
     return found == COLUMN_NONE || column_is_unused(found, dim) ? COLUMN_NONE : found;
 }
 
-/* Finds whether a column `weight` is a mass or a volume, by its unit. REFUSED for another unit. */
+/* Sets *column to COLUMN_MASS or COLUMN_VOLUME, the meaning of a column `weight`, by its unit. name, unit: parts of the
+ * column name in the current line of c. Returns REFUSED for another unit. */
 static status weight_column(struct csv *c, const char *name, const char *unit, int *column)
 {
     char what[160];
@@ -60,8 +62,9 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
     return csv_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
 }
 
-/* Appends a column of the file from its name with unit. Columns of unknown names are noted and ignored. has[]:
- * columns named so far. REFUSED if a column is named twice or its unit is of another quantity. */
+/* Appends a column to c->column from its name with unit, such as `x [mm]`. A column of unknown name is noted in l->head
+ * and ignored. has[COLUMNS]: list columns named so far. Returns REFUSED if a column is named twice or its unit is of
+ * another quantity. */
 static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
 {
     char what[160];
@@ -86,8 +89,8 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
     return OK;
 }
 
-/* Sets the separator to a blank if the header contains no other. Removes the blanks before and inside bracketed
- * units then: `x [mm] y [mm]` becomes `x[mm] y[mm]`. */
+/* Finds the separator of the header in c->in.text: comma, semicolon or tab, or a blank if the header contains none of
+ * them. For a blank, removes the blanks before and inside units in brackets: `x [mm] y [mm]` becomes `x[mm] y[mm]`. */
 static void header_separate(struct csv *c)
 {
     char *text = c->in.text, *to = text;
@@ -103,7 +106,8 @@ static void header_separate(struct csv *c)
     *to = '\0';
 }
 
-/* Reads the names of columns from the current line. REFUSED if a required one is missing. */
+/* Reads the column names from the current line of c, and notes in l->head which columns the list has. Returns REFUSED
+ * if a coordinate is missing, if a column is named twice or if both mass and density are given. */
 static status header_read(struct csv *c, struct particle_list *l)
 {
     bool has[COLUMNS] = {false};
@@ -127,7 +131,8 @@ static status header_read(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Overwrites with blanks the text before the column names: # of a comment (Peridigm), `header:` (PeriLab). */
+/* Overwrites with blanks what precedes the column names in a header line: # of a comment (Peridigm) and `header:`
+ * (PeriLab). */
 static void header_bare(char *text)
 {
     static const char word[] = "header:";
@@ -146,7 +151,8 @@ static void tabs_to_blanks(char *text)
         if (*text == '\t') *text = ' ';
 }
 
-/* Counts the names in a header; *all: true if all coordinates are among them. */
+/* Returns the number of names in the header line `names`. *all: receives whether all `dim` coordinates are among
+ * them. */
 static int header_count(const char *names, int dim, bool *all)
 {
     struct csv trial = {0};
@@ -164,7 +170,8 @@ static int header_count(const char *names, int dim, bool *all)
     return n;
 }
 
-/* Returns true if a comment names all coordinates, so that it is a header. */
+/* Returns true if a comment line names all `dim` coordinates, separated by tabs or by blanks, so that it is a
+ * header. */
 static bool comment_names(const char *comment, int dim)
 {
     char blank[CSV_LINE_LENGTH];
@@ -176,8 +183,9 @@ static bool comment_names(const char *comment, int dim)
     return by_tabs || by_blanks;
 }
 
-/* Replaces the tabs in a header by blanks if both separate the names; then the header has as many names as the first
- * entry has values. If it does not, the header is left as it is, and each tab ends a field, which may be empty. */
+/* Replaces the tabs in the header line `names` by blanks if both separate names: the header then has as many names as
+ * the first entry has values. Otherwise leaves the header unchanged; each tab ends a field, which may be empty. entry:
+ * line of the first entry. */
 static void header_unify(char *names, const char *entry, int dim)
 {
     char blank[CSV_LINE_LENGTH], values[CSV_LINE_LENGTH], *rest = values;
@@ -192,7 +200,7 @@ static void header_unify(char *names, const char *entry, int dim)
     if (header_count(blank, dim, &all) == n && all) strcpy(names, blank);
 }
 
-/* Returns true for a line whose first field is a number. */
+/* Returns true if the first field of a line is a number. */
 static bool line_of_numbers(const char *text)
 {
     char *end;
@@ -200,7 +208,7 @@ static bool line_of_numbers(const char *text)
     return end != text && strchr(" \t,;\r\n", *end);
 }
 
-/* Returns true for a line of five numbers separated by blanks, as in a Peridigm text mesh without names. */
+/* Returns true if a line is five numbers separated by blanks, an entry of a Peridigm text mesh without names. */
 static bool line_of_mesh(const char *text)
 {
     int n = 0;
@@ -208,8 +216,8 @@ static bool line_of_mesh(const char *text)
     return n == 5 && text[strspn(text, " \t\r\n")] == '\0';
 }
 
-/* Reads the header from the text `names`, which is from line `line` of the file. The current line is the first entry
- * and is read as such afterwards. */
+/* Reads the column names from the text `names`, which is line `line` of the file. The current line of c is the first
+ * entry; it remains current and is read as an entry next. Returns REFUSED for invalid names. */
 static status header_elsewhere(struct csv *c, struct particle_list *l, const char *names, int64_t line)
 {
     char entry[CSV_LINE_LENGTH];
@@ -225,8 +233,8 @@ static status header_elsewhere(struct csv *c, struct particle_list *l, const cha
     return OK;
 }
 
-/* Reads a header that contains tabs from the current line. Reads the next line, the first entry, too, since it shows
- * whether blanks separate fields as well. */
+/* Reads the column names from the current line, which contains tabs. Reads the next line, the first entry, too, since
+ * its number of values shows whether blanks separate names as well. Returns REFUSED for invalid names. */
 static status header_of_tabs(struct csv *c, struct particle_list *l)
 {
     char names[CSV_LINE_LENGTH];
@@ -239,9 +247,9 @@ static status header_of_tabs(struct csv *c, struct particle_list *l)
     return header_read(c, l);
 }
 
-/* Reads the column names. They are in the first line that is not a comment; if this line has numbers, in the first
- * comment before it that names all coordinates. Without names, a line of five numbers is read as a Peridigm text
- * mesh. REFUSED otherwise. */
+/* Reads the column names of a CSV file. They are in the first line that is not a comment or, if this line has numbers,
+ * in the first comment before it that names all coordinates. Without names, a line of five numbers is read as a
+ * Peridigm text mesh. Returns REFUSED for an empty file, and if there are neither names nor such a line. */
 static status csv_header(struct csv *c, struct particle_list *l)
 {
     static const char mesh[] = "x y z block_id volume";
@@ -266,8 +274,8 @@ static status csv_header(struct csv *c, struct particle_list *l)
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
 
-/* Takes the column names from the scene. The first line that is not a comment is the first entry, which shows what
- * separates fields. */
+/* Takes the column names from the scene (l->form.columns) instead of the file. The first line that is not a comment is
+ * the first entry; it shows what separates fields. Returns REFUSED for an empty file or invalid names. */
 static status csv_header_given(struct csv *c, struct particle_list *l)
 {
     char entry[CSV_LINE_LENGTH];
@@ -283,7 +291,8 @@ static status csv_header_given(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Provides memory for one more entry, doubling the arrays. */
+/* Provides memory in the arrays of the list l for one more entry, doubling their length c->room if it is used up.
+ * Returns REFUSED if the memory does not allow it. */
 static status csv_grow(struct csv *c, struct particle_list *l)
 {
     if (l->n < c->room) return OK;
@@ -300,8 +309,8 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Stores a material name in the list of names unless it is there, and sets *value to -1 minus its index; negative
- * values thus distinguish names from material numbers. REFUSED for too many or too long names. */
+/* Stores the material name `field` in l->name unless it is there, and sets *value to -1 minus its index; negative
+ * values thus distinguish names from material numbers. Returns REFUSED for too many or too long names. */
 static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
 {
     int k = 0;
@@ -314,7 +323,8 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
     return OK;
 }
 
-/* Reads field k of a line into the column of the list to which it belongs. REFUSED for an invalid value. */
+/* Reads field k of a line, converted to SI, as entry l->n of the list column to which it belongs. field: text of the
+ * field. Returns REFUSED if it is no valid value. */
 static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
 {
     const int column = c->column[k];
@@ -335,7 +345,8 @@ static status csv_value(const struct csv *c, struct particle_list *l, int k, con
     return OK;
 }
 
-/* Reads one particle from the current line. */
+/* Appends one particle to the list l from the current line of c. Returns REFUSED for too few or too many values, or an
+ * invalid one. */
 static status csv_entry(struct csv *c, struct particle_list *l)
 {
     char *rest = c->in.text;

@@ -14,8 +14,8 @@ struct exodus_list {
     bool volumes;        /* all blocks have volumes */
 };
 
-/* Returns the position of the attribute `volume` of block `number` among its n attributes, -1 if there is none. Of two
- * attributes without names the second is the volume, after the radius. */
+/* Returns the position of the attribute `volume` among the n attributes of block `number` (counted from 1); -1 if there
+ * is none. Of two attributes without names, the first is the radius and the second the volume. */
 static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_t n)
 {
     char name[NAME_MAX_LENGTH];
@@ -28,7 +28,8 @@ static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_
     return !named && n == 2 ? 1 : -1;
 }
 
-/* Checks an entry of the list. REFUSED for an invalid value. */
+/* Stores `value` as entry number `entry` of a list column (COLUMN_*). Returns REFUSED for a value that is invalid in
+ * this column. */
 static status value_take(struct exodus_list *x, int column, int64_t entry, real value)
 {
     const char *fault = column_value_fault(column, value);
@@ -39,7 +40,8 @@ static status value_take(struct exodus_list *x, int column, int64_t entry, real 
     return OK;
 }
 
-/* Appends the elements of block `number`. */
+/* Appends the elements of block `number` (counted from 1) to the list, one particle at the node of each. Returns
+ * REFUSED for elements with several nodes, invalid node numbers or values, and if only some blocks have volumes. */
 static status block_read(struct exodus_list *x, int64_t number)
 {
     char type[NAME_MAX_LENGTH];
@@ -79,7 +81,8 @@ static status block_read(struct exodus_list *x, int64_t number)
     return s;
 }
 
-/* Reads all blocks. */
+/* Reads the nodes and all blocks of the file into the list x->l. Returns REFUSED if the file has fewer coordinates than
+ * the space, or for an invalid block. */
 static status blocks_read(struct exodus_list *x)
 {
     bool has[COLUMNS] = {false};

@@ -8,7 +8,8 @@
 
 #include "base/memory.h"
 
-/* Reads the space first: the meaning of all other keys depends on the number of dimensions. */
+/* Reads the key `space` of the scene before all others, because their meaning depends on the number of dimensions; sets
+ * r->dim. root: tree of the scene. Returns REFUSED if the key is missing or invalid. */
 static status read_space(struct reader *r, const struct yaml_node *root)
 {
     const struct key *k = key_find("", "space");

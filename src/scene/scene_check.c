@@ -15,8 +15,8 @@ static const struct yaml_node *scene_check_below(const struct yaml_node *root, c
     return yaml_node_find(yaml_node_find(root, group), leaf);
 }
 
-/* Returns REFUSED if thickness is missing in a plane space or given elsewhere, or section is given outside space
- * line. A thickness without meaning is 1. */
+/* Returns REFUSED if `thickness` is missing in a plane space or given in another, or if `section` is given outside
+ * space line. Sets a thickness without meaning to 1. root: tree of the scene. */
 static status check_measure(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -36,11 +36,13 @@ static real longest_side(const real *from, const real *to, int dim)
     return longest;
 }
 
-/* Largest number of lattice positions in the box around a surface from a file; each costs 5 us. */
+/* Largest number of lattice positions in the bounding box of a surface that is read from a file; testing each takes 5
+ * us. */
 #define PLACES_OF_FILES 1e8
 
-/* Estimates the number of particles from the bounding boxes of the bodies. REFUSED for more than 2e9, the limit of
- * 32-bit indices and of memory. */
+/* Returns REFUSED if the bodies of the scene would have more than 2e9 particles, the limit of 32-bit indices and of
+ * memory, or if the box around a surface from a file has more than PLACES_OF_FILES lattice positions. The number is
+ * estimated from the bounding boxes. root: tree of the scene, for the location in the message. */
 status check_particle_count(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -64,8 +66,8 @@ status check_particle_count(struct reader *r, const struct yaml_node *root)
                  node_text(r, spacing), total, longest);
 }
 
-/* Returns REFUSED if the scene has friction where it is not supported: with the contact law between pairs of
- * particles, or together with planes of symmetry. */
+/* Returns REFUSED if the scene has friction where it is not supported: with the contact law between pairs of particles,
+ * or together with planes of symmetry. root: tree of the scene, for the location in the message. */
 status check_friction(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -81,7 +83,7 @@ status check_friction(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for absorbing faces of a static problem. */
+/* Returns REFUSED if a static problem has absorbing faces. root: tree of the scene, for the location in the message. */
 status check_absorbing(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -94,7 +96,8 @@ status check_absorbing(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for damping in a static problem, or with local time steps of cells. */
+/* Returns REFUSED if a static problem has damping, or if damping is combined with coarse grid cells that have time
+ * steps of their own (mpm.levels). root: tree of the scene, for the location in the message. */
 static status check_damping(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -111,8 +114,9 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for loads that the rest of the scene does not support: pressures on very irregular particles, and
- * following loads, rotations and unknown displacements with static solvers. */
+/* Returns REFUSED for loads that other keys of the scene exclude: pressures on irregular particles, and with static
+ * solvers following loads, rotations and velocities by formula, whose displacement is unknown. root: tree of the scene,
+ * for the location in the message. */
 status check_supported_loads(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -143,7 +147,7 @@ status check_supported_loads(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for more than 1e12 time steps. */
+/* Returns REFUSED if the given time step would lead to more than 1e12 time steps. root: tree of the scene. */
 static status check_steps(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -153,7 +157,8 @@ static status check_steps(struct reader *r, const struct yaml_node *root)
                  s->duration / s->time_step);
 }
 
-/* Returns REFUSED if mpm.origin is farther from 0 than particles may be. */
+/* Returns REFUSED if mpm.origin is more than FILL_FARTHEST spacings from 0, where particles may not be either. root:
+ * tree of the scene. */
 static status check_origin(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -166,7 +171,7 @@ static status check_origin(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for APIC with linear shape functions. */
+/* Returns REFUSED if mpm.transfer is given as apic together with linear shape functions. root: tree of the scene. */
 static status check_transfer(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
@@ -176,8 +181,9 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
                  "mapped again); flip, or shape gimp, is expected");
 }
 
-/* Sets the default of time.safety, the time step over the critical one: 0.5 if bonds can break, else 0.8. Crack
- * lengths and most angles are equal at both; a scene between two crack paths can change its path above 0.3 to 0.5. */
+/* Sets the default of time.safety, the ratio of the time step to the critical one: 0.5 if bonds can break, else 0.8.
+ * Crack lengths and most crack angles are equal at both; in a scene close to two crack paths the path can change above
+ * 0.3 to 0.5. root: tree of the scene, to see whether the key is given. */
 void resolve_safety(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -185,8 +191,9 @@ void resolve_safety(struct reader *r, const struct yaml_node *root)
         s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-/* Sets the default of contact.between: contact is needed if there are several bodies, rigid bodies or cracks, except
- * with static solvers. REFUSED for contact settings that contradict the solver or the model. */
+/* Sets the default of contact.between. There is contact if the scene has several bodies, rigid bodies or cracks, except
+ * with static solvers. root: tree of the scene. Returns REFUSED for contact settings that contradict the solver or the
+ * model. */
 status resolve_contact(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -205,10 +212,11 @@ status resolve_contact(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns the default of pd.surface. Only with `method: pd` do bonds fill whole bodies, whose surfaces need the
- * correction; families with a given normalisation are corrected already. Surfaces of growing cracks get no weights:
- * load steps compare loads of pre-crack and grown crack, so that their bonds use the rule that ignores pre-cracks,
- * too (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5 %). */
+/* Returns the default of pd.surface, the correction of bonds near surfaces. Only with `method: pd` do bonds fill whole
+ * bodies, whose surfaces need the correction; families with a given normalisation are corrected already. Surfaces of
+ * growing cracks get no weights: load steps compare the loads of pre-crack and grown crack, so that their bonds use the
+ * rule that ignores pre-cracks, too (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments
+ * by 5 %). root: tree of the scene. */
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
@@ -220,7 +228,8 @@ static enum surface_rule surface_by_default(const struct scene *s, const struct 
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
 }
 
-/* Sets the defaults of the surface correction and of the normalisation of families. */
+/* Sets the defaults of pd.surface (correction of bonds near surfaces) and pd.normalisation (by the full family or by
+ * each particle's own). root: tree of the scene, to see which keys are given. */
 static void resolve_surface(struct scene *s, const struct yaml_node *root)
 {
     if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
@@ -228,15 +237,15 @@ static void resolve_surface(struct scene *s, const struct yaml_node *root)
         s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
 }
 
-/* Returns true if the scene says alike of two lists: their unit and their columns. */
+/* Returns true if two lists of particles are read alike: with the same unit and the same column names. */
 static bool list_forms_agree(const struct particle_list_form *a, const struct particle_list_form *b)
 {
     if (!bits_equal(a->scale, b->scale) || !a->columns != !b->columns) return false;
     return !a->columns || strcmp(a->columns, b->columns) == 0;
 }
 
-/* Returns true if the particles of a body's list are a lattice with the spacing of the scene. Lists that cannot be
- * read return false and are refused later. */
+/* Returns true if the particle list of a body forms a lattice with the spacing of the scene. body: index in the scene.
+ * Returns false for a list that cannot be read; it is refused later. */
 static bool list_lattice(const struct scene *s, int body)
 {
     struct particle_list list;
@@ -260,7 +269,8 @@ void resolve_lists(struct reader *r, const struct yaml_node *root)
     resolve_surface(s, root);
 }
 
-/* Sets defaults that depend on method, model, coupling and solver. */
+/* Sets the defaults of keys of pd, mpm and crack that depend on method, model, coupling and solver. root: tree of the
+ * scene, to see which keys are given. */
 static void resolve_defaults(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -278,7 +288,7 @@ static void resolve_defaults(struct reader *r, const struct yaml_node *root)
 
 /* ---- frame of the grid (mpm.frame) ------------------------------------------------------------------------------- */
 
-/* Returns true if a material of the body yields. */
+/* Returns true if a material of the body yields. body: index in the scene. */
 static bool body_yields(const struct scene *s, int body)
 {
     for (int m = 0; m < s->materials; m++)
@@ -286,7 +296,8 @@ static bool body_yields(const struct scene *s, int body)
     return false;
 }
 
-/* Returns the reason why a body cannot be in the reference frame; NULL if it can. */
+/* Returns the reason why a body cannot be in the reference frame, as part of a message; NULL if it can. body: index in
+ * the scene. */
 const char *scene_why_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
@@ -324,7 +335,7 @@ const char *scene_frame_obstacle(const struct scene *s)
     return why;
 }
 
-/* Returns the reason, for a message, why a key of the scene requires the current frame; NULL if no key does. */
+/* Returns, as part of a message, which key of the scene requires the current frame; NULL if no key does. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
@@ -363,8 +374,9 @@ void resolve_frames(struct scene *s)
     if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;
 }
 
-/* Sets the number of frames from output.every or output.times; times beyond the duration are omitted. REFUSED if two
- * of output.every, output.times and output.frames are given. */
+/* Sets s->frames, the number of output frames, from output.every or output.times; times beyond the duration are
+ * omitted. root: tree of the scene. Returns REFUSED if two of output.every, output.times and output.frames are given,
+ * or if there are more than FRAMES_MOST frames. */
 static status check_times(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -382,16 +394,17 @@ static status check_times(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for the key accuracy, which only `method: auto` uses (scene_wish.c). */
+/* Returns REFUSED if the scene gives the key accuracy, which only `method: auto` uses (scene_wish.c). root: tree of the
+ * scene. */
 static status check_accuracy(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *n = yaml_node_find(root, "accuracy");
     return n ? fault(r, n, "has no meaning without method: auto") : OK;
 }
 
-/* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models
- * in space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in space line, or
- * with state-based models that normalise each family. */
+/* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models in
+ * space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in space line, or with
+ * state-based models that normalise each family. root: tree of the scene, for the location in the message. */
 static status check_model(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -415,7 +428,8 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for keys that the static solvers do not support. Called after materials and probes are read. */
+/* Returns REFUSED for keys that the static solvers do not support. Call it after materials and probes are read. root:
+ * tree of the scene, for the location in the message. */
 status check_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

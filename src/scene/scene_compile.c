@@ -10,7 +10,7 @@ enum { POWER_MOST = 18 }; /* twice the largest power of a unit */
 
 /* ---- complaints -------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of the character at a position in the text, from 1. */
+/* Returns the number of the UTF-8 character at `place` in c->text, from 1. place: position inside c->text. */
 int character_of(const struct compile *c, const char *place)
 {
     int characters = 1;
@@ -43,8 +43,8 @@ bool is_dimensionless(const struct quantity *q) { return same_unit(q, &(struct q
 
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
-/* Appends a step to the expression: an operation, or the number `value`. Returns false with a message if there are
- * too many. */
+/* Appends a step to the expression: the operation `op`, with `value` if it pushes a number. Returns false, with the
+ * fault as message in c, if the expression has too many steps. */
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
@@ -62,9 +62,10 @@ bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *q
 
 struct operand *operand_from_top(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
 
-/* Replaces the topmost operands (one or two) by the result of an operation, whose unit the caller gives, and appends
- * a step to the expression. If the operands are constant, evaluates the result now and appends it as a number.
- * Returns false with a message if it is not finite or the expression is too long. */
+/* Replaces the topmost operand, or two for an operation of two, by the result of the operation `op`, and appends a step
+ * to the expression. unit: unit of the result, which the caller derives. If the operands are constant, evaluates the
+ * operation now and appends its value as a number instead. Returns false, with a message in c, if the value is not
+ * finite or the expression is too long. */
 bool add_operation(struct compile *c, enum expression_op op, const struct quantity *unit)
 {
     const bool two = expression_has_two(op);
@@ -84,8 +85,8 @@ bool add_operation(struct compile *c, enum expression_op op, const struct quanti
 /* Returns true if an operand is a constant 0 written without a unit, which is compatible with every unit. */
 static bool is_nothing(const struct operand *o) { return o->constant && o->q.bare && o->q.value == 0; }
 
-/* Checks that the two topmost operands have the same unit; a plain 0 takes the unit of the other operand. Returns
- * false with a message that names the word at `at` in the text. */
+/* Checks that the two topmost operands have the same unit; a 0 without a unit takes the unit of the other operand.
+ * Returns false otherwise, with a message in c that names the operation `word` at position `at` of c->text. */
 bool equal_units(struct compile *c, const char *word, const char *at)
 {
     struct quantity *a = &operand_from_top(c, 1)->q, *b = &operand_from_top(c, 0)->q;
@@ -128,8 +129,9 @@ bool add_product(struct compile *c, char sign, const char *at)
     return unit_in_bounds(c, &unit) && add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
-/* Replaces `unit` by its power. Returns false with a message if a resulting exponent of m, kg or s is neither whole
- * nor half, or is too large. place: number of the character in the text, for the message. */
+/* Replaces *unit by its power: exponents of m, kg and s times `power`. Returns false, with a message in c, if an
+ * exponent becomes neither whole nor half, or too large. place: number of the operator's character in the text, for the
+ * message. */
 static bool power_of_unit(struct compile *c, struct quantity *unit, real power, int place)
 {
     for (int k = 0; k < 3; k++) {
@@ -144,8 +146,8 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
     return true;
 }
 
-/* Appends the operation a^b on the two topmost operands. Returns false with a message if the exponent b has a unit,
- * or if a has a unit and b is not constant. at: position of the operator in the text. */
+/* Appends the operation a^b on the two topmost operands a, b. Returns false, with a message in c, if the exponent b has
+ * a unit, or if a has a unit and b is not constant. at: position of the operator in c->text. */
 bool add_power(struct compile *c, const char *at)
 {
     const struct operand *b = operand_from_top(c, 0);

@@ -41,8 +41,8 @@ static void write_matrix(struct writer *w, const real *value)
     fputc(']', w->out);
 }
 
-/* Decodes the UTF-8 character at c to its code point. Returns its number of bytes. An invalid byte counts as a
- * character with its own value. */
+/* Decodes the UTF-8 character at c to its code point *code, and returns its number of bytes. An invalid byte counts as
+ * a character with the value of the byte. */
 static int letter_of(const unsigned char *c, unsigned *code)
 {
     int more = *c >= 0xF0 ? 3 : *c >= 0xE0 ? 2 : *c >= 0xC0 ? 1 : 0;
@@ -57,8 +57,8 @@ static int letter_of(const unsigned char *c, unsigned *code)
     return more + 1;
 }
 
-/* Writes a text in double quotes, as YAML. Quotes and backslashes are escaped; characters other than printable ASCII
- * become \U escapes. */
+/* Writes a text in double quotes, as a YAML scalar. Quotes and backslashes are escaped; characters other than printable
+ * ASCII become \U escapes. */
 void write_quoted(struct writer *w, const char *text)
 {
     fputc('"', w->out);
@@ -89,7 +89,7 @@ static void write_choice(struct writer *w, const struct key *k, const void *plac
     write_word(w, k->words, word);
 }
 
-/* Writes the words of a key whose bits are set as a list, or `none`. */
+/* Writes the words of key k whose bits are set in `bits` as a YAML list, or `none`. */
 static void write_set(struct writer *w, const struct key *k, unsigned bits)
 {
     const char *between = "[";
@@ -159,8 +159,8 @@ void write_value(struct writer *w, const struct key *k, const void *place)
     }
 }
 
-/* Returns true if the echo of the scene writes the key: it has a plain value, given or by default, that is not empty.
- * place: the value; base: the struct of the key's group. */
+/* Returns true if the echo of the scene writes the key k: it has a value of a type of the table, given or by default,
+ * that is not empty. base: the structure of the key's group; place: address of the value in it. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
     if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
@@ -178,9 +178,9 @@ const void *key_value_address(const struct key *k, const void *base)
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
 
-/* Returns true for keys of a body that have no meaning for its kind: material and frame of rigid bodies, and mass,
- * force and ramp of other bodies; of rigid bodies, those that move freely have no ramp and driven ones no mass and
- * force. base: the body. */
+/* Returns true if the key k of `bodies` has no meaning for the body `base`: material and frame of a rigid body; mass,
+ * force, ramp and rigid of another body; ramp of a rigid body with a mass, which moves freely; mass and force of a
+ * rigid body without one, which is driven, and its ramp if that is 0. group: path of the key's group. */
 static bool is_left_out(const struct key *k, const char *group, const void *base)
 {
     static const char *const words[] = {"material", "frame", "rigid", "mass", "force", "ramp"};
@@ -192,7 +192,7 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
-/* Writes the frame series of regions as a list below `output`. */
+/* Writes the regions of the scene for which frames are written (`output.regions`) as a list below `output`. */
 static void write_series(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -207,7 +207,8 @@ static void write_series(struct writer *w)
     w->indent -= 4;
 }
 
-/* Writes all keys of a group from the struct `base`, with their units as comments. */
+/* Writes all keys that are directly below the path `group` and have a value in the structure `base`, with their units
+ * as comments. */
 void write_group(struct writer *w, const char *group, const void *base)
 {
     for (int i = 0; i < keys_count; i++) {
@@ -238,7 +239,8 @@ void write_item(struct writer *w)
     w->dash = true;
 }
 
-/* Writes `key` and below it, indented, the keys of a group whose values are in the struct `base`. */
+/* Writes the line `key:` and below it, indented, the keys that are directly below the path `group` and have a value in
+ * the structure `base`. */
 void write_mapping(struct writer *w, const char *key, const char *group, const void *base)
 {
     write_key(w, key);
@@ -248,7 +250,7 @@ void write_mapping(struct writer *w, const char *key, const char *group, const v
     w->indent -= 2;
 }
 
-/* Writes the points of a hardening curve as a list of pairs. */
+/* Writes the points of a hardening curve as the key `table`: a list of pairs of plastic strain [1] and stress [Pa]. */
 static void write_curve(struct writer *w, const struct flow_curve *c)
 {
     write_key(w, flow_words[FLOW_TABLE]);
@@ -259,7 +261,8 @@ static void write_curve(struct writer *w, const struct flow_curve *c)
     fputs("]  # 1, Pa\n", w->out);
 }
 
-/* Writes the law by which a material yields, if it has one other than linear hardening by yield_tangent. */
+/* Writes the flow law and the kinematic hardening of a material that yields. Writes no flow law if it is linear
+ * hardening by the key yield_tangent. */
 static void write_material_law(struct writer *w, const struct material *m)
 {
     const struct law *law = &m->law;
@@ -300,9 +303,9 @@ static void write_materials(struct writer *w)
     }
 }
 
-/* Writes a file name with its absolute path, so that the echo runs from any folder, and the checksum of the contents
- * as a comment, since a run resumes only with identical contents. contents 0: the file has not been read; writes the
- * name as it is. */
+/* Writes the line `key: "file"` with the absolute path, so that the echo runs from any folder. contents: hash of the
+ * file, written as a comment since a run resumes only with identical contents; 0: the file has not been read, and the
+ * name is written as it is. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
     char *whole = contents ? realpath(file, NULL) : NULL;
@@ -314,7 +317,8 @@ void write_file_name(struct writer *w, const char *key, const char *file, uint64
     free(whole);
 }
 
-/* Writes the particle list of a body, with its unit and columns if the scene gives them. */
+/* Writes the key `particles` of the body b: the file of its particle list, with scale and columns if the scene gives
+ * them. */
 static void write_particle_list(struct writer *w, const struct scene_body *b)
 {
     const bool formed = b->form.scale > 0 || b->form.columns;

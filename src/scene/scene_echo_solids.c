@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-/* Writes the keys of a group in flow style, separated by commas. between: text before the first key. */
+/* Writes the keys of a group of solids in flow style, such as `centre: [0, 0], radius: 1`. base: structure of the
+ * group; between: text before the first key; later keys follow a comma. */
 static void write_keys(struct writer *w, const char *group, const void *base, const char *between)
 {
     for (int i = 0; i < keys_count; i++) {
@@ -40,7 +41,7 @@ static void write_extrusion(struct writer *w, const struct solid *s)
     write_keys(w, "solid.extrude", s, ", ");
 }
 
-/* Writes the shape of a solid with its keys, such as `box: {..}`. */
+/* Writes the shape of a solid and its keys in flow style, such as `box: {from: .., to: ..}`. */
 static void write_shape(struct writer *w, const struct solid *s)
 {
     static const char *const words[] = {[SOLID_BOX] = "box",           [SOLID_BALL] = "ball",
@@ -92,7 +93,8 @@ static void write_motions(struct writer *w, const struct solid *s)
     }
 }
 
-/* Writes a solid with its operation. plain: true if an added solid is written without the word add. */
+/* Writes a solid in flow style with its operation (add, subtract, intersect) and its motions. plain: true if an added
+ * solid is written without the word add. */
 static void write_solid(struct writer *w, const struct solid *s, bool plain)
 {
     const bool group = s->kind == SOLID_GROUP;
@@ -109,7 +111,8 @@ static void write_solid(struct writer *w, const struct solid *s, bool plain)
     fputs(word && !group ? "}}" : "}", w->out);
 }
 
-/* Writes the solids of a region as a list. intersect: true for a list of solids to be intersected. */
+/* Writes the solids of a region as a list in flow style. intersect: true if the region is the list of solids to be
+ * intersected. */
 static void write_items(struct writer *w, const struct region *region, bool intersect)
 {
     for (int k = 0; k < region->n; k++) {

@@ -9,8 +9,9 @@
 
 enum { DEPTH_MOST = 24, NAME_MOST = 40 };
 
-/* Rules from the units of the operands to the unit of the result. PLAIN: none to none. KEEPS: unit of the operand.
- * ROOT: its square root. FORGETS: any to none. SAME: equal units of all operands. ANGLE: two equal units to none. */
+/* Rule by which the unit of a function's result follows from the units of its operands. PLAIN: operands and result have
+ * no unit. KEEPS: unit of the operand. ROOT: its square root. FORGETS: none, from any unit. SAME: the equal unit of all
+ * operands. ANGLE: none, from two equal units. */
 enum rule { PLAIN, KEEPS, ROOT, FORGETS, SAME, ANGLE };
 struct function {
     const char *name;
@@ -44,14 +45,14 @@ static const struct function functions[] = {
 
 /* ---- text -------------------------------------------------------------------------------------------------------- */
 
-/* Skips blanks. */
+/* Advances c->at over blanks. */
 static void skip(struct compile *c)
 {
     while (*c->at == ' ' || *c->at == '\t' || *c->at == '\n') c->at++;
 }
 
-/* Appends `length` characters to the text of the expression that is stored for the echo. Returns false with a message
- * if the text becomes too long. */
+/* Appends `length` characters of `text` to c->kept, the text of the expression that the echo writes. Returns false,
+ * with a message in c, if it becomes too long. */
 static bool keep(struct compile *c, const char *text, size_t length)
 {
     if (c->used + length > EXPRESSION_TEXT) return compile_fail(c, "is longer than %d characters", EXPRESSION_TEXT);
@@ -61,7 +62,8 @@ static bool keep(struct compile *c, const char *text, size_t length)
     return true;
 }
 
-/* Appends the part of the source text up to `here` that has not been copied yet to the stored text. */
+/* Appends the source text from c->copied, up to which it is copied already, to `here` to c->kept. Returns false, with a
+ * message in c, if that becomes too long. */
 static bool keep_to(struct compile *c, const char *here)
 {
     const char *from = c->copied;
@@ -69,8 +71,8 @@ static bool keep_to(struct compile *c, const char *here)
     return keep(c, from, (size_t)(here - from));
 }
 
-/* Appends the value of a variable in brackets to the stored text, in place of the variable's name, which begins at
- * `word` and ends at c->at. */
+/* Appends the value q of a variable in brackets to c->kept, in place of the variable's name, which begins at `word` in
+ * the source text and ends at c->at. Returns false, with a message in c, if c->kept becomes too long. */
 static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
 {
     char number[32], unit[200], text[240];
@@ -81,7 +83,8 @@ static bool keep_value(struct compile *c, const char *word, const struct quantit
     return keep(c, text, strlen(text));
 }
 
-/* Returns the length of a name: letters, digits and _, no digit first. */
+/* Returns the length of the name at the beginning of a text: letters, digits and _, no digit first; 0 if there is
+ * none. */
 static size_t name_length(const char *c)
 {
     size_t n = 0;
@@ -89,8 +92,8 @@ static size_t name_length(const char *c)
     return n;
 }
 
-/* Sets the message that `expected` was expected at the current position, where the text ends or continues otherwise;
- * returns false. */
+/* Writes the message that `expected` was expected at c->at, where the text ends or continues otherwise. Returns
+ * false. */
 static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
@@ -142,7 +145,9 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
     return add_operation(c, f->op, &unit);
 }
 
-/* Compiles a function call with its operands in brackets; min and max have two operands or more. */
+/* Compiles a call of the function f with its operands in brackets; c->at is at the opening bracket. min and max have
+ * two operands or more. at: position of the function's name, for messages. Returns false with a message in c if it is
+ * invalid. */
 static bool compile_call(struct compile *c, const struct function *f, const char *at)
 {
     const bool two = f->rule == SAME || f->rule == ANGLE;
@@ -168,7 +173,8 @@ static const struct function *function_named(const char *name)
     return NULL;
 }
 
-/* Compiles x, y, z or t, if the key allows it. */
+/* Compiles the variable `name`: x, y, z or t. Returns false, with a message in c, if the key does not allow it or the
+ * space has no such coordinate. */
 static bool compile_coordinate(struct compile *c, char name)
 {
     struct quantity q = {.twice = {2, 0, 0}};
@@ -209,7 +215,8 @@ static bool compile_name(struct compile *c)
     return quantity_read_unit(&q, name) == length ? add_leaf(c, EXPRESSION_NUMBER, &q) : compile_variable(c, name, at);
 }
 
-/* Compiles a number with its unit. power: true for an exponent, which has no unit. */
+/* Compiles the number at c->at with its unit. power: true for an exponent, which has no unit. Returns false, with a
+ * message in c, if there is no number or its unit is unknown. */
 static bool compile_number(struct compile *c, bool power)
 {
     struct quantity q;
@@ -226,8 +233,8 @@ static bool compile_number(struct compile *c, bool power)
                         letters < 30 ? letters : 30, rest, character_of(c, rest));
 }
 
-/* Compiles a number, a variable, a function call or an expression in brackets. power: in an exponent, where a number
- * has no unit. */
+/* Compiles what is at c->at: a number, a variable, a function call or an expression in brackets. power: true in an
+ * exponent, where a number has no unit. Returns false with a message in c if there is none. */
 static bool compile_primary(struct compile *c, bool power)
 {
     struct quantity q;
@@ -240,7 +247,8 @@ static bool compile_primary(struct compile *c, bool power)
     return unit ? add_leaf(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
 }
 
-/* Compiles a power. It is right-associative: a^b^c is a^(b^c). An exponent may have a sign. */
+/* Compiles an operand with its power, if any. Powers are right-associative: a^b^c is a^(b^c). An exponent may have a
+ * sign. power: true if the operand is itself an exponent. Returns false with a message in c if it is invalid. */
 static bool compile_power(struct compile *c, bool power)
 {
     if (!compile_primary(c, power)) return false;
@@ -283,8 +291,8 @@ static bool compile_sum(struct compile *c)
     return true;
 }
 
-/* Compiles the whole text into steps and checks that nothing follows the expression. Returns false with a message if
- * it is invalid; otherwise its unit is the one of operand[0]. */
+/* Compiles the whole text c->text into steps, and checks that nothing follows the expression. Afterwards c->operand[0]
+ * has its unit. Returns false with a message in c if the expression is invalid. */
 static bool compile_text(struct compile *c)
 {
     c->at = c->copied = c->text;
@@ -295,8 +303,8 @@ static bool compile_text(struct compile *c)
 
 /* ---- for the reader ---------------------------------------------------------------------------------------------- */
 
-/* Evaluates an expression without x, y, z and t, with its unit. Returns false with a message in message[capacity] if it
- * is invalid. */
+/* Evaluates an expression without x, y, z and t, and stores its value and unit in *q. Returns false if it is invalid,
+ * with the fault in message[capacity] as the rest of a sentence that begins with `text`. */
 bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity *q, char *message, size_t capacity)
 {
     struct compile c = {.r = r, .text = text, .what = message, .room = capacity};
@@ -305,8 +313,8 @@ bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity 
     return true;
 }
 
-/* Reads a text of the form `1/3 mm` as a constant, as keys without formulas do; as a formula it would mean 1/(3 mm).
- * Returns false if the text is not such a number. */
+/* Reads the value of a node n of the form `1/3 mm` as a constant expression e in the unit of key k: 1/3 of a mm, as in
+ * keys without formulas. As a formula it would mean 1/(3 mm). Returns false if the text has another form. */
 static bool number_constant(const struct yaml_node *n, const struct key *k, struct expression *e)
 {
     char what[256];

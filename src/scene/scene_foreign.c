@@ -7,9 +7,9 @@
 
 #include "scene_internal.h"
 
-/* Rows of the table. words: a|b|c. paths: keys to show, separated by spaces; the first one is the equivalent of the
- * word. text: appended to the name of the first key or, if it begins with =, the whole message; NULL: nothing is
- * appended. */
+/* Table of words of other programs. words: a|b|c. paths: keys to show, separated by spaces; the first is the equivalent
+ * of the words. text: advice, appended to the name of the first key; the whole message if it begins with =; NULL:
+ * none. */
 static const struct foreign {
     const char *words, *paths, *text;
 } foreign[] = {
@@ -208,7 +208,7 @@ static const struct foreign {
 };
 
 /* Words that people try within a group of keys, where the word alone has another meaning or is the name of another key.
- * group: the group, or "" for the left margin; words: a|b|c; text: the whole message. */
+ * group: path of the group, "" for the top of the scene; words: a|b|c; text: the whole message. */
 static const struct {
     const char *group, *words, *text;
 } foreign_within[] = {
@@ -251,7 +251,7 @@ static const struct {
 };
 
 /* Values that people give a key although it has another meaning. path: path of the key; words: a|b|c, or * for all
- * values; text: advice behind the message. */
+ * values; text: advice that follows the message. */
 static const struct {
     const char *path, *words, *text;
 } foreign_values[] = {
@@ -264,7 +264,8 @@ static const struct {
     {"time", "*", "the simulated time is the key `duration`, and the time step is time: {step: 1 ns}"},
 };
 
-/* Compares two words, with - and a blank equal to _; words longer than two letters without regard to case. */
+/* Returns true if `word` equals the first `length` characters of `text`. A - and a blank in word are equal to _; words
+ * longer than two letters are compared without regard to case. */
 static bool word_is(const char *word, const char *text, size_t length)
 {
     if (strlen(word) != length) return false;
@@ -276,7 +277,7 @@ static bool word_is(const char *word, const char *text, size_t length)
     return true;
 }
 
-/* Returns true if `word` is one of the words a|b|c. */
+/* Returns true if `word` is one of the alternatives in `words`, a text of the form a|b|c. */
 static bool words_have(const char *words, const char *word)
 {
     bool has = false;
@@ -288,7 +289,7 @@ static bool words_have(const char *words, const char *word)
     return has;
 }
 
-/* Returns the row of the table that holds a word, or NULL. */
+/* Returns the row of the table `foreign` that contains a word, or NULL. */
 static const struct foreign *foreign_row(const char *word)
 {
     for (size_t k = 0; k < COUNT_OF(foreign); k++)

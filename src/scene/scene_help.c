@@ -7,7 +7,7 @@
 
 /* ---- facts of a key ---------------------------------------------------------------------------------------------- */
 
-/* Returns the description of the type of a key, such as `whole number`. */
+/* Returns the type of the values of key k in words for the reference, such as `whole number`. */
 static const char *type_text(const struct key *k)
 {
     switch (k->type) {
@@ -48,7 +48,8 @@ static const char *type_text(const struct key *k)
     }
 }
 
-/* Writes the range or the words of a key; "" if it has none. */
+/* Writes the range of key k, such as `> 0, <= 1`, or its words, separated by commas, to text[capacity]; "" if it has
+ * neither. */
 static void range_text(const struct key *k, char *text, size_t capacity)
 {
     char least[32], most[32];
@@ -77,7 +78,8 @@ static void range_text(const struct key *k, char *text, size_t capacity)
     }
 }
 
-/* Writes the default of a key, without the brackets that mark a default set by code. */
+/* Writes the default of key k to text[capacity], without the brackets of a default that the code sets; "" if the key
+ * has none. */
 static void default_text(const struct key *k, char *text, size_t capacity)
 {
     bool explained = *k->fallback == '(';
@@ -106,8 +108,8 @@ void key_description(const struct key *k, char *text, size_t capacity)
 
 /* ---- cleave help ------------------------------------------------------------------------------------------------- */
 
-/* Converts a path typed by a user to the path in the table of keys: indices are dropped, `materials` becomes
- * `material`. */
+/* Converts the path of a key as typed by a user to its path in the table of keys, path[capacity]: drops indices in
+ * brackets and replaces `materials` by `material`. */
 static void path_of_table(const char *key, char *path, size_t capacity)
 {
     size_t used = 0, skip = 0;
@@ -133,15 +135,15 @@ bool key_is_below(const struct key *k, const char *path)
     return length == 0 || k->path[length] == '\0' || k->path[length] == '.';
 }
 
-/* Returns the edit distance between `path` and the path of a key, or the last part of that path if it is nearer. */
+/* Returns the smaller of the edit distances from `path` to the path of key k and to the last part of that path. */
 static int key_distance(const struct key *k, const char *path)
 {
     const int whole = edit_distance(k->path, path), leaf = edit_distance(key_leaf(k), path);
     return whole < leaf ? whole : leaf;
 }
 
-/* Returns REFUSED with a message that names the key nearest to `path` by edit distance, or the pages of `cleave help`
- * if more than a third of the letters differ. */
+/* Returns REFUSED with the message that `path` is no key. The message names the key nearest by edit distance, or the
+ * pages of `cleave help` if more than a third of the letters differ. */
 static status help_unknown(const char *path)
 {
     const struct key *nearest = &keys[0];
@@ -155,14 +157,14 @@ static status help_unknown(const char *path)
                       path);
 }
 
-/* Returns true if `leaf` is the last part of the path of k. */
+/* Returns true if `leaf` is the last part of the path of key k. */
 static bool has_leaf(const struct key *k, const char *leaf)
 {
     return k->type != KEY_GROUP && !strcmp(key_leaf(k), leaf);
 }
 
-/* Returns true if `word`, with _ for blanks, is one of the words that a key has as values. The key `accept` is left
- * out: its words name other things. */
+/* Returns true if `word`, with _ for blanks, is one of the words that key k has as values. Returns false for the key
+ * `accept`, whose words name other things. */
 static bool is_value_of(const struct key *k, const char *word)
 {
     const size_t length = strlen(word);
@@ -194,7 +196,8 @@ static void print_key(FILE *out, const struct key *k)
     fprintf(out, "%-30s %s\n%-30s   %s\n", k->path, facts, "", k->help);
 }
 
-/* Prints the key that corresponds to a word of other programs, and the keys that are related to it. */
+/* Prints the advice for `word`, a word of other programs, and the keys that are equivalent or related to it. The table
+ * of such words must contain it. */
 static void help_foreign(FILE *out, const char *word)
 {
     char text[400], path[64];
@@ -211,8 +214,8 @@ static void help_foreign(FILE *out, const char *word)
     }
 }
 
-/* Prints the keys whose last part is `word`, the keys that have it as a value, and the key that corresponds to it as a
- * word of other programs. Returns the number of keys. */
+/* Prints the keys whose path ends with `word`, the keys that have it as a value, and the keys equivalent to it if it is
+ * a word of other programs. Returns the number of keys printed; the last kind counts as one. */
 static int help_word_of_keys(FILE *out, const char *word)
 {
     int printed = 0;
@@ -251,7 +254,7 @@ status scene_print_help(FILE *out, const char *key)
 
 /* ---- cleave.1 ---------------------------------------------------------------------------------------------------- */
 
-/* Writes a text with escapes for characters that have a meaning in troff. */
+/* Writes a text with escapes for the characters \ - ^, which have a meaning in troff. */
 static void troff(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -283,7 +286,7 @@ void scene_print_manual_keys(FILE *out)
 
 /* ---- completion -------------------------------------------------------------------------------------------------- */
 
-/* Returns true for the path of a list whose items are addressed by index. */
+/* Returns true if the first `length` characters of `path` are the key of a list, whose items are addressed by index. */
 static bool is_item_list(const char *path, size_t length)
 {
     for (int k = 0; k < keys_count; k++)
@@ -291,7 +294,8 @@ static bool is_item_list(const char *path, size_t length)
     return false;
 }
 
-/* Writes the path of a key as an override uses it: `boundary.time` as `boundary.0.time`. */
+/* Writes the path of a key as an override gives it, with index 0 for each list: `boundary.time` as
+ * `boundary.0.time`. */
 static void override_path(FILE *out, const char *path)
 {
     for (const char *c = path; *c; c++) {

@@ -11,7 +11,8 @@ int path_order(const void *a, const void *b) { return strverscmp(*(char *const *
 
 /* ---- grey values ------------------------------------------------------------------------------------------------- */
 
-/* Reads one grey value or a range, such as 255 or 100-255. */
+/* Appends the grey values that `text` gives, such as 255 or 100-255, to the ranges of p. n: node of the text, for
+ * messages. Returns REFUSED for another form, for values above GREY_MAX and for too many ranges. */
 static status grey_range_read(struct reader *r, const struct yaml_node *n, const char *text, struct voxel_part *p)
 {
     int low = -1, high = -1, end = 0;
@@ -42,10 +43,11 @@ status read_grey_values(struct reader *r, const struct yaml_node *n, struct voxe
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a node is the word `void`, for grey values without material. */
+/* Returns true if the value of a node is the word `void`, which leaves out the pixels of its grey values. */
 static bool is_void(const struct yaml_node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
 
-/* Returns REFUSED if a voxel has a grey value that is in no range of `in`. */
+/* Returns REFUSED if a voxel of v has a grey value without material. in[GREY_MAX + 1]: true for grey values in a range
+ * of `materials`. n: node of the image, for messages. */
 static status check_covered(struct reader *r, const struct yaml_node *n, const struct voxels *v, const bool *in)
 {
     const int64_t all = v->n[0] * v->n[1] * v->n[2];
@@ -89,8 +91,8 @@ status read_grey_materials(struct reader *r, const struct yaml_node *n, const st
     return s;
 }
 
-/* Returns a copy of a node and its descendants in the arena, without entries with the key `without`. parent: parent
- * of the copy. */
+/* Returns a copy of a node and its descendants, without entries with the key `without`, in memory of the reader's
+ * arena. parent: parent of the copy. */
 static struct yaml_node *node_copy(struct reader *r, const struct yaml_node *n, struct yaml_node *parent,
                                    const char *without)
 {
@@ -109,8 +111,9 @@ static int material_called(const struct scene *s, const char *name)
     return -1;
 }
 
-/* Reads one entry of `materials` as a part of a body: the image restricted to the grey values of the entry, with the
- * motions of the solid. */
+/* Reads one entry of `materials` of an image as a part of the body b: the image restricted to the grey values of the
+ * entry, with the motions of the solid. solid: node of the image's solid; entry: grey values as key, name of the
+ * material as value. Returns REFUSED for an unknown material or invalid grey values. */
 static status read_grey_part(struct reader *r, const struct yaml_node *solid, const struct yaml_node *entry,
                              struct scene_body *b)
 {

@@ -10,7 +10,7 @@
 
 enum { CHAIN_MOST = 8, KEYS_MOST = 1100 };
 
-/* The chain of files that are being read, from the scene on. */
+/* Chain of files that are being read: each file is included by the one in `up`, the last one is the scene. */
 struct chain {
     const struct chain *up;
     dev_t device;
@@ -19,8 +19,8 @@ struct chain {
 
 /* ---- one mapping over another ------------------------------------------------------------------------------------ */
 
-/* Returns true if the value of the key at a path is a mapping that is merged key by key; other values are
- * replaced. */
+/* Returns true if the value of the key at `path` is a mapping that is merged key by key with an included one. Other
+ * values replace the included value as a whole. path "": the whole scene. */
 bool group_is_merged(const char *path)
 {
     if (*path == '\0') return true;
@@ -34,7 +34,7 @@ bool group_is_merged(const char *path)
 
 static bool is_empty(const struct yaml_node *n) { return n->kind == NODE_SCALAR && *n->text == '\0'; }
 
-/* Returns REFUSED for a mapping with two equal keys, one of which would be lost. */
+/* Returns REFUSED for a mapping with two equal keys, one of which would be lost, or with more than KEYS_MOST keys. */
 static status check_twins(const struct reader *r, const struct yaml_node *map)
 {
     if (map->n > KEYS_MOST) return fault(r, map, "has %d keys, more than any mapping of a scene can have", map->n);
@@ -45,8 +45,9 @@ static status check_twins(const struct reader *r, const struct yaml_node *map)
     return OK;
 }
 
-/* Merges the mapping `over` into `under`: values of `over` take precedence, mappings that may be merged are merged
- * entry by entry, and an empty value removes the entry. group: path of both mappings in the scene. */
+/* Merges the mapping `over` into `under`. Values of `over` take precedence, mappings for which group_is_merged is true
+ * are merged entry by entry, and an empty value removes the entry. group: path of both mappings in the scene. Returns
+ * REFUSED for a key given twice. */
 static status merge(struct reader *r, struct yaml_node *under, struct yaml_node *over, const char *group)
 {
     char path[64];
@@ -69,7 +70,8 @@ static status merge(struct reader *r, struct yaml_node *under, struct yaml_node 
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a file is among those that are being read, so that it would include itself. */
+/* Returns true if a file is one of those in the chain that are being read, so that it would include itself. file: its
+ * status from stat. */
 static bool is_open(const struct chain *chain, const struct stat *file)
 {
     for (; chain; chain = chain->up)
@@ -84,7 +86,8 @@ static int length_of(const struct chain *chain)
     return n;
 }
 
-/* Returns the path of an included file, relative to the folder of the including file. */
+/* Returns the path of the file that node n includes, in the reader's arena. A relative name starts from the folder of
+ * the including file. */
 static char *path_from(struct reader *r, const struct yaml_node *n)
 {
     const char *from = origin_file_name(r, n->origin);
@@ -97,7 +100,8 @@ static char *path_from(struct reader *r, const struct yaml_node *n)
 
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain);
 
-/* Reads the file that n names, and the files that it includes. */
+/* Reads the scene that node n names, and the scenes that it includes, into the tree *root. chain: files that are being
+ * read. Returns REFUSED if the file cannot be read, is no scene or includes itself. */
 static status include_file(struct reader *r, const struct yaml_node *n, const struct chain *chain,
                            struct yaml_node **root)
 {
@@ -129,8 +133,9 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     return include_all(r, *root, &(struct chain){chain, file.st_dev, file.st_ino});
 }
 
-/* Reads the files in the list `include` of a scene in order, merges each over the previous ones, and the scene over
- * all of them. chain: the files that are being read. */
+/* Reads the files in the list `include` of the scene in order, merges each over the previous ones, and then the scene
+ * itself over all of them, in place. root: tree of the scene. chain: files that are being read. Returns REFUSED for an
+ * invalid list or file. */
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain)
 {
     struct yaml_node *list = yaml_node_find(root, "include"), *file;

@@ -6,7 +6,8 @@
 #include "base/memory.h"
 #include "scene_internal.h"
 
-/* Finds the two bodies of an interface by their names. */
+/* Sets face->body[2] to the indices of the two bodies that an interface joins, found by name. n: node of the interface.
+ * Returns REFUSED for unknown or rigid bodies, equal bodies and pairs that have an interface already. */
 static status interface_bodies(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
     const struct scene *s = r->scene;
@@ -32,8 +33,9 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
     return OK;
 }
 
-/* Gives a body its own copy of its material, named material_body, because bonds between joined bodies are
- * distinguished by material. REFUSED if there are 255 materials already. */
+/* Makes a copy of the material of body b, named MATERIAL_BODY, and assigns it to b. Bonds between joined bodies are
+ * told apart by their materials, so that two bodies cannot share one. n: node of the interface, for messages. Returns
+ * REFUSED if there are 255 materials already. */
 static status material_apart(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     struct scene *s = r->scene;
@@ -48,8 +50,10 @@ static status material_apart(struct reader *r, const struct yaml_node *n, struct
     return OK;
 }
 
-/* Computes the critical stretch of bonds across an interface from its energy release rate, for a material with the
- * harmonic mean of the Young's moduli of both bodies, and otherwise with the properties of the softer one. */
+/* Computes face->critical_stretch, the critical stretch of bonds across an interface, from its energy release rate, if
+ * it has one. The bonds count as those of a material with the harmonic mean of the Young's moduli of both bodies, and
+ * otherwise with the properties of the softer one. n: node of the interface. Returns REFUSED for bodies of several
+ * materials or with softening bonds. */
 static status interface_strength(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
     struct scene *s = r->scene;

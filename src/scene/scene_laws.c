@@ -3,15 +3,15 @@
 
 #include <math.h>
 
-/* Relative excess up to which a slope of a hardening curve counts as no steeper than the one before: roundings of
- * decimal numbers. */
+/* Relative excess up to which a slope of a hardening curve counts as no steeper than the previous one [1]; it allows
+ * for the rounding of decimal numbers. */
 #define SLOPE_ROUNDING 1e-9
 
 const char *const flow_words[FLOW_LAWS] = {
     [FLOW_LINEAR] = "linear", [FLOW_VOCE] = "voce", [FLOW_POWER] = "power", [FLOW_TABLE] = "table"};
 
-/* Returns REFUSED unless the curve is that of a stable material that the return mapping can solve without search: from
- * strain 0 on, strains ascend, stresses do not fall, slopes do not grow. n: list of the points. */
+/* Returns REFUSED unless the return mapping can solve for the hardening curve c without search: plastic strains ascend
+ * from 0, stresses do not fall, slopes do not grow. n: list of the points, for messages. */
 static status check_curve(struct reader *r, const struct yaml_node *n, const struct flow_curve *c)
 {
     const struct yaml_node *point = n->first;
@@ -40,7 +40,8 @@ static status check_curve(struct reader *r, const struct yaml_node *n, const str
     return OK;
 }
 
-/* Reads a hardening curve, a list of pairs of plastic strain and stress. */
+/* Reads the list n of pairs of plastic strain [1] and stress [Pa] into the hardening curve c. Returns REFUSED for
+ * invalid points or a curve that check_curve refuses. */
 static status read_curve(struct reader *r, const struct yaml_node *n, struct flow_curve *c)
 {
     const struct key strain = {
@@ -61,8 +62,8 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
     return check_curve(r, n, c);
 }
 
-/* Reads the flow law in `hardening`. REFUSED for none or several, and beside keys of linear hardening. material: its
- * parent node. */
+/* Reads the flow law in the mapping `hardening` into `law`. material: node of the material; n: node of `hardening`.
+ * Returns REFUSED if there are no or several laws, or if yield_hardening is given too. */
 static status read_hardening_law(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
                                  struct law *law)
 {
@@ -82,7 +83,8 @@ static status read_hardening_law(struct reader *r, const struct yaml_node *mater
     return read_group(r, given, given, group, law);
 }
 
-/* Reads Johnson and Cook's law. */
+/* Reads the flow law of Johnson and Cook into `law`. material: node of the material; n: node of `johnson_cook`. Returns
+ * REFUSED if another hardening is given too, or if the melting temperature is not above room temperature. */
 static status read_johnson_cook(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
                                 struct law *law)
 {
@@ -96,7 +98,8 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
                  law->johnson_cook.T_melt, law->johnson_cook.T_room);
 }
 
-/* Reads what heats the material. REFUSED without a law that depends on temperature. */
+/* Reads the heating of a material by plastic work into `law`: the share of the work that heats, 0.9 unless given.
+ * material: node of the material. Returns REFUSED if the material has no law that depends on temperature. */
 static status read_heat(struct reader *r, const struct yaml_node *material, struct law *law)
 {
     const struct yaml_node *heat = yaml_node_find(material, "specific_heat"),
@@ -109,7 +112,8 @@ static status read_heat(struct reader *r, const struct yaml_node *material, stru
     return OK;
 }
 
-/* Returns REFUSED for a yield stress or tangent that the law replaces, or lacks. */
+/* Returns REFUSED if the material m has a yield stress or tangent that its flow law replaces, or if its law needs a
+ * yield stress and there is none. material: node of the material; law_node: node of the law. */
 static status check_first_yield(struct reader *r, const struct yaml_node *material, const struct yaml_node *law_node,
                                 const struct material *m)
 {
@@ -124,7 +128,8 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
     return OK;
 }
 
-/* Returns REFUSED where the method of the scene has no laws. */
+/* Returns REFUSED if the method of the scene has no flow laws (all but mpm). law_node: node of the law, for
+ * messages. */
 static status check_law_place(struct reader *r, const struct yaml_node *law_node)
 {
     if (r->scene->method == METHOD_MPM) return OK;

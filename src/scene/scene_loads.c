@@ -9,7 +9,8 @@
 
 /* ---- profiles in space ------------------------------------------------------------------------------------------- */
 
-/* Reads the profile in space of a body force; n NULL or `uniform`: 1. */
+/* Reads the profile in space of a body force into f, a sine wave. n: node of `profile`; NULL or `uniform`: the factor 1
+ * everywhere. Returns REFUSED for another form or a direction without length. */
 static status read_profile(struct reader *r, const struct yaml_node *n, struct profile *f)
 {
     f->direction[0] = 1;
@@ -29,7 +30,8 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
 
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
 
-/* Reads the name of an axis, x, y or z, as its number. REFUSED for axes that the space does not have. */
+/* Reads the name of an axis, x, y or z, from `text` into *axis as its number 0, 1 or 2. n: node of the text, for
+ * messages. Returns REFUSED for axes that the space does not have. */
 static status read_axis(struct reader *r, const struct yaml_node *n, const char *text, int *axis)
 {
     *axis = word_index("x|y|z", text);
@@ -41,7 +43,8 @@ static status read_axis(struct reader *r, const struct yaml_node *n, const char 
     return OK;
 }
 
-/* Reads the constrained components, `all` or a list of axes, into b->components. */
+/* Reads the constrained components of `fixed`, either `all` or a list of axes, into b->components, one bit per axis.
+ * Returns REFUSED for another form, or an axis given twice. */
 static status read_fixed(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     int axis;
@@ -60,8 +63,8 @@ static status read_fixed(struct reader *r, const struct yaml_node *n, struct bou
     return OK;
 }
 
-/* Reads one component of a vector as a number into *value, or as a formula of position and time into *f, with *value
- * = 1. of: the variables allowed in the formula (EXPRESS_*). */
+/* Reads one component of a vector from node n: a number into *value, or a formula into *f with *value = 1. k: key, for
+ * unit and range. of: variables allowed in the formula (EXPRESS_*). Returns REFUSED if it is neither. */
 static status read_formula(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
                            struct expression *f)
 {
@@ -84,14 +87,16 @@ status read_formulas(struct reader *r, const struct key *k, const struct yaml_no
     return OK;
 }
 
-/* Reads component d of the vector that a boundary prescribes. */
+/* Reads component d of the vector that boundary b prescribes, a number or a formula, from node n. k: key, for unit and
+ * range. */
 static status read_load_value(struct reader *r, const struct key *k, const struct yaml_node *n, struct boundary *b,
                               int d)
 {
     return read_formula(r, k, n, EXPRESS_SPACE | EXPRESS_TIME, &b->value[d], &b->formula[d]);
 }
 
-/* Reads a pressure: one value, along all components. */
+/* Reads the pressure of boundary b from node n, a number or a formula, and sets all components of its value to it.
+ * Returns REFUSED if it is neither. */
 static status read_pressure(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     TRY(read_load_value(r, key_find("boundary", "pressure"), n, b, 0));
@@ -100,7 +105,8 @@ static status read_pressure(struct reader *r, const struct yaml_node *n, struct 
     return OK;
 }
 
-/* Reads component d of a prescribed velocity or displacement; `free` leaves the component unconstrained. */
+/* Reads component d of a prescribed velocity or displacement of boundary b from node n; `free` leaves the component
+ * unconstrained. Returns REFUSED for an invalid value. */
 static status read_component(struct reader *r, const struct yaml_node *n, struct boundary *b, int d)
 {
     if (n->kind == NODE_SCALAR && strcmp(n->text, "free") == 0) return OK;
@@ -108,8 +114,9 @@ static status read_component(struct reader *r, const struct yaml_node *n, struct
     return read_load_value(r, key_find("boundary", b->displaces ? "displacement" : "velocity"), n, b, d);
 }
 
-/* Reads prescribed velocities or displacements, one number or `free` per component, into b->value [m/s, m] and
- * b->components. */
+/* Reads the prescribed velocities [m/s] or displacements [m] of boundary b, one number, formula or `free` per
+ * component, into b->value, b->formula and b->components. Returns REFUSED for a wrong number of components, or if all
+ * are free. */
 static status read_velocity(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     const char *const examples[2][DIM_MAX] = {{"[22 m/s]", "[22 m/s, free]", "[22 m/s, free, free]"},
@@ -149,7 +156,8 @@ status read_axis_of(struct reader *r, const struct yaml_node *n, const char *gro
     return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has no length; as [0, 0, 1]");
 }
 
-/* Reads the prescribed rotation of a boundary. */
+/* Reads the prescribed rotation of boundary b from the mapping n: rate, centre and axis. Returns REFUSED for invalid
+ * values. */
 static status read_rotation(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     TRY(read_group(r, n, n, "boundary.rotation", b));
@@ -160,7 +168,8 @@ static status read_rotation(struct reader *r, const struct yaml_node *n, struct 
     return OK;
 }
 
-/* Reads a mirror. REFUSED beside region, body or time, which have no meaning with it. */
+/* Reads a plane of symmetry into boundary b. map: node of the boundary; n: node of its `mirror`. Returns REFUSED for an
+ * invalid axis, and if region, body or time are given, which have no meaning here. */
 static status read_mirror(struct reader *r, const struct yaml_node *map, const struct yaml_node *n, struct boundary *b)
 {
     const char *const senseless[] = {"region", "body", "time"};
@@ -174,7 +183,8 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
     return read_axis(r, at, at->text, &axis);
 }
 
-/* Reads an absorbing face. REFUSED beside time, and with another value than true. */
+/* Checks an absorbing face. map: node of the boundary; n: node of its `absorbing`. Returns REFUSED if a time is given,
+ * and for another value than true. */
 static status read_absorbing(struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
 {
     const struct yaml_node *time = yaml_node_find(map, "time");
@@ -184,7 +194,8 @@ static status read_absorbing(struct reader *r, const struct yaml_node *map, cons
                  node_text(r, n));
 }
 
-/* Reads the face of a boundary into b->face (axis) and b->side (+1 or -1). */
+/* Reads the face of boundary b, such as `x+`, into b->face (axis 0 to 2) and b->side (+1 or -1). map: node of the
+ * boundary. Returns REFUSED if it is missing or not a face of this space. */
 static status read_face(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     const struct yaml_node *n = yaml_node_find(map, "face");
@@ -203,7 +214,8 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
     return OK;
 }
 
-/* Reads the face and the depth of a driven layer, if they are given. */
+/* Reads face and depth of the layer that boundary b drives, if a face is given. The depth is by default one horizon, or
+ * one spacing with method mpm. map: node of the boundary. Returns REFUSED for a depth without face. */
 static status read_layer(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     const struct yaml_node *depth = yaml_node_find(map, "depth");
@@ -215,8 +227,8 @@ static status read_layer(struct reader *r, const struct yaml_node *map, struct b
     return read_face(r, map, b);
 }
 
-/* Finds the entry of a boundary condition that gives its kind, such as velocity or pressure. REFUSED if there is none
- * or more than one. */
+/* Finds the entry *kind of a boundary condition that gives its kind, such as velocity or pressure. map: node of the
+ * boundary. Returns REFUSED if there is none or more than one. */
 static status kind_of_boundary(struct reader *r, const struct yaml_node *map, const struct yaml_node **kind)
 {
     const char *const words = "fixed|velocity|displacement|rotation|traction|pressure|body_force|mirror|absorbing";
@@ -233,7 +245,8 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", words_for_message(r, words));
 }
 
-/* Returns true if a node is a number with a unit or a formula with one, other than 0. value: its value. */
+/* Returns true if node n is a number or formula with a unit, other than 0. value: the number that it has been read
+ * as. */
 static bool carries_unit(struct reader *r, const struct yaml_node *n, real value)
 {
     struct key plain = *key_find("boundary", "traction");
@@ -245,8 +258,8 @@ static bool carries_unit(struct reader *r, const struct yaml_node *n, real value
     return unit;
 }
 
-/* Returns REFUSED if a boundary takes its function of time from a file column with a unit and also has a value with a
- * unit: only one of them can give the magnitude of the load. */
+/* Returns REFUSED if boundary b takes its factor of time from a file column with a unit and also has a value with a
+ * unit: only one of them can give the magnitude of the load. kind: node of the value. */
 static status check_time_unit(struct reader *r, const struct yaml_node *kind, const struct boundary *b)
 {
     real most = 0;
@@ -262,7 +275,8 @@ static status check_time_unit(struct reader *r, const struct yaml_node *kind, co
                  node_text(r, kind));
 }
 
-/* Reads the value of a boundary condition by its kind. REFUSED for keys that have no meaning with its kind. */
+/* Reads the value of boundary b by its kind. n: node of the boundary; kind: its entry that gives the kind, such as
+ * velocity. Returns REFUSED for invalid values and for keys that have no meaning with this kind. */
 static status read_kind(struct reader *r, const struct yaml_node *n, const struct yaml_node *kind, struct boundary *b)
 {
     const struct yaml_node *face = NULL, *depth = NULL, *profile = yaml_node_find(n, "profile");
@@ -314,7 +328,8 @@ static status read_boundary(struct reader *r, const struct yaml_node *n, struct 
     return check_time_unit(r, kind, b);
 }
 
-/* Appends gravity to the boundaries as one more load. */
+/* Appends gravity to the boundaries of the scene as a body force on all bodies. n: node of `gravity`, for messages.
+ * Returns REFUSED if there are BOUNDARIES_MAX boundaries already, or one called gravity. */
 static status gravity_add(struct reader *r, const struct yaml_node *n)
 {
     struct scene *s = r->scene;
@@ -357,7 +372,8 @@ status read_boundaries(struct reader *r, const struct yaml_node *root)
 const char *const probe_names[PROBES] = {"tip",    "break",    "reaction", "patch", "spall", "point",  "line",
                                          "energy", "momentum", "pulse",    "exact", "sif",   "growth", "rigid"};
 
-/* Finds the kind of a probe and the mapping of its keys, NULL if there are none: `tip`, `tip:` or `tip: {at: [..]}`. */
+/* Finds the kind of a probe, and *map, the mapping of its keys, NULL if it has none. n: node of the probe in one of the
+ * forms `tip`, `tip:` or `tip: {at: [..]}`. Returns REFUSED for unknown or several kinds. */
 static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum probe_kind *kind,
                             const struct yaml_node **map)
 {
@@ -378,7 +394,8 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
     return OK;
 }
 
-/* Returns REFUSED for a reaction probe of a boundary that the scene does not have. */
+/* Returns REFUSED if p is a reaction probe and the scene does not have its boundary. n: node of the boundary's name,
+ * for messages. */
 static status check_probe_boundary(struct reader *r, const struct yaml_node *n, const struct probe_request *p)
 {
     const struct scene *s = r->scene;
@@ -396,8 +413,9 @@ static status check_probe_boundary(struct reader *r, const struct yaml_node *n, 
                  p->boundary, s->boundaries, s->boundary[nearest].name);
 }
 
-/* Returns REFUSED for a probe with a closed-form solution unless the scene is in space line. REFUSED if a number of
- * the manufactured solution is missing, or is given with another solution. */
+/* Checks a probe p that compares with a closed-form solution; returns OK for other probes. n: node of the probe; map:
+ * mapping of its keys, or NULL. Returns REFUSED outside space line, and if a number of the manufactured solution is
+ * missing or is given with another solution. */
 static status check_exact(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
                           const struct probe_request *p)
 {
@@ -422,8 +440,9 @@ static status check_rigid(struct reader *r, const struct yaml_node *n, const str
     return fault(r, map ? map : n, "plane spaces only in this version");
 }
 
-/* Sets the outer radius of a probe of stress-intensity factors to its last contour, if it is not given. REFUSED if
- * its radii or its direction are not valid. */
+/* Checks a probe p of stress-intensity factors; returns OK for other probes. Sets its outer radius to its last contour
+ * if none is given. n: node of the probe; map: mapping of its keys, or NULL. Returns REFUSED for invalid radii,
+ * contours or direction, and outside plane spaces. */
 static status check_sif(struct reader *r, const struct yaml_node *n, const struct yaml_node *map,
                         struct probe_request *p)
 {
@@ -445,7 +464,8 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
     return fault(r, yaml_node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
 }
 
-/* Reads one probe in any of its forms. Numbers without a default that are not given become NaN. */
+/* Reads the probe of node n, in any of its forms, into p. Numbers without default that are not given become NAN.
+ * Returns REFUSED for an invalid probe. */
 static status read_probe(struct reader *r, const struct yaml_node *n, struct probe_request *p)
 {
     const struct yaml_node *map;

@@ -13,7 +13,8 @@ bool is_motion(const struct yaml_node *n)
     return is;
 }
 
-/* Reads the axis of a rotation, by default z. REFUSED for an axis without length, and for any axis in the plane. */
+/* Reads the axis of a rotation into m, by default z. n: node of the rotation. Returns REFUSED for an axis without
+ * length, for any axis in 2D, and in 1D. */
 static status read_turning_axis(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
     const struct yaml_node *axis = yaml_node_find(n, "axis");
@@ -25,7 +26,8 @@ static status read_turning_axis(struct reader *r, const struct yaml_node *n, str
     return fault(r, axis, "has no length; an axis such as [0, 0, 1] is expected");
 }
 
-/* Reads the centre of a rotation, by default the centre of the bounding box of the solid. */
+/* Reads the centre of a rotation into m->about [m], by default the centre of the bounding box of the solid s. n: node
+ * of the rotation. Returns REFUSED if the box is infinite. */
 static status read_about(struct reader *r, const struct yaml_node *n, const struct solid *s, struct solid_motion *m)
 {
     for (int d = 0; d < r->dim && !m->has_about; d++) {

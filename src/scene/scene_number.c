@@ -15,8 +15,8 @@ struct variable {
 
 /* ---- variables --------------------------------------------------------------------------------------------------- */
 
-/* Evaluates a variable, and first the variables on which it depends. Returns false on failure, with the fault in
- * message[capacity]. */
+/* Evaluates the variable v, and first the variables on which it depends. Returns false on failure, with the fault in
+ * message[capacity] as the rest of a sentence that begins with the variable's text. */
 static bool evaluate(struct reader *r, struct variable *v, char *message, size_t capacity)
 {
     bool fine = true;
@@ -72,7 +72,8 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* Returns REFUSED for a text that is no name, and for a name with a meaning in expressions. */
+/* Returns REFUSED if the key of node n cannot name a variable: it is no name, is too long, or has a meaning in
+ * expressions. */
 static status check_variable_name(struct reader *r, const struct yaml_node *n)
 {
     size_t length = 0;
@@ -85,7 +86,7 @@ static status check_variable_name(struct reader *r, const struct yaml_node *n)
     return meaning ? fault(r, n, "is %s in expressions; another name is expected, as %.20s1", meaning, n->key) : OK;
 }
 
-/* Returns true if a text contains a name as a whole word. */
+/* Returns true if `text` contains `name` as a whole word. */
 static bool has_word(const char *text, const char *name)
 {
     const size_t length = strlen(name);
@@ -96,7 +97,8 @@ static bool has_word(const char *text, const char *name)
     return false;
 }
 
-/* Returns true if a value in the tree below n, other than its own, contains the name of the variable. */
+/* Returns true if a value in the tree below n, other than that of the node `variable` itself, contains the variable's
+ * name. */
 static bool is_used(const struct yaml_node *n, const struct yaml_node *variable)
 {
     if (n->kind == NODE_SCALAR) return n != variable && has_word(n->text, variable->key);
@@ -105,7 +107,8 @@ static bool is_used(const struct yaml_node *n, const struct yaml_node *variable)
     return false;
 }
 
-/* Returns REFUSED for an override of a variable that no value contains: a misspelt name would have no effect. */
+/* Returns REFUSED if an override sets a variable that no value of the scene contains: a misspelt name would have no
+ * effect. root: tree of the scene. */
 static status check_overrides(struct reader *r, const struct yaml_node *root)
 {
     for (const struct variable *v = r->variable; v < r->variable + r->variables; v++) {
@@ -147,8 +150,9 @@ status read_variables(struct reader *r, const struct yaml_node *root)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Reads a number, or an expression of variables, with a unit of the given kind. Returns false with a message in
- * message[capacity] if it is invalid. */
+/* Reads a number, or an expression of variables, into *value [SI]. unit: expected unit; infinite: true if inf is
+ * allowed. Returns false if the text is invalid, with the fault in message[capacity] as the rest of a sentence that
+ * begins with `text`. */
 bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *message,
                           size_t capacity)
 {

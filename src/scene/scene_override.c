@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cuts the next `key` or `[index]` off the path; *index is -1 for a key. Returns false if the path is malformed. */
+/* Cuts the next part, `key` or `[index]`, off the path *path and advances *path behind it. *key, *length: a key in the
+ * path; *index: the index, or -1 for a key. Returns false if the path is malformed. */
 static bool step_of_path(const char **path, const char **key, size_t *length, int *index)
 {
     const char *c = *path;
@@ -30,8 +31,8 @@ static bool step_of_path(const char **path, const char **key, size_t *length, in
     return true;
 }
 
-/* Appends an empty mapping with the given key to `map` and returns it. origin: number of the override, for
- * messages. */
+/* Appends an empty mapping with a key of `length` characters to `map` and returns it. origin: number of the override,
+ * for messages. */
 static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, const char *key, size_t length, int origin)
 {
     struct yaml_node *n = arena_new(r, sizeof *n);
@@ -42,7 +43,7 @@ static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, cons
 }
 
 /* Returns the name by which an item of a list is addressed: the value of its key `name`; for a probe the `name` below
- * its kind, or else the kind. NULL if it has none. */
+ * its kind, or else the kind. Returns NULL if the item has none. */
 static const char *item_name(const struct yaml_node *list, const struct yaml_node *item)
 {
     const bool probe = list->key && strcmp(list->key, "probes") == 0;
@@ -55,15 +56,16 @@ static const char *item_name(const struct yaml_node *list, const struct yaml_nod
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
-/* Sets the origin of a node to an override, so that a following error message names the override. The tree must not
- * be used afterwards. */
+/* Sets the origin of node n to override number `origin`, so that the following error message names the override, and
+ * returns n. The tree must not be used afterwards. */
 static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 {
     n->origin = origin;
     return n;
 }
 
-/* Finds item `index` of a list, from 0. REFUSED if the node is no list or has fewer items. */
+/* Sets *out to item `index` of a list, from 0. origin: number of the override, for messages. Returns REFUSED if the
+ * node is no list or has fewer items. */
 static status item_of(struct reader *r, struct yaml_node *list, int index, int origin, struct yaml_node **out)
 {
     if (list->kind != NODE_LIST)
@@ -77,8 +79,8 @@ static status item_of(struct reader *r, struct yaml_node *list, int index, int o
     return OK;
 }
 
-/* Returns the names of the items of a list as part of a message, such as ` or by name (pull, hold)`; "" if no item
- * has a name. */
+/* Returns the names of the items of a list as part of a message, such as ` or by name (pull, hold)`, in the reader's
+ * arena; "" if no item has a name. */
 static const char *names_text(struct reader *r, const struct yaml_node *list)
 {
     char text[192] = "";
@@ -93,8 +95,9 @@ static const char *names_text(struct reader *r, const struct yaml_node *list)
     return arena_text(r, text, strlen(text));
 }
 
-/* Finds an item of a list. The key is its index, its name, or the name of the list with the index, as in boundary0.
- * REFUSED with the names of all items if there is no such item. origin: number of the override, for messages. */
+/* Sets *out to the item of a list that a key of `length` characters addresses: by index, by name, or by the name of the
+ * list with the index, as in boundary0. origin: number of the override, for messages. Returns REFUSED, with the names
+ * of all items, if there is no such item. */
 static status item_called(struct reader *r, struct yaml_node *list, const char *key, size_t length, int origin,
                           struct yaml_node **out)
 {
@@ -120,8 +123,9 @@ static bool is_key(const struct yaml_node *n, const char *key, size_t length)
     return strlen(n->key) == length && memcmp(n->key, key, length) == 0;
 }
 
-/* Turns a node with a word as its value into a mapping with the entry `key`, whose value is `text` (NULL: empty); for
- * example `exact: step bar` into `exact: {form: step bar}`. Does nothing to other nodes. */
+/* Turns a node with a word as its value into a mapping with one entry of this key, whose value is `text` (NULL: an
+ * empty mapping). For example, `exact: step bar` becomes `exact: {form: step bar}`. Leaves other nodes unchanged.
+ * origin: number of the override. */
 static void write_out(struct reader *r, struct yaml_node *n, const char *key, const char *text, int origin)
 {
     if (n->kind != NODE_SCALAR || *n->text == '\0') return;
@@ -130,8 +134,9 @@ static void write_out(struct reader *r, struct yaml_node *n, const char *key, co
     if (text) entry->kind = NODE_SCALAR, entry->text = (char *)text;
 }
 
-/* Returns the node below which `key` of an item is found. This is the item itself; for a probe, whose keys are below
- * its kind, it is the mapping of the kind, so that a path can omit the kind: probes.0.at is probes.0.point.at. */
+/* Returns the mapping in which a key of an item is searched: the item itself, or for a probe the mapping below its
+ * kind, so that a path can omit the kind (probes.0.at is probes.0.point.at). key: text of `length` characters. origin:
+ * number of the override. */
 static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, const char *key, size_t length,
                                     int origin)
 {
@@ -143,8 +148,9 @@ static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, co
     return item->first;
 }
 
-/* Finds the node that one part of a path addresses: in a mapping the entry `key`, created if it is missing; in a list
- * the item with this index or name. origin: number of the override, for messages. */
+/* Sets *out to the node that one part of a path addresses: in a mapping the entry with this key, created if it is
+ * missing; in a list the item with this index or name. key: text of `length` characters. origin: number of the
+ * override, for messages. Returns REFUSED for a list without such an item, and for nodes without keys. */
 static status scene_override_entry_of(struct reader *r, struct yaml_node *map, const char *key, size_t length,
                                       int origin, struct yaml_node **out)
 {
@@ -165,7 +171,7 @@ static status scene_override_entry_of(struct reader *r, struct yaml_node *map, c
     return OK;
 }
 
-/* Replaces the value of a node; its key and its position in the tree are kept. */
+/* Replaces the value of node n by that of `value`; its key and its position in the tree are kept. */
 static void replace(struct yaml_node *n, const struct yaml_node *value)
 {
     struct yaml_node whole = *value;
@@ -176,7 +182,8 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
     for (struct yaml_node *c = n->first; c; c = c->next) c->parent = n;
 }
 
-/* Applies override number `origin`: sets the value at its path, or removes the key if the value is empty. */
+/* Applies override number `origin` to the tree of the scene: sets the value at its path, or removes the key if the
+ * value is empty. Returns REFUSED for a malformed path, and if the key to remove is missing. */
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];

@@ -12,8 +12,9 @@ enum { COLUMNS_TEXT = 1000 }; /* bytes of the names of all columns of a list */
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Reads the fracture strength of a material from one of three keys. REFUSED if more than one is given, since they
- * could contradict each other. */
+/* Reads the fracture strength of material m from one of the keys energy_release_rate, critical_stretch and toughness.
+ * Toughness K gives the energy release rate K^2/E, or K^2 (1 - nu^2)/E in plane strain and 3D. n: node of the material.
+ * Returns REFUSED if more than one of the keys is given. */
 static status read_strength(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
@@ -35,8 +36,8 @@ static status read_strength(struct reader *r, const struct yaml_node *n, struct 
     return OK;
 }
 
-/* Returns REFUSED for a Poisson's ratio that bonds cannot have: bond-based peridynamics has one elastic constant, an
- * isotropic solid two. */
+/* Returns REFUSED if the material m is given a Poisson's ratio that bonds cannot have: bond-based peridynamics has one
+ * elastic constant, an isotropic solid two. n: node of the material. */
 static status check_poisson(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
@@ -49,7 +50,9 @@ static status check_poisson(struct reader *r, const struct yaml_node *n, const s
                  material_yields(m) ? "`method: mpm` has any, and yields" : "`model: ospd` has any");
 }
 
-/* Reads the hardening modulus from one of two keys. REFUSED if it is not below Young's modulus. */
+/* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from one of the keys yield_tangent
+ * and yield_hardening. The hardening modulus H gives E_t = E H/(E + H). n: node of the material. Returns REFUSED if
+ * both are given, or unless E_t < E. */
 static status read_hardening(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct yaml_node *tangent = yaml_node_find(n, "yield_tangent"),
@@ -69,8 +72,8 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
                  node_text(r, tangent ? tangent : hardening));
 }
 
-/* Computes the critical stretch of bonds from the energy release rate: in closed form, or for model mospd from the
- * energy that separates the lattice. */
+/* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m: in closed form, or
+ * for model mospd from the energy that separates the lattice. */
 real scene_critical_stretch(const struct scene *s, const struct material *m)
 {
     const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
@@ -81,8 +84,8 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     return sqrt(m->energy_release_rate / family_separation_work(&f, &modulus, !s->bulk));
 }
 
-/* Reads the scatter of strength. REFUSED for a material without strength, and if the parameter of the distribution
- * is missing. */
+/* Reads the random scatter of the strength of material m. n: node of `scatter`; NULL: none. Returns REFUSED for a
+ * material whose bonds do not break, and if the parameter of the distribution is missing. */
 static status read_scatter(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct strength_scatter *s = &m->scatter;
@@ -104,8 +107,9 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     return OK;
 }
 
-/* Reads the viscosity of a material. With viscosity all cells have one time step, and the active set is off, because
- * viscous forces act between moving regions and regions at rest. REFUSED where viscosity has no effect. */
+/* Reads the viscosity of material m. Then all cells have one time step, and regions at rest are computed as well,
+ * because viscous forces act between moving regions and regions at rest. n: node of `viscosity`; NULL: none. Returns
+ * REFUSED where viscosity has no effect. */
 static status read_viscosity(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct scene *s = r->scene;
@@ -122,7 +126,8 @@ static status read_viscosity(struct reader *r, const struct yaml_node *n, struct
     return why ? fault(r, n, "%s", why) : OK;
 }
 
-/* Reads one material with defaults by space, and derives its wave speeds and critical stretch. */
+/* Reads the material of node n into m, with defaults that depend on the space, and derives its wave speeds and critical
+ * stretch. Returns REFUSED for invalid or contradicting keys. */
 static status scene_parts_read_material(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;
@@ -172,7 +177,7 @@ status read_materials(struct reader *r, const struct yaml_node *root)
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Reads the names of the columns of a list as one text. */
+/* Reads the list n of column names into b->columns, joined by commas. Returns REFUSED for invalid or too many ones. */
 static status read_list_columns(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     size_t length = 1;
@@ -194,7 +199,8 @@ static status read_list_columns(struct reader *r, const struct yaml_node *n, str
     return OK;
 }
 
-/* Reads a particle list: its path and checksum, and what the scene says about its unit and columns. */
+/* Reads the particle list of body b: its path and checksum, its unit and columns if given, and the head of the file. n:
+ * node of `particles`, a file name or a mapping. Returns REFUSED for an invalid file. */
 static status read_particle_list(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     const bool mapping = n->kind == NODE_MAP;
@@ -212,7 +218,7 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     return r->files ? particle_list_read_head(&b->list, b->file, &b->form, r->dim) : OK;
 }
 
-/* Returns REFUSED for keys that a rigid body does not have, and for keys that only a rigid body has. */
+/* Returns REFUSED if body b has keys that only rigid bodies have, or is rigid and has others. n: its node. */
 static status check_rigid_body(struct reader *r, const struct yaml_node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp", "force"};
@@ -234,7 +240,8 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
     return OK;
 }
 
-/* Reads one body. number: index of the body. REFUSED if it has neither shape nor particles, or both. */
+/* Reads the body of node n into b. number: its index; the names of bodies before it must differ. Returns REFUSED for
+ * invalid keys, and if it has neither shape nor particles, or both. */
 static status scene_parts_read_body(struct reader *r, const struct yaml_node *n, struct scene_body *b, int number)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape"), *file = yaml_node_find(n, "particles");
@@ -259,7 +266,7 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     return OK;
 }
 
-/* Sorts deformable bodies before rigid ones, each in the order of the scene. */
+/* Sorts the n bodies of the scene, deformable before rigid ones; counts both in s->bodies and s->rigids. */
 static void sort_bodies(struct scene *s, int n)
 {
     struct scene_body *sorted = NEW("bodies", n, struct scene_body);
@@ -324,8 +331,8 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
 
 /* ---- initial states ---------------------------------------------------------------------------------------------- */
 
-/* Reads the polarisation of a pulse: along its direction (default) or across it. Removes round-off from the vector.
- * REFUSED for any other direction. */
+/* Reads the polarisation of the pulse w, along its direction (default) or across it, and normalises it. n: node of
+ * `polarisation`; NULL: not given. Returns REFUSED for any other vector. */
 static status read_polarisation(struct reader *r, const struct yaml_node *n, struct wave_pulse *w)
 {
     const int dim = r->dim;
@@ -359,7 +366,8 @@ static status read_pulse(struct reader *r, const struct yaml_node *n, struct sce
     return read_polarisation(r, yaml_node_find(n, "polarisation"), &initial->pulse);
 }
 
-/* Reads a rigid rotation as the velocity gradient of w x (X - centre). */
+/* Reads a rigid rotation w x (X - centre) of an initial state as its velocity gradient [1/s]. map: node of the initial
+ * state. Returns REFUSED if velocity_gradient or centre is given too, and for invalid keys. */
 static status read_initial_rotation(struct reader *r, const struct yaml_node *map, struct scene_initial *initial)
 {
     const struct yaml_node *n = yaml_node_find(map, "rotation"), *gradient = yaml_node_find(map, "velocity_gradient"),
@@ -381,7 +389,7 @@ static status read_initial_rotation(struct reader *r, const struct yaml_node *ma
     return OK;
 }
 
-/* Reads an initial velocity: numbers, or formulas of the position. */
+/* Reads an initial velocity, numbers [m/s] or formulas, from node n; NULL: none. REFUSED if invalid. */
 static status read_initial_velocity(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     if (!n) return OK;
@@ -418,7 +426,8 @@ status read_initials(struct reader *r, const struct yaml_node *root)
 
 /* ---- growth ------------------------------------------------------------------------------------------------------ */
 
-/* Reads one growth rule and normalises its direction. REFUSED for keys without meaning and for an unknown probe. */
+/* Reads the growth rule of node n into g, and normalises its direction. number: index of the rule, for its default
+ * name. Returns REFUSED for keys without meaning and for an unknown probe. */
 static status read_growth(struct reader *r, const struct yaml_node *n, struct growth_rule *g, int number)
 {
     real length;
@@ -442,7 +451,7 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
     return g->probe[0] ? fault(r, yaml_node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
 }
 
-/* Returns REFUSED for a growth probe of a crack that the scene does not have. */
+/* Returns REFUSED if a probe names a growth rule that the scene lacks. root: tree of the scene. */
 static status check_growth_probes(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -460,8 +469,8 @@ static status check_growth_probes(struct reader *r, const struct yaml_node *root
     return OK;
 }
 
-/* Reads the rules of crack growth. Must be called after the probes are read, since a probe of stress-intensity
- * factors can control the growth. */
+/* Reads the list `growth`, the rules of crack growth, after the probes that they can name. root: tree of the scene.
+ * Returns REFUSED for invalid rules, outside plane spaces and with method mpm. */
 status read_growths(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -479,7 +488,8 @@ status read_growths(struct reader *r, const struct yaml_node *root)
 
 /* ---- frames of regions ------------------------------------------------------------------------------------------- */
 
-/* Reads the frame series of a region. REFUSED for a name whose files are used already, and for too many frames. */
+/* Reads the region of node n for which frames are written at intervals of their own (`output.regions`). number: its
+ * index. Returns REFUSED for a name whose files are used already, and for too many frames. */
 static status read_frame_region(struct reader *r, const struct yaml_node *n, int number)
 {
     struct scene *s = r->scene;

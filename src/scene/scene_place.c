@@ -1,4 +1,4 @@
-/* Where the keys of a scene stand, for refusals after it has been read. */
+/* Finds the locations of the keys of a scene in its file, for refusals after it has been read. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 /* ---- the list of places --------------------------------------------------------------------------------------------
  */
 
-/* Returns the number of nodes below `node`, down to a depth. */
+/* Returns the number of nodes below `node`, down to `depth` levels. */
 static int64_t nodes_count(const struct yaml_node *node, int depth)
 {
     int64_t n = 0;
@@ -17,7 +17,8 @@ static int64_t nodes_count(const struct yaml_node *node, int depth)
     return n;
 }
 
-/* Adds the places of the nodes below `node`, down to a depth. path: that of `node`, "" for the root. */
+/* Appends the locations of the nodes below `node`, down to `depth` levels, to s->key_place, which must have room for
+ * them. path: path of `node`, "" for the root. */
 static void places_add(const struct reader *r, const struct yaml_node *node, const char *path, int depth)
 {
     struct scene *s = r->scene;
@@ -44,7 +45,7 @@ void scene_places_make(const struct reader *r, const struct yaml_node *root)
 /* ---- the place of a refusal ----------------------------------------------------------------------------------------
  */
 
-/* Returns true if a message begins with `kind` and a name, followed by a colon or a blank. */
+/* Returns true if `text` begins with `kind` and then `name`, followed by a colon or a blank. */
 static bool begins_with(const char *text, const char *kind, const char *name)
 {
     const size_t first = strlen(kind), second = strlen(name);
@@ -52,8 +53,8 @@ static bool begins_with(const char *text, const char *kind, const char *name)
     return text[first + second] == ':' || text[first + second] == ' ';
 }
 
-/* Writes to `place`, capacity PLACE_LENGTH, that of the key with which a message begins, or of the group that this key
- * is in; nothing if the scene has neither. */
+/* Writes to place[PLACE_LENGTH] the location of the key with which the message `text` begins, or of the group that
+ * contains this key, followed by a colon. Writes nothing if the scene has neither. */
 static void place_of_key(const struct scene *s, const char *text, char *place)
 {
     char key[100] = "";

@@ -9,8 +9,8 @@
 #include "base/memory.h"
 #include "scene_internal.h"
 
-/* Derives the name of a scene from its path: the file name without folder and extension, with _ for characters that
- * a name cannot have. */
+/* Derives the name of a scene from its path: the file name without folder and extension, with _ for characters that a
+ * name cannot have, cut off to NAME_MAX_LENGTH - 1 characters. */
 static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
 {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
@@ -23,15 +23,16 @@ static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
     if (length == 0) strcpy(name, "scene");
 }
 
-/* Returns the node of `method: auto`; NULL if the scene has another method. */
+/* Returns the node of `method: auto` in the tree `root`; NULL if the scene has another method. */
 static const struct yaml_node *auto_method(const struct yaml_node *root)
 {
     const struct yaml_node *method = root->kind == NODE_MAP ? yaml_node_find(root, "method") : NULL;
     return method && method->kind == NODE_SCALAR && strcmp(method->text, "auto") == 0 ? method : NULL;
 }
 
-/* Parses a text, fills the scene and writes its echo to s->text. With `method: auto` only fills *wish, or is REFUSED
- * if wish is NULL. */
+/* Parses a text of `length` bytes, fills the scene r->scene and writes its echo to s->text. With `method: auto` fills
+ * only *wish, the request for pilot runs. Returns REFUSED for an invalid scene, and for `method: auto` if wish is
+ * NULL. */
 static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
@@ -49,9 +50,9 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     return s->text ? OK : status_set(FAILED, "%s: out of memory, the scene with all its defaults cannot be written", r->name);
 }
 
-/* Reads a scene from a text of `length` bytes in the C locale. With `method: auto` only the request for pilot runs is
- * stored, in *wish; if wish is NULL, `method: auto` is REFUSED. The scene is freed on failure and if a request is
- * stored. */
+/* Reads a scene from a text of `length` bytes in the C locale into r->scene. With `method: auto` only the request for
+ * pilot runs is stored, in *wish. Returns REFUSED for an invalid scene, and for `method: auto` if wish is NULL. The
+ * scene is freed on failure and if a request is stored. */
 static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
@@ -77,8 +78,9 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
     return read_scene(&r, text, length, NULL);
 }
 
-/* Reads a scene from a file, with overrides. With `method: auto` stores the request for pilot runs in *wish; if wish
- * is NULL, this is REFUSED. */
+/* Reads a scene from the file `path` into s. override[overrides]: values of the command line. With `method: auto` only
+ * the request for pilot runs is stored, in *wish. Returns REFUSED for an invalid scene, and for `method: auto` if wish
+ * is NULL. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
                               struct pilot_wish *wish)
 {

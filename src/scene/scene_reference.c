@@ -3,7 +3,8 @@
 
 #include "scene_internal.h"
 
-/* Writes a text as a cell of a Markdown table, with escapes for characters that have a meaning there. */
+/* Writes a text as a cell of a Markdown table, with escapes for the characters | * <, and the bar that ends the
+ * cell. */
 static void cell(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -26,7 +27,8 @@ static void row(FILE *out, const struct key *k)
     fputc('\n', out);
 }
 
-/* Returns true if k is at the top of a scene. *has_keys: true if other keys are below k; they follow k in the table. */
+/* Returns true if key k is at the top of a scene. *has_keys: receives whether other keys are below k; they follow k in
+ * the table. */
 static bool is_top(const struct key *k, bool *has_keys)
 {
     *has_keys = k + 1 < keys + keys_count && key_is_below(&k[1], k->path);

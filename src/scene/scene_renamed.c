@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Old and new path; they differ in the last key only. */
+/* Renamed keys: path in earlier versions and present path; they differ in the last key only. */
 static const struct {
     const char *old, *now;
 } renamed[] = {
@@ -24,7 +24,8 @@ static const struct {
     {"accuracy_chart", TABLE_REMOVED},
 };
 
-/* Adds the old and new name of key k to a text of the scene, which is printed later as a warning. */
+/* Appends the old and new name of the renamed key number k to s->renamed, which is printed later as a warning, unless
+ * it is there already. */
 static void renamed_note(struct scene *s, int k)
 {
     const size_t used = strlen(s->renamed);

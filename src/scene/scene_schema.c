@@ -9,7 +9,7 @@
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */
 
-/* Writes a JSON string with escapes. */
+/* Writes the first `length` characters of a text as a JSON string, with escapes for quotes and backslashes. */
 static void write_string(FILE *out, const char *text, size_t length)
 {
     fputc('"', out);
@@ -20,7 +20,8 @@ static void write_string(FILE *out, const char *text, size_t length)
     fputc('"', out);
 }
 
-/* Writes the words a|b|c; words of digits also as numbers, since YAML reads them as numbers. */
+/* Writes the words a|b|c as a JSON enumeration. Words of digits are written as numbers, too, and `true` as a boolean,
+ * since YAML reads them as such. */
 static void write_words(FILE *out, const char *words)
 {
     const char *between = "";
@@ -36,7 +37,8 @@ static void write_words(FILE *out, const char *words)
     fputs("]}", out);
 }
 
-/* Writes the range of a plain number; formulas and numbers with units are texts. */
+/* Writes the JSON types of key k: a number of type `type` ("number", "integer") in its range, or a text, since formulas
+ * and numbers with units are texts. */
 static void write_numbers(FILE *out, const struct key *k, const char *type)
 {
     char least[32], most[32];
@@ -56,7 +58,7 @@ static void write_list_of(FILE *out, const char *definition)
     fprintf(out, "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/%s\"}}", definition);
 }
 
-/* Writes the list of required keys of a group, if there are any. */
+/* Writes the list of required keys of a group, if there are any. begin: text before the first of them. */
 static void write_required(FILE *out, const char *group, const char *begin)
 {
     const char *between = begin;
@@ -72,7 +74,7 @@ static void write_object(FILE *out, const char *group);
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the table has keys in this group. */
+/* Returns true if the table has keys directly below the path `group`. */
 static bool has_children(const char *group)
 {
     bool any = false;
@@ -80,8 +82,8 @@ static bool has_children(const char *group)
     return any;
 }
 
-/* Writes the type of a key whose value is read by a function of its own, from the description of its form in the
- * table of keys. Writes that any value is allowed if the description is not recognised. */
+/* Writes the JSON type of key k, whose value is read by a function of its own, from the description of its form in the
+ * table of keys. Writes {}, any value, if the description is not recognised. */
 static void write_by_hand(FILE *out, const struct key *k)
 {
     const char *form = k->words ? k->words : "";
@@ -117,7 +119,7 @@ static void write_by_hand(FILE *out, const struct key *k)
         fputs("{}", out);
 }
 
-/* Writes the type of a probe: a word, or a mapping with one kind of probe. */
+/* Writes the JSON type of a probe: the word of its kind, or a mapping with the kind as its only key. */
 static void write_probe(FILE *out)
 {
     const char *between = "";
@@ -128,8 +130,8 @@ static void write_probe(FILE *out)
     fputs("]}", out);
 }
 
-/* Returns the group of the keys that an item of a list has: material for `materials`, bodies.parts for `parts`, else
- * the path of the list. */
+/* Returns the path of the group that holds the keys of an item of the list k: material for `materials`, bodies.parts
+ * for `parts`, else the path of the list. */
 static const char *items_group(const struct key *k)
 {
     if (strcmp(k->path, "materials") == 0) return "material";
@@ -151,7 +153,7 @@ static void write_list_items(FILE *out, const struct key *k)
     fputc('}', out);
 }
 
-/* Writes the list of JSON types that the value of a key may have. */
+/* Writes the JSON types that the value of key k may have, separated by commas. */
 static void write_alternatives(FILE *out, const struct key *k)
 {
     static const char *const definition[] = {
@@ -184,8 +186,8 @@ static void write_alternatives(FILE *out, const struct key *k)
     }
 }
 
-/* Returns true if the key is in a mapping that is merged when a scene includes other scenes. An empty value removes
- * such a key. */
+/* Returns true if key k is in a mapping that is merged when a scene includes other scenes. An empty value removes such
+ * a key. */
 static bool is_in_merged(const struct key *k)
 {
     char group[64];
@@ -209,8 +211,8 @@ static void write_property(FILE *out, const struct key *k)
     fputs("]}", out);
 }
 
-/* Writes the type of a mapping with the keys of a group. Required keys are omitted if the mapping is merged with
- * another scene's. */
+/* Writes the members of the JSON type of a mapping with the keys of a group. The list of required keys is left out if
+ * the mapping can be merged with that of another scene. */
 static void write_members(FILE *out, const char *group)
 {
     const char *between = "";

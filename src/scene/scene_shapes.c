@@ -18,7 +18,8 @@ enum { SLICES_MOST = 65536 };
 
 /* ---- names of files ---------------------------------------------------------------------------------------------- */
 
-/* Combines the hash of a file with the hashes of the files before (FNV-1a); a single file keeps its own hash. */
+/* Combines the hash `contents` of one more file with the hash of the files before, f->contents (FNV-1a). A single file
+ * keeps its own hash. */
 static void contents_add(struct shape_file *f, uint64_t contents)
 {
     if (f->files == 0)
@@ -37,8 +38,9 @@ static status shape_path_add(struct reader *r, const struct yaml_node *n, struct
     return OK;
 }
 
-/* Adds the files that match a pattern with stars, sorted with numbers compared by value; searches the scene's
- * folder, then the current one. */
+/* Adds to f the files that match the pattern with stars in node n, sorted by name with numbers compared by value.
+ * Searches the folder of the scene, then the current one. Returns REFUSED if there is no such file, or more than
+ * SLICES_MOST. */
 static status pattern_add(struct reader *r, const struct yaml_node *n, struct shape_file *f)
 {
     const char *slash = strrchr(r->name, '/');
@@ -74,7 +76,7 @@ static status paths_read(struct reader *r, const struct yaml_node *n, struct sha
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Releases a file of solids with all that was read from it. */
+/* Releases a file of solids with all that was read from it, and the structure f itself. */
 static void shape_file_free(struct shape_file *f)
 {
     for (int k = 0; k < f->files; k++) memory_free(f->path[k]);
@@ -108,7 +110,7 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
 
 #define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
-/* Returns the spacing that the scene gives [m]; NAN if it gives none. n: any node of the tree. */
+/* Returns the spacing that the scene gives [m]; NAN if it gives none. n: any node of the scene's tree. */
 static real spacing_given(struct reader *r, const struct yaml_node *n)
 {
     real spacing = NAN;
@@ -119,8 +121,9 @@ static real spacing_given(struct reader *r, const struct yaml_node *n)
     return NAN;
 }
 
-/* Reads the file f of a solid, or finds the same file with the same settings among those already read. *known points
- * to the result, which the scene owns. Takes ownership of f, and frees it if it is not needed or cannot be read. */
+/* Reads the file f of a solid, or finds the same file with the same settings among those already read. Takes ownership
+ * of f, and frees it if it is not needed or cannot be read. n: node of the solid. *known: receives the file that has
+ * been read, which the scene owns. Returns REFUSED if the file is invalid. */
 static status shape_take(struct reader *r, const struct yaml_node *n, struct shape_file *f, struct shape_file **known)
 {
     struct shape_file **last = &r->scene->shapes;
@@ -141,7 +144,8 @@ static status shape_take(struct reader *r, const struct yaml_node *n, struct sha
     return OK;
 }
 
-/* Returns REFUSED if the scene gives the hash of the contents, and the file has another. */
+/* Returns REFUSED if the scene gives the hash of the contents of a file and the file has another one. n: node of the
+ * solid; words: its keys; contents: hash of the file. */
 static status check_contents(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
                              uint64_t contents)
 {
@@ -169,8 +173,9 @@ status read_file_unit(struct reader *r, const struct yaml_node *n, bool required
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
 
-/* Finds the hull of the part of a mesh of which a solid consists: the whole mesh, a set of elements, or the points
- * within a distance `within` [m] of a set of nodes or faces. */
+/* Sets s->hull to the part of the mesh g of which the solid s consists: the whole mesh, a set of elements, or the
+ * points within a distance s->radius [m] of a set of nodes or faces. n: node of the solid; words: its keys. Returns
+ * REFUSED for an unknown set, and for a distance that is missing or has no meaning. */
 static status read_mesh_set(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
                             const struct geometry *g, struct solid *s)
 {
@@ -230,7 +235,8 @@ status read_mesh(struct reader *r, const struct yaml_node *n, struct solid *s)
 
 /* ---- images ------------------------------------------------------------------------------------------------------ */
 
-/* Reads an image: its files, the size of its voxels and its position. */
+/* Reads an image from its keys: files, size of the voxels and position. n: node of the image. *known: receives the
+ * image, which the scene owns. Returns REFUSED for invalid keys or files, and in 1D. */
 static status read_voxels(struct reader *r, const struct yaml_node *n, struct shape_file **known)
 {
     const struct yaml_node *file = yaml_node_find(n, "file"), *slice = yaml_node_find(n, "slice");
@@ -252,8 +258,8 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
     return shape_take(r, n, f, known);
 }
 
-/* Returns the voxels of an image that have the grey values in `wanted`. They are computed once; solids with the same
- * grey values share them. Owned by f. */
+/* Returns the voxels of the image f that have the grey values in `wanted`. They are computed once; solids with the same
+ * grey values share them. f owns them. */
 static const struct voxel_part *grey_part_of(struct shape_file *f, const struct voxel_part *wanted)
 {
     for (int k = 0; k < f->parts; k++)

@@ -4,7 +4,8 @@
 #include "data/softening.h"
 #include "scene_internal.h"
 
-/* Returns REFUSED for a tensile strength that bonds cannot have at this horizon: they would break at less. */
+/* Returns REFUSED if bonds of material m would break before its tensile strength is reached, or if the strength is
+ * above a tenth of Young's modulus. m->onset_stretch must be set. n: node of the tensile strength. */
 static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;

@@ -40,7 +40,8 @@ static status check_box(struct reader *r, const struct yaml_node *n, const struc
     return OK;
 }
 
-/* Returns REFUSED for an axis without length, and for a hole or section that does not fit. */
+/* Returns REFUSED if the solid s has an axis without length, or a hole or section that is not smaller than its radius.
+ * n: node of the solid. */
 static status check_round(struct reader *r, const struct yaml_node *n, const struct solid *s)
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
@@ -65,7 +66,8 @@ static status check_solid(struct reader *r, const struct yaml_node *n, const str
     return check_round(r, n, s);
 }
 
-/* Reads the corners of a polygon and their radii. REFUSED if edges cross or a rounded corner does not fit. */
+/* Reads the corners of a polygon and its rounding into s->polygon. n: node of the polygon. Returns REFUSED if edges
+ * cross, the corners have no area or the rounding does not fit an edge. */
 static status read_corners(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     const struct key *k = key_find("solid.polygon", "corners");
@@ -101,8 +103,9 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
     }
 }
 
-/* Reads an extrusion along an axis from `begin` to `end`; its section is read as a region in the plane of the other
- * two axes. REFUSED if the section is missing or begin is not below end. */
+/* Reads an extrusion along an axis from s->begin to s->end [m]. Its section s->region is read as a region in the plane
+ * of the other two axes. n: node of the extrusion. Returns REFUSED if the section is missing or begin is not below
+ * end. */
 static status read_extrusion(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape");
@@ -115,8 +118,8 @@ static status read_extrusion(struct reader *r, const struct yaml_node *n, struct
     return read;
 }
 
-/* Reads the keys of a solid of this kind. REFUSED for kinds that the space does not have, and for an infinite solid
- * in a body. */
+/* Reads the keys of a solid of the kind that `word` names into s. n: node of these keys. Returns REFUSED for kinds that
+ * the space does not have, for an infinite solid in a body and for invalid keys. */
 static status read_shape(struct reader *r, const struct yaml_node *n, const struct solid_word *word, struct solid *s)
 {
     char group[32];
@@ -144,7 +147,8 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* Finds the node of the region with this name, or of the section in an extrusion. REFUSED with the nearest name. */
+/* Sets *called to the node of the region whose name is the value of node n; inside an extrusion to that of the named
+ * section. Returns REFUSED, with the nearest name, if there is none. */
 static status region_called(struct reader *r, const struct yaml_node *n, const struct yaml_node **called)
 {
     const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
@@ -163,8 +167,8 @@ static status region_called(struct reader *r, const struct yaml_node *n, const s
     return fault(r, n, "there is no %s %s; the nearest is %s", word, node_text(r, n), nearest->key);
 }
 
-/* Reads the solids of the region whose name is the value of n into `region`. REFUSED if there is no such region or it
- * contains itself. */
+/* Reads the solids of the region whose name is the value of node n into `region`. Returns REFUSED if there is no such
+ * region or it contains itself. */
 static status read_called(struct reader *r, const struct yaml_node *n, struct region *region)
 {
     struct naming here = {.outer = r->naming};
@@ -177,7 +181,8 @@ static status read_called(struct reader *r, const struct yaml_node *n, struct re
     return read;
 }
 
-/* Reads the region whose name is the value of n as one solid: the region's only solid, or a group of its solids. */
+/* Reads the region whose name is the value of node n as one solid s: the region's only solid, or a group of its solids.
+ * Returns REFUSED if there is no such region or it contains itself. */
 static status read_named(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     s->kind = SOLID_GROUP;
@@ -191,7 +196,8 @@ static status read_named(struct reader *r, const struct yaml_node *n, struct sol
     return OK;
 }
 
-/* Reads the named regions of a mapping; *count: number of regions that have been read, also on failure. */
+/* Reads the regions in a mapping of names to solids into named[map->n]. *count: increased by the number of regions that
+ * have been read, also on failure. Returns REFUSED for invalid names or solids. */
 static status read_names(struct reader *r, const struct yaml_node *map, struct named_region *named, int *count)
 {
     for (const struct yaml_node *n = map->first; n; n = n->next) {
@@ -206,8 +212,8 @@ static status read_names(struct reader *r, const struct yaml_node *map, struct n
     return OK;
 }
 
-/* Finds the mapping of a key with names and solids; *map is NULL if the key is missing. REFUSED if its value is no
- * mapping or is empty. */
+/* Sets *map to the mapping of names to solids that is the value of `key` at the top of the scene; NULL if the key is
+ * missing. Returns REFUSED if its value is no mapping or is empty. */
 static status names_find(struct reader *r, const struct yaml_node *root, const char *key, const struct yaml_node **map)
 {
     *map = yaml_node_find(root, key);
@@ -216,7 +222,8 @@ static status names_find(struct reader *r, const struct yaml_node *root, const c
     return (*map)->n > 0 ? OK : fault(r, *map, "has no region; a name and its solids are expected");
 }
 
-/* Reads all named sections, so that faults in unused ones are found; extrusions read them again. */
+/* Reads all named sections in r->sections and discards them, so that faults in unused ones are found; extrusions read
+ * them again. Returns REFUSED for a fault, and outside 3D. */
 static status read_sections(struct reader *r)
 {
     const struct yaml_node *map = r->sections;
@@ -247,7 +254,8 @@ status read_regions(struct reader *r, const struct yaml_node *root)
 
 static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before);
 
-/* Reads the operand of add, subtract or intersect: a solid, or a group if it is a list or has motions. */
+/* Reads the operand of add, subtract or intersect into s: one solid, or a group if the operand is a list or has
+ * motions. n: node of the solid; what: its entry with the operation. Returns REFUSED for an invalid operand. */
 static status read_operation(struct reader *r, const struct yaml_node *n, const struct yaml_node *what, struct solid *s)
 {
     const bool cutting = r->cutting;
@@ -265,8 +273,9 @@ static status read_operation(struct reader *r, const struct yaml_node *n, const 
     return read;
 }
 
-/* Reads one solid with its motions, which may be the operand of add, subtract or intersect. signed_before: it is such
- * an operand already, so that another operation is REFUSED. */
+/* Reads the solid of node n with its motions into s. It may be the operand of add, subtract or intersect.
+ * signed_before: true if it is such an operand already; then another operation is refused. Returns REFUSED for an
+ * invalid solid, or too many copies. */
 static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before)
 {
     const struct yaml_node *child = NULL;
@@ -295,7 +304,9 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     return fault(r, n, "makes more than %g solids with its copies; fewer are expected", EFFORT_MOST);
 }
 
-/* Reads a list of solids. intersect: solids without an operation are intersected. */
+/* Reads the list of solids of node n into `region`. intersect: true if solids without an operation of their own are
+ * intersected instead of added. Returns REFUSED for an empty list, an invalid solid, and if the first one is
+ * subtracted. */
 static status read_solids(struct reader *r, const struct yaml_node *n, struct region *region, bool intersect)
 {
     if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "an empty list; at least one solid is expected");
@@ -320,14 +331,14 @@ status read_region(struct reader *r, const struct yaml_node *n, struct region *r
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates the corners of a crack without width. */
+/* Allocates the n corners of a crack c and sets its width to 0. */
 static void crack_make(struct crack *c, int n)
 {
     c->corner = memory_new("cracks", n, sizeof *c->corner);
     c->n = n, c->width = 0;
 }
 
-/* Computes n = (b - a) x (c - a). */
+/* Computes n = (b - a) x (c - a) for three points in space. */
 static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) {
@@ -336,8 +347,8 @@ static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX
     }
 }
 
-/* Returns REFUSED unless every corner is in the plane, and on the inner side of every edge, to a millionth of the
- * size. */
+/* Returns REFUSED unless the corners of crack c form a plane convex polygon: every corner is in the plane and on the
+ * inner side of every edge, to a millionth of the size of the polygon. n: node of the crack. */
 static status check_polygon(struct reader *r, const struct yaml_node *n, const struct crack *c)
 {
     real normal[DIM_MAX] = {0}, part[DIM_MAX];
@@ -374,7 +385,8 @@ static status read_polygon(struct reader *r, const struct yaml_node *n, struct c
     return check_polygon(r, n, c);
 }
 
-/* Reads the position of a crack: a point in 1D, a segment in 2D, a polygon in 3D. */
+/* Reads the position of crack c from node n: a point in 1D, a segment in 2D, a polygon in 3D. Returns REFUSED for keys
+ * of another space, and for a segment or polygon without extent. */
 static status read_crack_place(struct reader *r, const struct yaml_node *n, struct crack *c)
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
@@ -403,7 +415,8 @@ static status read_crack(struct reader *r, const struct yaml_node *n, struct cra
     return width ? read_key(r, key_find("cracks", "width"), width, c) : OK;
 }
 
-/* Appends the slits of all meshes in a shape to the cracks of the scene, at the position of each copy of a mesh. */
+/* Appends the slits of all meshes in a shape to the cracks of the scene s, once at the position of each copy of a
+ * mesh. */
 static void take_slits(struct scene *s, const struct region *shape)
 {
     const struct placement there = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

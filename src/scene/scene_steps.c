@@ -3,7 +3,8 @@
 
 #include "scene_internal.h"
 
-/* Returns REFUSED for keys that require inertia or time, which load steps do not have. */
+/* Returns REFUSED for keys that require inertia or time, which the load steps of solver static do not have. root: tree
+ * of the scene. */
 static status check_steps_motion(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -33,7 +34,8 @@ static status check_steps_motion(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for loads that load steps do not support. */
+/* Returns REFUSED for boundaries that load steps do not support: following loads, and velocities by formula, whose
+ * displacement is unknown. root: tree of the scene. */
 static status check_steps_loads(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -47,7 +49,8 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if no boundary loads or displaces the body. */
+/* Returns REFUSED if no boundary, gravity or rigid body of the scene loads or displaces the body. root: tree of the
+ * scene. */
 static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -88,8 +91,8 @@ status check_load_steps(struct reader *r, const struct yaml_node *root)
                  "distance grows");
 }
 
-/* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because
- * the echo of every scene writes all keys. */
+/* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because the
+ * echo of every scene writes all keys. root: tree of the scene. */
 status check_steps_given(struct reader *r, const struct yaml_node *root)
 {
     const struct scene_steps *s = &r->scene->steps;

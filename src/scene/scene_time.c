@@ -9,7 +9,8 @@
 #include "base/memory.h"
 #include "csv.h"
 
-/* Reads a table of [time, factor] with ascending times into f->t, f->value, [n]. */
+/* Reads the table n of pairs [time, factor] with ascending times into f->t [s], f->value [1]; f->n receives their
+ * number. Returns REFUSED for another form or order. */
 static status read_table(struct reader *r, const struct yaml_node *n, struct time_function *f)
 {
     const struct key *k = key_find("boundary.time", "table");
@@ -47,7 +48,8 @@ struct time_columns {
     const char *second;                                               /* name of another column of values; NULL: none */
 };
 
-/* Returns the kind of unit that the value of a boundary has, which a column of a file may have instead. */
+/* Returns the kind of unit that the value of boundary b has. A column of a file that gives its variation in time may
+ * have this unit instead. */
 static enum unit unit_of_boundary(const struct boundary *b)
 {
     switch (b->kind) {
@@ -61,8 +63,8 @@ static enum unit unit_of_boundary(const struct boundary *b)
     }
 }
 
-/* Examines the name of column k in the header, and stores k if it is the time or the column `wanted` (or any other
- * one if wanted is ""). REFUSED if its unit does not fit or the time is given twice. */
+/* Examines the name of column k in the header of the file, and stores k in c if it is the time or the column `wanted`
+ * (wanted "": the first other column). Returns REFUSED if its unit does not fit, or if the time is given twice. */
 static status column_take(struct time_columns *c, int k, char *name, const char *wanted)
 {
     char what[160];
@@ -84,7 +86,8 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
     return OK;
 }
 
-/* Finds the columns of the file from its header. */
+/* Finds the columns of time and value from the header of the file, its first line of data. wanted: name of the column
+ * of values; "": the only one beside the time. Returns REFUSED if a column is missing or ambiguous. */
 static status time_columns_find(struct time_columns *c, const char *wanted)
 {
     bool more;
@@ -117,7 +120,8 @@ static status time_number(const struct time_columns *c, const char *field, const
     return csv_fault(&c->in, field, "'%s' %s", field, what);
 }
 
-/* Reads the current line as entry f->n. */
+/* Reads the text `line` as entry f->n of time and value; does not change f->n. Returns REFUSED for a wrong number of
+ * values, no number, or a time not later than the previous one. */
 static status time_entry(const struct time_columns *c, char *line, struct time_function *f)
 {
     int k = 0, found = 0;
@@ -161,7 +165,8 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
     return f->n > 0 ? OK : status_set(REFUSED, "%s: there is no line with a time and a value below the header", c->in.path);
 }
 
-/* Reads `file: name` with `column: name`. Opens no file if the reader has files = false. */
+/* Reads the factor of time of boundary b from the CSV file that `file: name` gives, with `column: name` for the values.
+ * map: node of `time`. Opens no file if r->files is false. Returns REFUSED for invalid keys or files. */
 static status read_time_file(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     struct time_columns c = {.unit = unit_of_boundary(b)};
@@ -183,7 +188,8 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Reads the function of time of a boundary; it is 1 if n is NULL or `constant`. */
+/* Reads the factor of time of boundary b. n: node of `time`; NULL or `constant`: the factor is 1. Returns REFUSED for
+ * an unknown form or invalid values. */
 status read_time(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};

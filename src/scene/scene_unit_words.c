@@ -3,7 +3,8 @@
 
 #include "scene_internal.h"
 
-/* word: name of a unit, also its plural in s; meant: text of the message. */
+/* word: name of a unit that scenes do not have, also recognised with a plural s; meant: the unit to write instead, as
+ * text of a message. */
 static const struct {
     const char *word, *meant;
 } unit_words[] = {

@@ -62,8 +62,7 @@ static const struct symbol *symbol_named(const char *name, size_t length)
     return NULL;
 }
 
-/* Reads the symbol of a unit with or without a prefix, such as mm, GPa, kg or %, into *m. Returns false for unknown
- * symbols. */
+/* Reads a symbol of `length` characters with or without a prefix, such as mm or %, into *m; false: it is unknown. */
 static bool symbol_read(struct measure *m, const char *name, size_t length)
 {
     const struct symbol *symbol = symbol_named(name, length);
@@ -81,8 +80,8 @@ static bool symbol_read(struct measure *m, const char *name, size_t length)
     return true;
 }
 
-/* Returns twice the exponent after a symbol: `^2`, `2`, `^-1`, `^0.5`, a superscript digit; 2 if there is none, 0 if
- * it is malformed. */
+/* Returns twice the exponent at *at, behind the symbol of a unit: `^2`, `2`, `^-1`, `^0.5` or a superscript digit.
+ * Advances *at behind it. Returns 2 if there is no exponent, and 0 if it is malformed. */
 static int power_read(const char **at)
 {
     const char *c = *at;
@@ -112,7 +111,8 @@ static size_t symbol_length(const char *c)
     return n;
 }
 
-/* Reads one factor of a unit: `kg`, `m^3`, `sqrt(m)`. */
+/* Reads one factor of a unit at *at, such as `kg`, `m^3` or `sqrt(m)`, into *m and advances *at behind it. Returns
+ * false if it is malformed, or has a power of ten that is no multiple of 1/2. */
 static bool factor_read(struct measure *m, const char **at)
 {
     bool root = strncmp(*at, "sqrt(", 5) == 0;
@@ -129,7 +129,7 @@ static bool factor_read(struct measure *m, const char **at)
     return true;
 }
 
-/* Reads factors separated by spaces, `*` or `/`, and multiplies them. */
+/* Reads a product of factors separated by spaces, `*` or `/` into *sum. Returns false if the text is no unit. */
 static bool unit_read(struct measure *sum, const char *text)
 {
     *sum = (struct measure){{0, 0, 0}, 0};
@@ -157,8 +157,8 @@ static const struct unit_row *unit_of(const int twice[3])
     return NULL;
 }
 
-/* Returns true if the word at c is a unit: a symbol, alone or with 2 or 3 as its exponent. Names of variables can
- * begin with a symbol. */
+/* Returns true if the word at c is a unit: a symbol, alone or with 2 or 3 as its exponent. A longer word is not, since
+ * names of variables can begin with a symbol. */
 static bool is_unit_word(const char *c)
 {
     if (strncmp(c, "sqrt(", 5) == 0) c += 5;
@@ -167,8 +167,8 @@ static bool is_unit_word(const char *c)
     return !isalnum((unsigned char)*c) && *c != '_';
 }
 
-/* Returns the length of the unit at the beginning of a text and stores it in *sum. The unit is the longest product of
- * factors separated by spaces, `*` or `/`. Returns 0 if there is none. */
+/* Returns the length of the unit at the beginning of a text, and stores the unit in *sum. The unit is the longest
+ * product of factors separated by spaces, `*` or `/`. Returns 0 if there is none. */
 static size_t unit_length(struct measure *sum, const char *text)
 {
     const char *end = text;
@@ -214,7 +214,7 @@ void unit_write_text(const int twice[3], char *text, size_t capacity)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the length of `[+-] digits [. digits] [e [+-] digits]`, or 0. */
+/* Returns the length of `[+-] digits [. digits] [e [+-] digits]` at the beginning of c; 0 if there is no number. */
 static size_t number_length(const char *c)
 {
     const char *start = c;
@@ -236,7 +236,7 @@ static size_t number_length(const char *c)
     return (size_t)(c - start);
 }
 
-/* Returns the number in the first `length` characters times 10^(twice_ten/2), rounded once for a whole power. */
+/* Returns the number in c[length] times 10^(twice_ten/2). The product is rounded once if twice_ten is even. */
 static real number_value(const char *c, size_t length, int twice_ten)
 {
     const int half = twice_ten % 2 != 0, ten = (twice_ten - half) / 2; /* an odd one is half a power more */
@@ -251,8 +251,8 @@ static real number_value(const char *c, size_t length, int twice_ten)
     return half ? sqrt(10) * strtod(text, NULL) : strtod(text, NULL);
 }
 
-/* Returns a message if the text after or in a number shows a notation of other languages: grouped digits, decimal
- * comma, base 60, hexadecimal or octal. Returns NULL otherwise. length: number of characters read as a number. */
+/* Returns a message if the number at c has a notation of other languages: grouped digits, decimal comma, base 60,
+ * hexadecimal or octal. Returns NULL otherwise. length: number of characters that have been read as a number. */
 static const char *trap(const char *c, size_t length)
 {
     const char *digits = c + (*c == '+' || *c == '-');
@@ -272,15 +272,15 @@ struct complaint {
     size_t room;
 };
 
-/* Writes the message `wrong` with the expected kind of unit and an example to c.what. Returns false. */
+/* Writes the message `wrong`, the name of the expected unit and an example to c.what[c.room]. Returns false. */
 static bool complain(struct complaint c, const char *wrong, enum unit unit)
 {
     snprintf(c.what, c.room, "%s; %s is expected, as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
     return false;
 }
 
-/* Writes `text` with the letters of each symbol in the case that makes it a unit: GPa for Gpa. Returns false if that is
- * no unit, or if nothing changes. */
+/* Writes the unit `text` to out[capacity] with the letters of each symbol in the case that makes it a unit: GPa for
+ * Gpa. Returns false if that is no unit either, or if nothing changes. */
 static bool unit_in_other_case(const char *text, char *out, size_t capacity)
 {
     struct measure m;
@@ -302,8 +302,8 @@ static bool unit_in_other_case(const char *text, char *out, size_t capacity)
     return strcmp(out, text) != 0 && unit_read(&m, out);
 }
 
-/* Sets *ten to twice the power of ten that converts the unit to SI. Returns false, with a message, for a unit of
- * another kind. */
+/* Sets *ten to twice the power of ten that converts the unit unit_text to SI. unit: expected kind. Returns false, with
+ * a message in c, for an unknown unit or one of another kind. */
 static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit, int *ten)
 {
     struct measure m;
@@ -325,8 +325,8 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     return complain(c, wrong, unit);
 }
 
-/* Returns the seconds of min and h, which are no powers of ten and cannot be combined with other units; 0 for
- * another unit. */
+/* Returns the number of seconds in min and h, which are no powers of ten and cannot be combined with other units; 0 if
+ * `text` is neither or `unit` is not the time. */
 static int clock_seconds(const char *text, enum unit unit)
 {
     static const struct {
@@ -338,7 +338,7 @@ static int clock_seconds(const char *text, enum unit unit)
     return 0;
 }
 
-/* Returns the radians of rad and deg; 0 for another unit. Every angle needs a unit, since 30 could mean either. */
+/* Returns the radians in a rad or deg; 0 for another text. An angle needs its unit, since 30 could mean either. */
 static real angle_radians(const char *text)
 {
     if (strcmp(text, "rad") == 0) return 1;
@@ -353,8 +353,8 @@ static bool infinite_read(real *value, const char *text)
     return true;
 }
 
-/* Reads `/ number` at the beginning of a text into *divisor and returns its length. Returns 0 and sets *divisor to 1
- * if there is none. */
+/* Reads `/ number` at the beginning of c into *divisor and returns its length. Returns 0 and sets *divisor to 1 if
+ * there is no divisor. */
 static size_t divisor_read(const char *c, real *divisor)
 {
     const char *start = c;
@@ -414,8 +414,8 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     return in_bounds(c, *value, unit);
 }
 
-/* Returns the length of a unit min, h, rad or deg at the beginning of a text and stores its factor to s or rad in
- * *factor. Returns 0 and stores 1 if there is none. */
+/* Returns the length of a unit min, h, rad or deg at the beginning of a text, and stores its factor to s or rad in
+ * *factor; 0 and the factor 1 if there is none. *is_time: receives whether the unit is min or h. */
 static size_t factor_length(const char *text, real *factor, bool *is_time)
 {
     const size_t letters = symbol_length(text);

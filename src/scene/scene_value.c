@@ -35,7 +35,7 @@ const char *node_text(struct reader *r, const struct yaml_node *n)
     return *n->text ? text_for_message(r, n->text) : "no value";
 }
 
-/* Writes the name of a node for messages: its key, or the key of its list with an index, as in `velocity[1]`. */
+/* Writes the name of node n for messages to name[capacity]: its key, or that of its list as in `velocity[1]`. */
 static void node_name(const struct yaml_node *n, char *name, size_t capacity)
 {
     if (n->key) {
@@ -96,7 +96,7 @@ status fault_keys_exclude(const struct reader *r, const struct yaml_node *a, con
     return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
 }
 
-/* Returns a description of the value that a key expects, for the message that the key is missing. */
+/* Returns, for a message, what values key k expects. The text is static or in the reader's arena. */
 static const char *form_text(struct reader *r, const struct key *k)
 {
     switch (k->type) {
@@ -162,7 +162,7 @@ static status fault_unknown(const struct reader *r, const struct yaml_node *n, c
     return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
 }
 
-/* Returns REFUSED if a key of a mapping is unknown in its group or given twice. */
+/* Returns REFUSED if a key of the mapping `map` is unknown in the group with this path, or is given twice. */
 status check_keys(struct reader *r, const struct yaml_node *map, const char *group)
 {
     for (const struct yaml_node *n = map->first; n; n = n->next) {
@@ -193,7 +193,7 @@ status expect_list(struct reader *r, const struct key *k, const struct yaml_node
 
 /* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED with the expected range if the value is outside it. */
+/* Returns REFUSED, with the expected range, if `value` [SI], read from node n, is outside the range of key k. */
 static status check_range(struct reader *r, const struct key *k, const struct yaml_node *n, real value)
 {
     const struct range *range = &k->range;
@@ -233,7 +233,7 @@ status read_number(struct reader *r, const struct key *k, const struct yaml_node
     return check_range(r, k, n, *value);
 }
 
-/* Reads an expression whose value is a whole number within rounding. */
+/* Reads an expression from node n into *value. Returns REFUSED unless it is a whole number to a relative 1e-9. */
 static status read_whole(struct reader *r, const struct yaml_node *n, real *value)
 {
     char what[256];
@@ -245,7 +245,7 @@ static status read_whole(struct reader *r, const struct yaml_node *n, real *valu
     return fault(r, n, "%s is %g; a whole number is expected", node_text(r, n), number);
 }
 
-/* Reads a whole number. Numbers beyond 32 bits are clamped and then refused by the range of the key. */
+/* Reads a whole number from node n into *value. Returns REFUSED for other texts and outside the range of key k. */
 static status read_int(struct reader *r, const struct key *k, const struct yaml_node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
@@ -302,7 +302,7 @@ static status read_choice(struct reader *r, const struct key *k, const struct ya
     return OK;
 }
 
-/* Returns the word of a|b|c that is most similar to the text; NULL if none is similar. */
+/* Returns the word of a|b|c nearest to `text` by edit distance, in the reader's arena; NULL: none is similar. */
 static const char *word_near(struct reader *r, const char *words, const char *text)
 {
     const char *nearest = NULL;
@@ -315,7 +315,7 @@ static const char *word_near(struct reader *r, const char *words, const char *te
     return nearest;
 }
 
-/* Reads a list of words, `none` or `all` as bits in the order of the words. REFUSED for unknown words. */
+/* Reads a list of words, `none` or `all` from node n: one bit of *bits per word of k->words. REFUSED for others. */
 static status read_set(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned *bits)
 {
     const char *words = words_for_message(r, k->words);
@@ -338,7 +338,7 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
     return OK;
 }
 
-/* Reads a text of fewer than NAME_MAX_LENGTH characters into name, for names that another file defines. */
+/* Reads any text from node n into name[NAME_MAX_LENGTH]. Returns REFUSED if it is empty or too long. */
 static status read_any_text(struct reader *r, const struct yaml_node *n, char *name)
 {
     const size_t length = strlen(n->text);
@@ -350,7 +350,7 @@ static status read_any_text(struct reader *r, const struct yaml_node *n, char *n
     return OK;
 }
 
-/* Reads a name of letters, digits, _ and - into name, [NAME_MAX_LENGTH]. */
+/* Reads letters, digits, _ and - from node n into name[NAME_MAX_LENGTH]. Returns REFUSED for another text. */
 static status read_name(struct reader *r, const struct yaml_node *n, char *name)
 {
     size_t length = strlen(n->text), fine = 0;
@@ -381,7 +381,7 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
     return OK;
 }
 
-/* Reads dim x dim numbers, row by row or in one list. */
+/* Reads dim x dim numbers, by rows or in one list, from node n into matrix[dim * dim] in the unit of key k. */
 static status read_matrix(struct reader *r, const struct key *k, const struct yaml_node *n, real *matrix)
 {
     int dim = r->dim, entry = 0;
@@ -398,7 +398,7 @@ static status read_matrix(struct reader *r, const struct key *k, const struct ya
 
 enum { SERIES_MOST = 100000 };
 
-/* Reads a list of ascending numbers. */
+/* Reads a list of ascending numbers from node n in the unit and range of key k. Returns REFUSED for another form. */
 static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
     TRY(expect_kind(r, n, NODE_LIST, "a list"));
@@ -421,7 +421,7 @@ static status fault_reference(struct reader *r, const struct yaml_node *n, const
     return fault(r, n, "there is no %s %s; the nearest is %s", what, node_text(r, n), nearest);
 }
 
-/* Finds the index of the material of this name. REFUSED with the nearest name. */
+/* Sets *index to the material that node n names. Returns REFUSED, with the nearest name, if there is none. */
 static status scene_value_read_material(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;
@@ -435,7 +435,7 @@ static status scene_value_read_material(struct reader *r, const struct yaml_node
     return fault_reference(r, n, "material", m[nearest].name);
 }
 
-/* Finds the index of the body of this name. REFUSED with the nearest name. */
+/* Sets *index to the body that node n names. Returns REFUSED for a rigid body and, with the nearest name, for none. */
 static status scene_value_read_body(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;
@@ -493,7 +493,7 @@ status read_key(struct reader *r, const struct key *k, const struct yaml_node *n
     }
 }
 
-/* Reads the default of a key that is not given; REFUSED at `where` if the key is required. */
+/* Reads the default of key k into `base`, the structure of its group. Returns REFUSED at `where` if k is required. */
 static status read_fallback(struct reader *r, const struct yaml_node *where, const struct key *k, void *base)
 {
     struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};

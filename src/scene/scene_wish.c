@@ -13,7 +13,7 @@
 
 /* ---- the key accuracy -------------------------------------------------------------------------------------------- */
 
-/* Reads the name of a quantity in summary.json, parts joined by points as in crack.start_time, into figure[capacity].
+/* Reads the name of a quantity in summary.json, such as crack.start_time, from node `of` into figure[capacity]. Returns
  * REFUSED for texts that cannot be such a name. */
 static status figure_read(struct reader *r, const struct yaml_node *of, char *figure, size_t capacity)
 {
@@ -25,7 +25,7 @@ static status figure_read(struct reader *r, const struct yaml_node *of, char *fi
 }
 
 /* Reads the key `accuracy`, a number or a mapping {of, within, budget}, into figure, within and budget of w; missing
- * entries get defaults. REFUSED for invalid entries. */
+ * entries get defaults. root: tree of the scene. Returns REFUSED for invalid entries. */
 static status accuracy_read(struct reader *r, const struct yaml_node *root, struct pilot_wish *w)
 {
     const struct yaml_node *n = tree_find(root, "accuracy");
@@ -42,7 +42,7 @@ static status accuracy_read(struct reader *r, const struct yaml_node *root, stru
 
 /* ---- the scene with a provisional method ------------------------------------------------------------------------- */
 
-/* Returns true if a material of the scene has this key. */
+/* Returns true if a material of the scene has this key. root: tree of the scene. */
 static bool material_key(const struct yaml_node *root, const char *key)
 {
     const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
@@ -51,8 +51,9 @@ static bool material_key(const struct yaml_node *root, const char *key)
     return has;
 }
 
-/* Reads the scene with a given method, and with provisional values for the other choices of the pilot runs, which
- * contradict no key of the scene. spacing: used if the scene has none [m]. The scene s is freed on failure. */
+/* Reads the scene in text[length] into s with the given method, and with provisional values for the other choices of
+ * the pilot runs that contradict no key of the scene. spacing: used if the scene has none [m]. Returns REFUSED, with s
+ * freed, if the scene is invalid. */
 static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s, const char *method,
                                real spacing)
 {
@@ -78,15 +79,17 @@ static status provisional_read(struct reader *r, const char *text, size_t length
     return read;
 }
 
-/* Reads the scene with method adaptive, or with pd if adaptive is refused, as it is for joined bodies. */
+/* Reads the scene in text[length] into s with method adaptive, or with pd if adaptive is refused, as it is for joined
+ * bodies. spacing: used if the scene has none [m]. Returns REFUSED, with s freed, if both are. */
 static status provisional_read_any(struct reader *r, const char *text, size_t length, struct scene *s, real spacing)
 {
     const status read = provisional_read(r, text, length, s, "adaptive", spacing);
     return read == REFUSED ? provisional_read(r, text, length, s, "pd", spacing) : read;
 }
 
-/* Reads the scene with its own spacing if it is given; otherwise with 1 m at first and then with a coarse spacing
- * that suits the lengths of the scene. */
+/* Reads the scene in text[length] into s with a provisional method. given: true if the scene has a spacing; otherwise
+ * it is read with 1 m first and then with a coarse spacing that resolves its lengths. Returns REFUSED if the scene is
+ * invalid. */
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given)
 {
     TRY(provisional_read_any(r, text, length, s, 1));
@@ -103,7 +106,8 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Reads what a scene with `method: auto` requires of its pilot runs into *w. */
+/* Reads into *w what a scene with `method: auto` requires of its pilot runs. root: tree of the scene; text[length]: its
+ * text. Returns REFUSED for an invalid scene, and for one with load steps. */
 status pilot_wish_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                        struct pilot_wish *w)
 {

@@ -98,7 +98,8 @@ static status fault_at(struct parse *p, yaml_mark_t mark, const char *what)
     return fault_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
 }
 
-/* Returns the line and column of a byte offset, since faults of the encoding have an offset only. */
+/* Returns the line and column, from 0, of a byte offset in the text: libyaml gives only the offset for faults of the
+ * encoding. */
 static yaml_mark_t mark_of_offset(const struct parse *p, size_t offset)
 {
     yaml_mark_t mark = {0};
@@ -129,8 +130,8 @@ static status next_event(struct parse *p, yaml_event_t *event)
     return fault_at(p, mark, "more than 1000000 YAML events; long data belong into a particle list");
 }
 
-/* Returns the fault of an event that a scene cannot contain: aliases, anchors and tags, NUL characters, deep
- * nesting; NULL: none. */
+/* Returns the message that an event of libyaml is not allowed in a scene: an alias, anchor or tag, a NUL character,
+ * nesting of more than DEPTH_MOST levels. Returns NULL if it is allowed. depth: levels of nesting. */
 static const char *event_refusal(const yaml_event_t *e, int depth)
 {
     const yaml_char_t *anchor = NULL, *tag = NULL;
@@ -183,7 +184,9 @@ static status read_items(struct parse *p, struct yaml_node *list, int depth)
     }
 }
 
-/* Reads a key and its value; the key's line and column become those of the entry. */
+/* Reads a key, whose event has been read, and its value, and appends the entry to `map`; line and column of the entry
+ * are those of the key. depth: levels of nesting above the mapping. Deletes the event. Returns REFUSED for invalid
+ * YAML. */
 static status read_entry(struct parse *p, struct yaml_node *map, yaml_event_t *key_event, int depth)
 {
     yaml_event_t event;
@@ -216,7 +219,8 @@ static status read_entries(struct parse *p, struct yaml_node *map, int depth)
     }
 }
 
-/* Reads the node that begins with `event` into *out, and deletes the event. depth: levels of nesting above it. */
+/* Reads the node that begins with `event` into *out, and deletes the event. depth: levels of nesting above the node.
+ * Returns REFUSED for invalid YAML and for YAML that a scene may not contain. */
 static status read_value(struct parse *p, yaml_event_t *event, int depth, struct yaml_node **out)
 {
     const char *refusal = event_refusal(event, depth);
@@ -239,7 +243,8 @@ static status read_value(struct parse *p, yaml_event_t *event, int depth, struct
     return OK;
 }
 
-/* Skips a stream or document event; `*type` is its type. REFUSED for a second document. */
+/* Skips one event that begins or ends the stream or a document, and stores its type in *type. Returns REFUSED if a
+ * second document begins. */
 static status skip_event(struct parse *p, yaml_event_type_t *type)
 {
     yaml_event_t event;
@@ -252,7 +257,8 @@ static status skip_event(struct parse *p, yaml_event_type_t *type)
                : OK;
 }
 
-/* Reads the one document of a text; *root is NULL if it is empty. */
+/* Reads the only document of the text p->text into the tree *root; NULL if the text is empty. Returns REFUSED for
+ * invalid YAML and for a second document. */
 static status read_document(struct parse *p, struct yaml_node **root)
 {
     yaml_event_t event;

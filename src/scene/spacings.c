@@ -14,7 +14,8 @@ struct lengths {
     real of[LENGTHS_MOST];
 };
 
-/* Returns the extent along an axis of the box that is the first solid of a body [m]; 0 if the first solid is no box. */
+/* Returns the extent along an axis of the box that is the first solid of a body [m]; 0 if the first solid is no box.
+ * body: index in the scene s; axis: 0 to 2. */
 static real box_extent(const struct scene *s, int body, int axis)
 {
     const struct region *shape = &s->body[body].shape;
@@ -27,7 +28,8 @@ static void length_add(struct lengths *l, real length)
     if (fabs(length) > 0 && l->n < LENGTHS_MOST) l->of[l->n++] = fabs(length);
 }
 
-/* Adds the distance of a coordinate X from the lower face of a box, if X is inside the box. */
+/* Appends the distance from the lower face of a box to the coordinate X [m] along an axis to the list l, if X is inside
+ * the box. */
 static void length_add_inside(struct lengths *l, const struct solid *box, int axis, real X)
 {
     if (X > box->from[axis] && X < box->to[axis]) length_add(l, X - box->from[axis]);
@@ -42,7 +44,8 @@ static void lengths_add_cracks(struct lengths *l, const struct scene *s, const s
     }
 }
 
-/* Collects the lengths that the spacing should divide: edges of bodies, and positions of gaps and cracks in them. */
+/* Collects in l the lengths of the scene s that the spacing should divide: edges of bodies, and positions of gaps and
+ * cracks in them. */
 static void lengths_collect(struct lengths *l, const struct scene *s)
 {
     l->n = 0;
@@ -59,21 +62,21 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
     }
 }
 
-/* Relative tolerance of lengths: scenes give them with few digits. */
+/* Relative tolerance for the equality of lengths [1]: scenes give them with few digits. */
 #define DIGITS 1e-6
 
-/* Returns the least number of equal spacings <= h in a length. */
+/* Returns the smallest number of equal spacings of at most h [m] into which a length [m] is divided. */
 static real spacings_in(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
 
-/* Returns true if a length is a whole number of units. */
+/* Returns true if a length is a whole number of times the length `unit`, to 1e-6. */
 static bool length_divides(real unit, real length)
 {
     const real count = length / unit;
     return fabs(count - round(count)) < 1e-6 * count;
 }
 
-/* Returns true if h divides all lengths and, with `even`, 2 h divides the edges of the body, so that cells of two
- * spacings end at its faces. */
+/* Returns true if the spacing h [m] divides all lengths in l and, with `even`, 2 h divides the edges of the first body,
+ * so that cells of two spacings end at its faces. */
 static bool spacing_fits(const struct lengths *l, const struct scene *s, real h, bool even)
 {
     for (int k = 0; k < l->n; k++)
@@ -111,7 +114,8 @@ real spacing_that_fits_lattice(const struct scene *s, real h, bool even)
 static const double particles_usual[] = {0, 200, 3000,
                                          8000}; /* number of particles in 1D, 2D, 3D; lengths can require more */
 
-/* Returns the spacing that resolves the extent of a body and the radii of its round solids [m]. */
+/* Returns the largest spacing that resolves the extent of a body of this shape and the radii of its round solids [m];
+ * INFINITY if the shape is infinite. */
 static double body_spacing(const struct scene *s, const struct region *shape)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -125,7 +129,7 @@ static double body_spacing(const struct scene *s, const struct region *shape)
     return least;
 }
 
-/* Returns the distance of X [dim, m] from the nearest face of the bounding box of the first body; faces on which X
+/* Returns the distance of X[dim] [m] from the nearest face of the bounding box of the first body [m]. Faces on which X
  * is do not count. */
 static double distance_to_face(const struct scene *s, const real *X)
 {
@@ -139,8 +143,8 @@ static double distance_to_face(const struct scene *s, const real *X)
     return least;
 }
 
-/* Returns the spacing that resolves the length of a crack and the distances of its ends from the faces of the body
- * [m]; INFINITY in 1D. */
+/* Returns the largest spacing that resolves the length of crack c and the distances of its ends from the faces of the
+ * first body [m]; INFINITY in 1D. */
 static double crack_spacing(const struct scene *s, const struct crack *c)
 {
     double squares = 0, least = INFINITY;
@@ -154,8 +158,8 @@ static double crack_spacing(const struct scene *s, const struct crack *c)
     return least;
 }
 
-/* Returns the spacing that resolves initial pulses, sinusoidal body forces and pulses in time [m]; INFINITY if there
- * are none. */
+/* Returns the largest spacing that resolves the initial pulses, sinusoidal body forces and pulses in time of the scene
+ * [m]; INFINITY if there are none. */
 static double load_spacing(const struct scene *s)
 {
     double least = INFINITY;
@@ -171,8 +175,8 @@ static double load_spacing(const struct scene *s)
     return least;
 }
 
-/* Returns the spacing that resolves the contours of a probe of stress-intensity factors [m]; INFINITY for other
- * probes. */
+/* Returns the largest spacing that resolves the contours of a probe p of stress-intensity factors [m]; INFINITY for
+ * other probes. */
 static double probe_spacing(const struct probe_request *p)
 {
     double least = INFINITY;
@@ -182,7 +186,7 @@ static double probe_spacing(const struct probe_request *p)
     return least;
 }
 
-/* Returns the spacing at which the bounding boxes of all bodies together contain a given number of particles [m]. */
+/* Returns the spacing [m] at which the bounding boxes of all bodies together contain a given number of particles. */
 static double spacing_for(const struct scene *s, double particles)
 {
     real from[DIM_MAX], to[DIM_MAX];
