@@ -12,7 +12,7 @@ struct boxed {
     int32_t item;
 };
 
-/* Orders boxes by middle, then by number. */
+/* Orders boxes by the coordinate of their middle, then by number, for array_sort. */
 static int boxed_order(const void *a, const void *b)
 {
     const struct boxed *p = a, *q = b;
@@ -20,14 +20,14 @@ static int boxed_order(const void *a, const void *b)
     return (p->item > q->item) - (p->item < q->item);
 }
 
-/* Returns the middle of a box along d, 0 if it is infinite. */
+/* Returns the coordinate d of the middle of a box [m]; 0 if the box is infinite along d. */
 static real middle_of(const struct bounds *box, int d)
 {
     const real middle = 0.5 * (box->low[d] + box->high[d]);
     return isfinite(middle) ? middle : 0;
 }
 
-/* Returns the direction along which the middles differ most. */
+/* Returns the axis along which the middles of n boxes differ most. list[n]: the boxes, as indices to `box`. */
 static int widest_spread(const struct boxed *list, int n, const struct bounds *box, int dim)
 {
     int widest = 0;
@@ -43,7 +43,8 @@ static int widest_spread(const struct boxed *list, int n, const struct bounds *b
     return widest;
 }
 
-/* Builds node `at` from the boxes list[0 .. n - 1], and its children. *nodes: number of nodes so far. */
+/* Builds node `at` of the tree from the boxes list[n], and recursively its children: both halves of the list, sorted by
+ * their middles along the axis of widest spread. *nodes: number of nodes so far. */
 static void boxes_halve(struct box_tree *t, int32_t at, int32_t *nodes, struct boxed *list, int n,
                         const struct bounds *box, int dim)
 {
@@ -82,7 +83,8 @@ void box_tree_free(struct box_tree *t)
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Adds a node to the nodes to be visited. */
+/* Appends a node of the tree to the list of nodes to be visited, with a lower bound of the distance of q->X from its
+ * box. */
 static void box_wait(struct box_search *q, int32_t node)
 {
     const struct bounds *box = &q->tree->node[node].box;

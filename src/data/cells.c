@@ -8,7 +8,8 @@
 
 /* ---- reference search -------------------------------------------------------------------------------------------- */
 
-/* Returns the cell of X; positions outside the box belong to the nearest cell. */
+/* Returns the index of the cell that contains X[dim] [m]; positions outside the box of the cells belong to the nearest
+ * cell. */
 static int64_t cells_cell_of(const struct cells *c, const real *X)
 {
     int64_t index = 0;
@@ -21,12 +22,12 @@ static int64_t cells_cell_of(const struct cells *c, const real *X)
     return index;
 }
 
-/* Cells per search radius: at the usual horizon cells are rows of the lattice, so that particles are found in ascending
- * order, and the cells around a point contain fewer particles beyond the radius. */
+/* Cells per search radius. At the usual horizon cells are then rows of the lattice, so that particles are found in
+ * ascending order, and the cells around a point contain fewer particles beyond the radius. */
 enum { CELLS_ACROSS = 3 };
 
-/* Chooses origin, size and number of cells. A box far larger than its particles would need more cells than particles:
- * larger cells are used then. */
+/* Sets origin, size and number of the cells, with CELLS_ACROSS cells along `edge` [m]. Uses larger cells for a box far
+ * larger than its particles, which would need more cells than particles. */
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -71,7 +72,8 @@ void cells_free(struct cells *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Sorts a list that is ascending except for images at its end (insertion sort). */
+/* Sorts the n indices `found` in ascending order by insertion. It is fast because only the images at the end of the
+ * list are out of order. */
 static void sort_ascending(int32_t *found, int n)
 {
     for (int k = 1; k < n; k++) {
@@ -92,7 +94,8 @@ struct search {
     bool ascending, any_order;
 };
 
-/* Appends the particles within the radius in the cells first .. last. */
+/* Appends to s->found the particles within the radius in the cells first .. last of one row, and counts them in s->n,
+ * also beyond the room of the list. */
 static inline void near_in_row(struct search *s, const struct particles *p, int64_t first, int64_t last, const int dim)
 {
     const int32_t *order = s->c->order;
@@ -109,14 +112,15 @@ static inline void near_in_row(struct search *s, const struct particles *p, int6
     }
 }
 
-/* Returns the distance of X from cells of index k in direction d, slightly reduced for round-off [m]. */
+/* Returns the distance of X[dim] from the cells whose index along axis d is k [m], slightly reduced for round-off; 0 if
+ * X is in them. */
 static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
 {
     const real low = c->origin[d] + (real)k * c->width;
     return real_max(0, real_max(low - X[d], X[d] - low - c->width) - 1e-9 * c->width - 1e-15 * fabs(X[d]));
 }
 
-/* Computes the range of cells in direction d within `reach` of X; low > high if there are none. */
+/* Sets *low .. *high to the cells along axis d that are within `reach` of X[dim] [m]; low > high if there are none. */
 static inline void cells_within(const struct cells *c, const real *X, int d, real reach, int64_t *low, int64_t *high)
 {
     reach = reach * (1 + 1e-12) + 1e-15 * fabs(X[d]); /* round-off of the distance */
@@ -126,7 +130,8 @@ static inline void cells_within(const struct cells *c, const real *X, int d, rea
     if (*high >= c->count[d]) *high = c->count[d] - 1;
 }
 
-/* Searches all cells within the radius. Returns the number of particles found. */
+/* Searches all cells within the radius of s->X, in ascending order unless any order is allowed. dim: number of
+ * dimensions, a constant. Returns the number of particles found, which may exceed the room of the list. */
 static inline int near(struct search *s, const struct particles *p, const int dim)
 {
     const struct cells *c = s->c;
@@ -150,7 +155,7 @@ static inline int near(struct search *s, const struct particles *p, const int di
     return s->n;
 }
 
-/* Searches in the dimension of the cells. */
+/* Calls `near` with the number of dimensions of the cells as a constant. Returns the number of particles found. */
 static int search(struct search *s, const struct particles *p)
 {
     switch (s->c->dim) {
@@ -171,7 +176,7 @@ int cells_find_near(const struct cells *c, const struct particles *p, const real
     return search(&s, p);
 }
 
-/* Returns the number of particles in the cells at most `reach` cells away from a cell. */
+/* Returns the number of particles in the cells at most `reach` cells away from a cell along each axis. */
 static int64_t around(const struct cells *c, int64_t cell, int64_t reach)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, sum = 0;

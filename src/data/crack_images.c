@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "data/region.h"
 
-/* Returns the height of X above the plane on the body's side [m]. */
+/* Returns the distance of X[dim] from a plane of symmetry [m], positive on the body's side. */
 static real inner_height(const struct mirror_plane *m, const real *X)
 {
     return (real)-m->outside * (X[m->axis] - m->at);
@@ -20,7 +20,8 @@ bool mirrors_continue_crack(const struct mirror_plane *m, int mirrors, const str
     return false;
 }
 
-/* Computes the intersection X of the segment a-b with the plane. */
+/* Computes the intersection X of the segment a-b with a plane of symmetry; its coordinate normal to the plane is
+ * exact. */
 static void plane_intersection(const struct mirror_plane *m, const real *a, const real *b, real *X)
 {
     const real share = inner_height(m, a) / (inner_height(m, a) - inner_height(m, b));
@@ -28,7 +29,8 @@ static void plane_intersection(const struct mirror_plane *m, const real *a, cons
     X[m->axis] = m->at;
 }
 
-/* Clips a crack to the body's side of the plane; a polygon may gain one corner, for which there must be room. */
+/* Clips a crack to the body's side of a plane of symmetry. A polygon may gain one corner, for which c->corner must have
+ * room. tolerance: distance below which a corner beyond the plane counts as inside [m]. */
 static void crack_clip(struct crack *c, const struct mirror_plane *m, real tolerance)
 {
     real(*corner)[DIM_MAX] = memory_new("crack.clip", c->n + 1, sizeof *corner);
@@ -44,7 +46,8 @@ static void crack_clip(struct crack *c, const struct mirror_plane *m, real toler
     memory_free(corner);
 }
 
-/* Appends a copy of crack c with room for `more` corners; of: index of the original. */
+/* Appends a copy of crack c, with room for `more` further corners, to the list `to` and returns it. of: index of the
+ * scene's crack from which c originates. */
 static struct crack *crack_add(struct crack_list *to, const struct crack *c, int of, int more)
 {
     GROW("crack.images", to->crack, to->n + 1);
@@ -57,8 +60,9 @@ static struct crack *crack_add(struct crack_list *to, const struct crack *c, int
     return new;
 }
 
-/* Appends the image of crack k, with its corners in reverse order, so that particles in its plane count as on the same
- * side. Omitted if the crack lies in the plane, or too far from it for bonds. */
+/* Appends the mirror image of crack k of the list. Its corners are in reverse order, so that particles in its plane
+ * count as on the same side. Does nothing if the crack is in the plane of symmetry, to `tolerance` [m], or farther from
+ * it than bonds reach, `reach` [m]. */
 static void image_add(struct crack_list *to, int k, const struct mirror_plane *m, real reach, real tolerance)
 {
     const struct crack c = to->crack[k];

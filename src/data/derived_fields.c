@@ -19,7 +19,8 @@ real tensor_determinant(const real s[6])
            s[XZ] * (s[XY] * s[YZ] - s[YY] * s[XZ]);
 }
 
-/* Rotates axes p and q of a such that a[p][q] becomes 0; rows of v are the axes (Golub & Van Loan, section 8.5). */
+/* Rotates the axes p and q of the symmetric matrix a such that a[p][q] becomes 0: one Jacobi rotation (Golub & Van
+ * Loan, section 8.5). v: matrix whose rows are the axes; its rows p and q are rotated as well. */
 static void axes_turn(real a[3][3], real v[3][3], int p, int q)
 {
     if (a[p][q] == 0) return;
@@ -37,7 +38,7 @@ static void axes_turn(real a[3][3], real v[3][3], int p, int q)
     a[p][q] = a[q][p] = 0;
 }
 
-/* Copies a unit vector, with the sign that makes its largest component positive. */
+/* Copies the unit vector axis[3] to to[3], with the sign that makes its largest component positive. */
 static void axis_put(const real *axis, real *to)
 {
     int most = 0;
@@ -69,7 +70,8 @@ void tensor_principal_values(const real s[6], real value[3], real direction[9])
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-/* Derived fields of one particle, for the table below: from its stress or velocity `from` to the value `to`. */
+/* Functions of the table below: each computes one derived field of a particle from its stress (6 components) or
+ * velocity (3), `from`, and stores the value or values in `to`. */
 static void mises_from(const real *from, real *to) { *to = tensor_mises_stress(from); }
 static void pressure_from(const real *from, real *to) { *to = -(from[XX] + from[YY] + from[ZZ]) / 3; }
 static void principal_from(const real *from, real *to) { tensor_principal_values(from, to, NULL); }

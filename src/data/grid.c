@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* Nodes beyond the outermost point: reach of the widest shape function, and one cell of motion. */
+/* Number of nodes beyond the outermost material point: reach of the widest shape function, and one cell of motion. */
 enum { MARGIN = 3 };
 #define NODE_FARTHEST 1e15 /* cells; farther away an index is no longer exact in a double */
 

@@ -15,7 +15,7 @@ struct piece {
     int turn;
 };
 
-/* Orders pieces by corners, then by origin. */
+/* Orders pieces, which are faces or edges, by their sorted corners, then by the face from which they originate. */
 static int piece_order(const void *a, const void *b)
 {
     const struct piece *p = a, *q = b;
@@ -24,13 +24,13 @@ static int piece_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Returns true if two pieces have equal corners. */
+/* Returns true if two pieces, which are faces or edges, have the same corners. */
 static bool piece_same(const struct piece *p, const struct piece *q)
 {
     return memcmp(p->corner, q->corner, sizeof p->corner) == 0;
 }
 
-/* Sorts the first n corners; each exchange reverses the orientation. */
+/* Sorts the first n corners of a face or edge in ascending order. Each exchange reverses its orientation p->turn. */
 static void piece_sort(struct piece *p, int n)
 {
     for (int round = 1; round < n; round++)
@@ -41,13 +41,14 @@ static void piece_sort(struct piece *p, int n)
         }
 }
 
-/* Returns true if a face has two equal corners. */
+/* Returns true if a face has two equal corners. face[dim]: indices of its corners. */
 static bool face_degenerate(const struct hull *s, const int32_t *face)
 {
     return face[0] == face[1] || (s->dim == 3 && (face[1] == face[2] || face[2] == face[0]));
 }
 
-/* Keeps one of several equal faces, or none if both orientations are equally frequent, as where two elements meet. */
+/* Replaces several faces with the same corners by one, in the orientation that is more frequent, or by none if both are
+ * equally frequent, as where two elements meet. Counts the removed faces in s->dropped. */
 static void faces_cancel(struct hull *s)
 {
     struct piece *piece = NEW("hull.pieces", s->faces, struct piece);
@@ -75,7 +76,8 @@ static void faces_cancel(struct hull *s)
 
 /* ---- open edges and components ----------------------------------------------------------------------------------- */
 
-/* Lists the edges (2D: end points) of all faces, sorted. Returns their number. */
+/* Lists the edges of all faces in side[faces * dim], in 2D the end points of the segments, sorted by their corners.
+ * Returns their number. */
 static int64_t sides_make(const struct hull *s, struct piece *side)
 {
     int64_t n = 0;
@@ -92,7 +94,7 @@ static int64_t sides_make(const struct hull *s, struct piece *side)
 }
 
 /* Counts in s->open_edges the edges (2D: end points) that adjacent faces do not traverse equally often in both
- * directions, so that the surface has a hole there. Stores the middle of the first one in s->open_at. */
+ * directions, so that the surface has a hole there. Stores the middle of the first such edge in s->open_at. */
 static void find_open(struct hull *s)
 {
     struct piece *side = NEW("hull.pieces", s->faces * s->dim, struct piece);
@@ -108,14 +110,15 @@ static void find_open(struct hull *s)
     memory_free(side);
 }
 
-/* Returns the lowest corner known to be connected with this one (union-find with path halving). */
+/* Returns the lowest corner known to be connected with `corner` (union-find with path halving). up[corners]: a lower
+ * connected corner of each corner, or the corner itself; shortened on the way. */
 static int32_t shell_root(int32_t *up, int32_t corner)
 {
     while (up[corner] != corner) corner = up[corner] = up[up[corner]];
     return corner;
 }
 
-/* Returns the number of connected components. */
+/* Returns the number of connected components of the surface. */
 static int64_t count_shells(const struct hull *s)
 {
     int32_t *up = NEW("hull.shells", s->corners, int32_t);
@@ -137,7 +140,8 @@ static int64_t count_shells(const struct hull *s)
 
 /* ---- measures ------------------------------------------------------------------------------------------------- */
 
-/* Computes the area vector of face k [m^2]; of a segment its length times its normal [m]. */
+/* Computes the area vector of face k, normal to it and of the length of its area [m^2]; for a segment in 2D of its
+ * length [m]. */
 void hull_face_area(const struct hull *s, int64_t k, real area[DIM_MAX])
 {
     const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];
@@ -152,8 +156,8 @@ void hull_face_area(const struct hull *s, int64_t k, real area[DIM_MAX])
     }
 }
 
-/* Returns the integral of div X / dim over the body: the sum of (X - X0) . area / dim; X0 is a corner, to keep
- * digits. */
+/* Returns the volume of the body inside the surface by Gauss's theorem: the sum of (X - X0) . area/dim over all faces
+ * [m^dim]. X0 is a corner, which preserves digits far from the origin. */
 static real volume_of(const struct hull *s)
 {
     real sum = 0;
@@ -174,7 +178,7 @@ real hull_support(const struct hull *s, const real *direction)
     return most;
 }
 
-/* Reverses the orientation of all faces. */
+/* Reverses the orientation of all faces of the surface s. */
 static void faces_reverse(struct hull *s)
 {
     for (int64_t k = 0; k < s->faces; k++) {
@@ -183,7 +187,8 @@ static void faces_reverse(struct hull *s)
     }
 }
 
-/* Initialises a surface with its corners and faces. */
+/* Initialises a surface with its corners and faces, of which s takes ownership. corner[corners]: positions [m];
+ * face[faces]: indices of dim corners each. */
 static void hull_take(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
                       int32_t (*face)[DIM_MAX])
 {

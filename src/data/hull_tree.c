@@ -18,7 +18,7 @@ struct leaflet {
     int32_t face;
 };
 
-/* Orders faces by their middles along an axis, then by number. */
+/* Orders faces by the coordinate of their middles along an axis, then by number. */
 static int leaflet_order(const struct leaflet *a, const struct leaflet *b, int axis)
 {
     const real x = a->middle[axis], y = b->middle[axis];
@@ -28,7 +28,8 @@ static int order_x(const void *a, const void *b) { return leaflet_order(a, b, 0)
 static int order_y(const void *a, const void *b) { return leaflet_order(a, b, 1); }
 static int order_z(const void *a, const void *b) { return leaflet_order(a, b, 2); }
 
-/* Computes box, dipole moment and centre of a node from its faces. */
+/* Computes box, dipole moment (sum of the area vectors) and area-weighted centre of node n from its faces. leaf: faces
+ * of the whole surface in the order of the tree, of which the node has n->count from n->first on. */
 static void node_measure(const struct hull *s, struct hull_node *n, const struct leaflet *leaf)
 {
     real weight = 0;
@@ -50,7 +51,8 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < s->dim; d++) n->centre[d] = weight > 0 ? n->centre[d] / weight : 0.5 * (n->low[d] + n->high[d]);
 }
 
-/* Halves a node at the median face along the longest edge of its box, recursively, down to LEAF faces. */
+/* Halves node `at` of the tree at the median face along the longest edge of its box, recursively, down to nodes of LEAF
+ * faces. leaf: faces of the whole surface, which are sorted into the order of the tree. */
 static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
 {
     static int (*const order[])(const void *, const void *) = {order_x, order_y, order_z};
@@ -92,8 +94,8 @@ void hull_build_face_tree(struct hull *s)
 
 /* ---- winding number ------------------------------------------------------------------------------------------- */
 
-/* Returns the solid angle of a triangle (van Oosterom, Strackee 1983, eq. 8) over 4 pi; of a segment its angle over 2
- * pi. */
+/* Returns the share of a face in the winding number at X: the solid angle of a triangle (van Oosterom, Strackee 1983,
+ * eq. 8) divided by 4 pi; for a segment in 2D its angle divided by 2 pi. face: indices of its corners. */
 static real face_winding(const struct hull *s, const int32_t *face, const real *X)
 {
     real arm[DIM_MAX][DIM_MAX], length[DIM_MAX];
@@ -110,8 +112,8 @@ static real face_winding(const struct hull *s, const int32_t *face, const real *
     return atan2(triple, below) / (2 * pi);
 }
 
-/* Adds the winding number of a node's dipole to *sum if X is FAR from it (Barill et al. 2018, first order). Returns
- * false if it is not. */
+/* Adds the winding number of the dipole of node n at X to *sum if X is far from the node, by FAR of its radii (Barill
+ * et al. 2018, first order). Returns false, and adds nothing, if it is not. */
 static bool node_winding(const struct hull *s, const struct hull_node *n, const real *X, real *sum)
 {
     real r2 = 0, radius2 = 0, along = 0;
@@ -159,7 +161,7 @@ real hull_ambiguous_fraction(const struct hull *s)
 
 /* ---- distance ------------------------------------------------------------------------------------------------- */
 
-/* Computes the point of segment a-b nearest to X. */
+/* Computes the point `nearest` [dim] of the segment a-b that is nearest to X. */
 static void segment_nearest(const real *a, const real *b, const real *X, int dim, real *nearest)
 {
     real along = 0, length2 = 0;
@@ -168,7 +170,7 @@ static void segment_nearest(const real *a, const real *b, const real *X, int dim
     for (int d = 0; d < dim; d++) nearest[d] = a[d] + share * (b[d] - a[d]);
 }
 
-/* Returns the squared distance of a and b. */
+/* Returns the squared distance between the points a and b [dim]. */
 static real apart2(const real *a, const real *b, int dim)
 {
     real sum = 0;
@@ -176,8 +178,9 @@ static real apart2(const real *a, const real *b, int dim)
     return sum;
 }
 
-/* Computes the point of a triangle nearest to X: the foot of X on its plane if inside, else the nearest point of its
- * edges. */
+/* Computes the point `nearest` of a triangle that is nearest to X: the foot of X on the triangle's plane if it is
+ * inside the triangle, else the nearest point of the edges. corner[3]: pointers to the corners; area: its area
+ * vector. */
 static void triangle_nearest(const real *corner[DIM_MAX], const real *area, const real *X, real *nearest)
 {
     const real area2 = dot(area, area, 3);
@@ -203,7 +206,7 @@ static void triangle_nearest(const real *corner[DIM_MAX], const real *area, cons
     }
 }
 
-/* Computes the point of face k nearest to X. */
+/* Computes the point `nearest` of face k of the surface that is nearest to X. */
 static void face_nearest(const struct hull *s, int64_t k, const real *X, real *nearest)
 {
     const real *corner[DIM_MAX];
@@ -225,8 +228,8 @@ static real box_apart2(const struct hull_node *n, const real *X, int dim)
     return sum;
 }
 
-/* Returns the face nearest to X among those with a squared distance below *r2, which is updated [m^2], and its nearest
- * point. */
+/* Returns the face nearest to X among those with a squared distance below *r2 [m^2]. Updates *r2 to that distance and
+ * `nearest` to the nearest point of the face. If there is no such face, both remain unchanged and 0 is returned. */
 static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, real *r2)
 {
     int32_t wait[DEEPEST], found = 0;
@@ -249,14 +252,15 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
     return found;
 }
 
-/* Returns true if X is outside the surface. */
+/* Returns true if X is outside the closed surface s: its winding number is below 1/2. Every point is outside an open
+ * surface. */
 static bool hull_outside(const struct hull *s, const real *X)
 {
     return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding_number(s, X) < 0.5;
 }
 
 /* Returns true if the signed distance of X from the surface, negative inside, is at most `max_distance` [m]. Faces
- * farther away than |most| are not searched: then only the side of X is determined. */
+ * farther than |max_distance| are not searched; only the side of X matters then. */
 bool hull_is_within(const struct hull *s, const real *X, real max_distance)
 {
     real size = 0, point[DIM_MAX];

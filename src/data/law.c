@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* Computes the lines of the segments of a hardening curve: their intercepts at a = 0 and slopes. */
+/* Computes the straight line of each segment of a hardening curve: its intercept c->start[k] [Pa] at plastic strain 0
+ * and its slope c->slope[k] [Pa]. The stress is constant beyond the last point. */
 static void curve_lines(struct flow_curve *c)
 {
     const int last = c->points - 1;

@@ -12,7 +12,9 @@ real bond_based_poisson_ratio(enum space space)
     return poisson[space];
 }
 
-/* Energy density of a uniform expansion s: bonds 1/4 c s^2 sigma; continuum 1/2 E s^2, 2 k2 s^2, 9/2 K s^2. */
+/* Computes the micro-modulus c of bonds in a family with the weight sum sigma, such that a uniform expansion s has
+ * equal energy densities: 1/4 c s^2 sigma of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of the
+ * continuum. */
 real material_micro_modulus(const struct material *m, enum space space, real sigma)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
@@ -20,7 +22,8 @@ real material_micro_modulus(const struct material *m, enum space space, real sig
     return factor[space_dim(space)] * m->bulk / sigma;
 }
 
-/* Energy match as in material_micro_modulus, with the integral of r over the horizon in place of the sum. */
+/* Computes the micro-modulus of bonds as material_micro_modulus does, with the integral of r over the horizon [m] in
+ * place of the sum over neighbours. section: cross-section in 1D [m^2], thickness in 2D [m]. */
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {
@@ -33,8 +36,8 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
     }
 }
 
-/* Returns the critical stretch of bond-based models: the energy of all bonds across a unit area at s_c equals G_c
- * (Silling & Askari 2005); the thickness cancels. */
+/* Returns the critical stretch s_c of bond-based models [1]: at s_c the energy of all bonds across a unit area equals
+ * G_c (Silling & Askari 2005). horizon [m]. The thickness cancels. */
 static real critical_bond(const struct material *m, enum space space, real horizon)
 {
     real ratio = m->energy_release_rate / (m->bulk * horizon);
@@ -57,7 +60,8 @@ real material_critical_stretch(const struct material *m, enum space space, real 
     return sqrt(m->energy_release_rate / (horizon * stiffness));
 }
 
-/* Returns Rayleigh's function D(v) = 4 a_d a_s - (1 + a_s^2)^2, positive below the Rayleigh speed (Freund 1990). */
+/* Returns Rayleigh's function D(v) = 4 a_d a_s - (1 + a_s^2)^2 with a^2 = 1 - v^2/c^2 (Freund 1990), positive for
+ * speeds v below the Rayleigh speed. longitudinal, shear: wave speeds c of a_d and a_s [m/s]. */
 static real rayleigh_function(real v, real longitudinal, real shear)
 {
     real d2 = 1 - square(v / longitudinal), s2 = 1 - square(v / shear);
@@ -108,8 +112,8 @@ void material_compute_constants(struct material *m, enum space space)
     m->rayleigh_speed = rayleigh_speed(m->wave_speed, m->shear_speed);
 }
 
-/* Fills an isotropic matrix: `diagonal` and `off` between normal components, `shear` on the diagonal of shear
- * components. */
+/* Fills the n x n matrix of an isotropic stiffness, n = symmetric_component_count(dim). diagonal, off: entries of
+ * normal components, on and off the diagonal; shear: diagonal entry of shear components. */
 static void isotropic_matrix(int dim, real diagonal, real off, real shear, real *matrix)
 {
     int n = symmetric_component_count(dim);

@@ -8,8 +8,8 @@
 
 #include "base/memory.h"
 
-/* Numbers of components of an array of particles, for the table below; optional: the optional arrays that the scene
- * needs (bits WITH_...). 0: the array does not exist. */
+/* Functions that return the number of components of an array of particles, for the table below; 0 if the array does not
+ * exist. dim: dimensions; optional: the optional arrays that the scene needs (bits WITH_*). */
 static int one(int dim, int optional) { return (void)dim, (void)optional, 1; }
 static int vector(int dim, int optional) { return (void)optional, dim; }
 static int symmetric(int dim, int optional) { return (void)optional, symmetric_component_count(dim); }
@@ -37,7 +37,9 @@ static int if_mesh_stress(int dim, int optional)
 }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
-/* `name`: name of the array in checkpoints. */
+/* Row of the table of particle arrays. name: its name in checkpoints; member: pointer in struct particles; count:
+ * function that returns the number of components; in_trials: true if it is plastic state, which ARCHIVE_TRIAL
+ * contains. */
 #define ROW(name, member, type, count, unit, meaning, in_trials)                                                       \
     {                                                                                                                  \
         name, unit, meaning, offsetof(struct particles, member), sizeof(type), count, in_trials                        \
@@ -80,15 +82,15 @@ const struct particle_field particle_fields[] = {
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* 4 vectors, 3 scalars, 6 + 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, strength,
- * damage, 4 indices, id; 2 scalars, a rotation and a moment of ends; work, back stress, temperature and stress of laws.
- */
+/* The number of pointers in struct particles: 4 vectors, 3 scalars, 6 + 6 + 9 + 3 components of tensors and stretch, 2
+ * of plasticity, 2 of return, strength, damage, 4 indices, id; 2 scalars, a rotation and a moment of ends; work, back
+ * stress, temperature and stress of laws. */
 _Static_assert(sizeof(struct particles) ==
                    offsetof(struct particles, X) + (5 * DIM_MAX + 54 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
-/* Returns the pointer to component k of an array of the table. It is copied byte by byte, since a `real *` must not be
- * read as a `void *`. */
+/* Returns the pointer to component k of the array f of the particles. The pointer is copied byte by byte, since a `real
+ * *` must not be read as a `void *`. */
 static void *get(const struct particles *p, const struct particle_field *f, int k)
 {
     void *array;
@@ -96,7 +98,7 @@ static void *get(const struct particles *p, const struct particle_field *f, int 
     return array;
 }
 
-/* Stores the pointer to component k of an array of the table, the reverse of `get`. */
+/* Stores `array` as the pointer to component k of the array f of the particles, the reverse of `get`. */
 static void particles_put(struct particles *p, const struct particle_field *f, int k, void *array)
 {
     memcpy((char *)p + f->offset + (size_t)k * sizeof array, &array, sizeof array);
@@ -161,7 +163,7 @@ struct place {
     int32_t id, index;
 };
 
-/* Orders sort keys. */
+/* Orders sort keys of particles by layer, row, position along x, id and index, for array_sort. */
 static int compare_places(const void *left, const void *right)
 {
     const struct place *a = left, *b = right;
@@ -207,8 +209,9 @@ real particles_longest_edge(const struct particles *p)
     return longest;
 }
 
-/* Computes the sort keys of all particles. The borders between rows are a quarter of the spacing below the particles of
- * the first row: no row of a lattice is near a border, so that round-off cannot split it. */
+/* Computes the sort keys place[p->n] of all particles. Rows and layers have the width `spacing` [m]. The borders
+ * between rows are a quarter of the spacing below the particles of the first row: no row of a lattice is near a border,
+ * so that round-off cannot split it. */
 static void find_places(const struct particles *p, real spacing, struct place *place)
 {
     real low[DIM_MAX] = {0}, high;
@@ -221,7 +224,8 @@ static void find_places(const struct particles *p, real spacing, struct place *p
     }
 }
 
-/* Permutes an array: array[i] = old array[place[i].index]. */
+/* Permutes an array of n entries of `size` bytes: array[i] = old array[place[i].index]. scratch: memory for as many
+ * entries. */
 static void permute(char *array, size_t size, const struct place *place, int64_t n, char *scratch)
 {
 #pragma omp parallel for schedule(static)
@@ -229,7 +233,7 @@ static void permute(char *array, size_t size, const struct place *place, int64_t
     array_copy(array, scratch, n, size);
 }
 
-/* Returns true if n sort keys are in ascending order. */
+/* Returns true if the n sort keys `place` are in ascending order. */
 static bool in_order(const struct place *place, int64_t n)
 {
     bool sorted = true;
@@ -257,14 +261,15 @@ void particles_sort(struct particles *p, real spacing, int optional)
     particles_update_lists(p);
 }
 
-/* Returns true if the eight particles from i on have one kind and are all, or none, points of the mesh. */
+/* Returns true if the eight particles i .. i + 7 have one kind, and either all or none of them are points of the
+ * mesh. */
 static bool eight_alike(const struct particles *p, int64_t i)
 {
     const uint64_t meshed = load_eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
     return eight_bytes_are_equal(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
-/* Appends the indices i .. i + more - 1 to list, which has *n entries before. */
+/* Appends the indices i .. i + more - 1 to the list, and increases *n, its number of entries. */
 static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
 {
     for (int l = 0; l < more; l++) list[*n + l] = (int32_t)i + l;
@@ -284,8 +289,9 @@ void particles_update_lists(struct particles *p)
     }
 }
 
-/* Returns true if a particle is marked for conversion: it lost a bond, has a high stress, or is near another body.
- * Eight particles are tested at a time; entries beyond the body are images, which never have these flags. */
+/* Returns true if a particle is marked for conversion from material point to peridynamics: it lost a bond, has a high
+ * stress, or is near another body. Eight particles are tested at a time; entries beyond the body are images, which
+ * never have these flags. */
 bool conversion_is_due(const struct particles *p)
 {
     uint64_t any = 0;

@@ -7,7 +7,7 @@
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of a and b. */
+/* Returns the distance between the points a and b [dim]. */
 static real distance_to(const real *a, const real *b, int dim)
 {
     real sum = 0;
@@ -15,7 +15,7 @@ static real distance_to(const real *a, const real *b, int dim)
     return sqrt(sum);
 }
 
-/* Computes the unit vector of b - a and returns its length; a length of 0 gives the vector 0. */
+/* Computes the unit vector from a to b [dim] and returns their distance. A distance of 0 gives the vector 0. */
 static real direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
 {
     real length = distance_to(a, b, dim), divisor = length > 0 ? length : INFINITY;
@@ -47,9 +47,9 @@ bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[
     return bounded;
 }
 
-/* Returns the volume of the region inside the box from..to [m^dim], estimated by the share of sample points inside the
- * region. The points are Kronecker's quasi-random sequence whose increments are powers of the root of g^(dim + 1) = g +
- * 1 (Roberts 2018). */
+/* Returns the volume of the region inside the box from .. to [m^dim], estimated by the share of sample points inside
+ * the region. The points are a Kronecker sequence with increments of the powers g^-1, g^-2, .. of the root g of g^(dim
+ * + 1) = g + 1 (Roberts 2018). */
 real region_volume(const struct region *r, int dim, const real *from, const real *to)
 {
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
@@ -81,7 +81,8 @@ void region_free(struct region *r)
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Returns the value of a table at t, by bisection: tables from files have thousands of entries. */
+/* Returns the value of the table f at time t [s], linear between its entries and constant outside. Bisects, since
+ * tables from files have thousands of entries. */
 static real table_at(const struct time_function *f, real t)
 {
     int low = 0, k = f->n - 1;
@@ -118,7 +119,8 @@ real time_function_value(const struct time_function *f, real t)
     }
 }
 
-/* Returns the integral of a table over 0 .. t: piece by piece, constant outside. */
+/* Returns the integral of the table f over the times 0 .. t [s], summed over its intervals. The table is constant
+ * before its first and after its last entry. */
 static real table_integral(const struct time_function *f, real t)
 {
     real sum = 0, from = 0;
@@ -152,7 +154,8 @@ real time_function_integral(const struct time_function *f, real t)
     }
 }
 
-/* Returns the largest slope of the pieces of a table that begin before t and end after 0. */
+/* Returns the largest absolute slope of the table f [1/s] among the intervals that begin before t [s] and end after
+ * 0. */
 static real table_steepest(const struct time_function *f, real t)
 {
     real most = 0;
@@ -182,7 +185,7 @@ real time_function_largest_slope(const struct time_function *f, real t)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Tolerance for touching, relative to the size of the crack. */
+/* Tolerance for touching a crack, relative to the size of the crack [1]. */
 static const real touch = 1e-9;
 
 /* Line (2D) or plane (3D) of a crack: unit normal, and the length that tolerances refer to. */
@@ -204,7 +207,7 @@ void crack_area_vector(const struct crack *c, real area[DIM_MAX])
     }
 }
 
-/* Computes the plane of a polygon. Returns false if it has no area. */
+/* Computes normal and size of the plane of a polygonal crack. Returns false if the crack has no area. */
 static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
 {
     real area[DIM_MAX], zero[DIM_MAX] = {0};
@@ -214,7 +217,8 @@ static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
     return direction(zero, area, 3, plane->normal) > 0;
 }
 
-/* Computes the line or plane of a crack. Returns false if the crack has no extent. */
+/* Computes the point (1D), line (2D) or plane (3D) of a crack: its unit normal, and the length to which tolerances
+ * refer. a, b: ends of a bond, whose length is used in 1D. Returns false if the crack has no extent. */
 static bool crack_plane(const struct crack *c, const real *a, const real *b, int dim, struct crack_plane *plane)
 {
     real along[DIM_MAX];
@@ -233,7 +237,8 @@ static bool crack_plane(const struct crack *c, const real *a, const real *b, int
     }
 }
 
-/* Returns true if point P of the plane is inside the closed polygon, i.e. on the inner side of every edge. */
+/* Returns true if point P of the crack's plane is inside the closed polygon of the crack, to a tolerance: on the inner
+ * side of every edge. */
 static bool polygon_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     for (int k = 0; k < c->n; k++) {
@@ -247,7 +252,7 @@ static bool polygon_holds(const struct crack *c, const struct crack_plane *plane
     return true;
 }
 
-/* Returns true if point P of the line is inside the closed segment. */
+/* Returns true if point P of the crack's line is inside the closed segment of the crack, to a tolerance. */
 static bool segment_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     real along[DIM_MAX];
@@ -256,7 +261,7 @@ static bool segment_holds(const struct crack *c, const struct crack_plane *plane
     return place >= -touch * plane->length && place <= (1 + touch) * plane->length;
 }
 
-/* Returns the height of X above the crack's plane [m]. */
+/* Returns the distance of X[dim] from the crack's plane along its normal [m], negative on the other side. */
 static real region_height(const struct crack *c, const struct crack_plane *plane, const real *X, int dim)
 {
     real sum = 0;
@@ -264,7 +269,8 @@ static real region_height(const struct crack *c, const struct crack_plane *plane
     return sum;
 }
 
-/* Returns true if the bounding boxes of the crack and a bond are apart by far more than the tolerance for touching. */
+/* Returns true if the bounding boxes of a crack and of the bond a-b are apart by far more than the tolerance for
+ * touching. */
 static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
 {
     real low[DIM_MAX], high[DIM_MAX], size = 0;
@@ -318,7 +324,7 @@ bool crack_may_cut_near(const struct crack *c, const real *X, real reach, int di
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the state of the wave at X at t = 0, in material of wave speed c [m/s]. */
+/* Returns velocity, displacement and strain of the wave w at X[dim] at t = 0, in a material with wave speed c [m/s]. */
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim)
 {
     const real root_of_pi = 1.77245385090551602730, radius = 0.25 * w->width;

@@ -26,13 +26,15 @@ real normal_quantile(real u)
     return q < 0 ? -x : x;
 }
 
-/* Returns a standard normal number from a hash. */
+/* Returns a standard normal number that depends on the hash alone: the quantile of its leading 53 bits. */
 static real noise_of(uint64_t hash) { return normal_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
-/* nodes along each direction, of a lattice of length/2; omitted nodes have weights below exp(-8) of the largest */
+/* Number of lattice nodes along each axis that contribute to the field at a point. The lattice has the spacing
+ * length/2; omitted nodes have weights below exp(-8) of the largest. */
 enum { NODES = 8 };
 
-/* Computes the weights of the nodes around a coordinate [lengths/2]. Returns the first node. */
+/* Computes the weights weight[NODES] of the lattice nodes around the coordinate `place` [lengths/2]. Returns the index
+ * of the first of these nodes. */
 static int64_t weights_along(real place, real weight[NODES])
 {
     const int64_t first = (int64_t)floor(place) - NODES / 2 + 1;
@@ -62,14 +64,16 @@ real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, 
     return sum / sqrt(squares);
 }
 
-/* Returns F^-1(Phi(g)) of Weibull's distribution of mean 1: (-ln(1 - Phi(g)))^(1/m)/Gamma(1 + 1/m). */
+/* Returns F^-1(Phi(g)) for a standard normal number g, where F is Weibull's distribution of modulus m and mean 1:
+ * (-ln(1 - Phi(g)))^(1/m)/Gamma(1 + 1/m). */
 static real weibull_of(real g, real m)
 {
     const real beyond = g > 0 ? -log(0.5 * erfc(g * M_SQRT1_2)) : -log1p(-0.5 * erfc(-g * M_SQRT1_2));
     return pow(beyond, 1 / m) / tgamma(1 + 1 / m);
 }
 
-/* Returns F^-1(Phi(g)) of the lognormal distribution of mean 1. */
+/* Returns F^-1(Phi(g)) for a standard normal number g, where F is the lognormal distribution of mean 1: exp(s g -
+ * s^2/2) with s^2 = ln(1 + variation^2). variation: coefficient of variation [1]. */
 static real lognormal_of(real g, real variation)
 {
     const real spread2 = log1p(square(variation));

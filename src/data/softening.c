@@ -5,7 +5,8 @@
 
 /* ---- curves ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the straight lines through the points (x[k], y[k]), k = 0 .. pieces, of a convex curve. */
+/* Stores in c the straight lines through the points (x[k], y[k]), k = 0 .. pieces, of a convex softening curve, and the
+ * area below them. x ascends from 0 to 1. */
 static void curve_through(struct softening_curve *c, int pieces, const real *x, const real *y)
 {
     *c = (struct softening_curve){.pieces = pieces};
@@ -18,8 +19,8 @@ static void curve_through(struct softening_curve *c, int pieces, const real *x, 
     c->from[pieces] = 1;
 }
 
-/* Computes points of the exponential curve whose chords all deviate alike: the density of points follows the root of
- * its curvature. */
+/* Computes the points x, y [SOFTENING_PIECES + 1] of the exponential softening curve such that all chords deviate from
+ * it equally: the density of points is proportional to the square root of its curvature. */
 static void exponential_points(real *x, real *y)
 {
     const real last = exp(-DECAY), whole = 1 - exp(-0.5 * DECAY);
@@ -30,7 +31,9 @@ static void exponential_points(real *x, real *y)
     x[SOFTENING_PIECES] = 1, y[SOFTENING_PIECES] = 0;
 }
 
-/* Bilinear softening of concrete: its kink is at a third of the strength, and at 2/9 of the way (Petersson 1981). */
+/* Returns the softening curve of a law: the force of a bond over that at the onset, as a function of the share 0 .. 1
+ * of the stretch from onset to failure. The bilinear curve of concrete has its kink at 2/9 of this stretch and 1/3 of
+ * the force (Petersson 1981). */
 struct softening_curve softening_curve_of(enum softening law)
 {
     struct softening_curve c;
@@ -44,7 +47,7 @@ struct softening_curve softening_curve_of(enum softening law)
     return c;
 }
 
-/* Returns the integral of G from 0 to x, 0 <= x <= 1 [1]. */
+/* Returns the area below the softening curve c from 0 to x [1], 0 <= x <= 1. */
 static real area_to(const struct softening_curve *c, real x)
 {
     real area = 0;
@@ -80,15 +83,17 @@ struct directions {
     real reach;
 };
 
-/* Returns the force of a bond over stiffness, weight and s_0 [1]. s: its stretch over s_0 [1]. */
+/* Returns the force of a bond over stiffness, weight and onset stretch s_0 [1]. s: stretch of the bond over s_0 [1].
+ * The force falls along the softening curve for s > 1, and is 0 beyond the last stretch. */
 static real bond_tension(const struct directions *a, real s)
 {
     if (s <= 1) return s;
     return a->reach > 0 ? softening_level(a->curve, (s - 1) / a->reach) : 0;
 }
 
-/* Returns the stresses of a family with the strains `axial` and, in all directions normal to it, `lateral`, both over
- * s_0 [1]. Bonds have nu = 1/3 in the plane (plane strain: with E' and nu/(1 - nu)) and 1/4 in a solid. */
+/* Returns axial and lateral stress over E' s_0 [1] of a family of bonds in all directions, strained by `axial` along
+ * one axis and by `lateral` in all directions normal to it, both over s_0 [1]. Bonds have nu = 1/3 in the plane (plane
+ * strain: with E' and nu/(1 - nu)) and 1/4 in a solid. */
 static struct stress_pair family_stress(const struct directions *a, real axial, real lateral)
 {
     struct stress_pair sum = {0, 0};
@@ -103,8 +108,8 @@ static struct stress_pair family_stress(const struct directions *a, real axial, 
     return (struct stress_pair){sum.axial * axial_factor / DIRECTIONS, sum.lateral * lateral_factor / DIRECTIONS};
 }
 
-/* Returns the strain x between `low` and 0 at which the stress `stress`, which grows with x, is 0, by bisection. given:
- * the other strain; both over s_0 [1]. */
+/* Returns the strain x over s_0 [1] at which the function stress(a, x, given) is 0, by bisection. The function grows
+ * with x and has its root between `low` and 0. given: the other strain over s_0 [1]. */
 static real strain_without_stress(const struct directions *a, real low, real given,
                                   real (*stress)(const struct directions *, real x, real given))
 {
@@ -119,8 +124,8 @@ static real strain_without_stress(const struct directions *a, real low, real giv
     return 0.5 * (low + high);
 }
 
-/* Stresses over E' s_0 [1] for strain_without_stress: the lateral one at an axial strain, the axial one at a lateral
- * strain, the sum of both at an axial strain. */
+/* Functions for strain_without_stress, all over E' s_0 [1] at strains over s_0 [1]: the lateral stress, the axial
+ * stress, the sum of both. */
 static real lateral_stress(const struct directions *a, real lateral, real axial)
 {
     return family_stress(a, axial, lateral).lateral;
@@ -150,15 +155,16 @@ static real biaxial_at(const struct directions *a, real strain)
     return family_stress(a, strain_without_stress(a, -2 * strain, strain, axial_stress), strain).lateral;
 }
 
-/* Shear stress, equal tension and pressure in two directions; in the plane only. */
+/* Returns the shear stress over E' s_0 [1] in the state of tension `strain` over s_0 [1] along one axis and equal
+ * pressure along the other, in the plane. Returns NAN in other spaces. */
 static real shear_at(const struct directions *a, real strain)
 {
     if (space_dim(a->space) != 2) return NAN;
     return family_stress(a, strain, strain_without_stress(a, -10 * strain, strain, stress_sum)).axial;
 }
 
-/* Returns the largest stress over growing strain, from the onset until the stress has fallen by a fifth or all bonds
- * have ended; NAN if the stress is not defined in this space. */
+/* Returns the largest value of stress(a, strain) over growing strain, from the onset until the stress has fallen by a
+ * fifth of its maximum or all bonds have ended. Returns NAN if the stress is not defined in this space. */
 static real peak(const struct directions *a, real (*stress)(const struct directions *, real))
 {
     real most = 0;

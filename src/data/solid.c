@@ -7,7 +7,8 @@
 
 /* ---- boxes, balls, half-spaces ----------------------------------------------------------------------------------- */
 
-/* Returns the distance of a point `at` from a box about the origin with half edges `half`, and the normal. */
+/* Returns the signed distance of the point at[dim] from a box about the origin with half edges half[dim], negative
+ * inside [m], and the outward normal in normal[dim]. */
 static real box_surface(const real *at, const real *half, int dim, real *normal)
 {
     real out2 = 0, nearest = -INFINITY, beyond[DIM_MAX];
@@ -23,7 +24,8 @@ static real box_surface(const real *at, const real *half, int dim, real *normal)
     return out > 0 ? out : nearest;
 }
 
-/* Returns the signed distance of X from a box parallel to the axes, negative inside [m], and the outward normal. */
+/* Returns the signed distance of X[dim] from a box parallel to the axes, negative inside [m], and the outward normal in
+ * normal[dim]. */
 static real box_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     real at[DIM_MAX], half[DIM_MAX];
@@ -34,7 +36,7 @@ static real box_from(const struct solid *s, const real *X, int dim, real *normal
     return box_surface(at, half, dim, normal);
 }
 
-/* Returns the largest of the signed distances of X from the faces of a box, <= 0 inside [m]. */
+/* Returns the largest of the signed distances of X[dim] from the planes of the faces of a box, <= 0 inside [m]. */
 static real box_level(const struct solid *s, const real *X, int dim)
 {
     real far = -INFINITY;
@@ -42,7 +44,7 @@ static real box_level(const struct solid *s, const real *X, int dim)
     return far;
 }
 
-/* Returns the support of a box: the maximum of X . along over its points X. */
+/* Returns the support of a box in direction along[dim]: the maximum of X . along over its points X. */
 static real box_support(const struct solid *s, const real *along, int dim)
 {
     real sum = 0;
@@ -51,7 +53,8 @@ static real box_support(const struct solid *s, const real *along, int dim)
     return sum;
 }
 
-/* Returns the distance of X from the centre, and the unit vector from there. */
+/* Returns the distance of X[dim] from the centre of the solid [m], and the unit vector from the centre to X in
+ * normal[dim]; along x if X is the centre. */
 static real centre_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     real r2 = 0;
@@ -61,20 +64,20 @@ static real centre_from(const struct solid *s, const real *X, int dim, real *nor
     return r;
 }
 
-/* Returns the signed distance of X from a ball, negative inside [m], and the outward normal. */
+/* Returns the signed distance of X[dim] from a ball, negative inside [m], and the outward normal in normal[dim]. */
 static real ball_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     return centre_from(s, X, dim, normal) - s->radius;
 }
 
-/* Returns the support of a ball: the maximum of X . along over its points X. */
+/* Returns the support of a ball in direction along[dim]: the maximum of X . along over its points X. */
 static real ball_support(const struct solid *s, const real *along, int dim)
 {
     return dot(s->centre, along, dim) + s->radius * sqrt(dot(along, along, dim));
 }
 
-/* Returns the signed distance of X from the solid between radii `inner` and `radius`, negative inside [m], and the
- * normal. */
+/* Returns the signed distance of X[dim] from the solid between the radii s->inner and s->radius, negative inside [m],
+ * and the outward normal in normal[dim]. */
 static real ring_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     const real r = centre_from(s, X, dim, normal), out = r - s->radius, in = s->inner - r;
@@ -82,7 +85,8 @@ static real ring_from(const struct solid *s, const real *X, int dim, real *norma
     return real_max(out, in);
 }
 
-/* Returns the signed distance of X from a half-space, negative inside [m], and the outward normal. */
+/* Returns the signed distance of X[dim] from a half-space, negative inside [m], and the outward normal in
+ * normal[dim]. */
 static real half_space_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     const real length = sqrt(dot(s->normal, s->normal, dim));
@@ -94,7 +98,8 @@ static real half_space_from(const struct solid *s, const real *X, int dim, real 
     return above;
 }
 
-/* Returns the signed distance of X from the face of a half-space [m]; INFINITY if its normal has no length. */
+/* Returns the signed distance of X[dim] from the face of a half-space, negative inside [m]; INFINITY if its normal has
+ * no length. */
 static real half_space_level(const struct solid *s, const real *X, int dim)
 {
     real length = sqrt(dot(s->normal, s->normal, dim)), above = 0;
@@ -102,8 +107,8 @@ static real half_space_level(const struct solid *s, const real *X, int dim)
     return length > 0 ? above / length : INFINITY;
 }
 
-/* Returns the support of a half-space, the maximum of X . along over its points X: finite only if `along` is its normal
- * up to round-off, else INFINITY. */
+/* Returns the support of a half-space in direction along[dim], the maximum of X . along over its points X. It is finite
+ * only if `along` has the direction of the normal, up to round-off, else INFINITY. */
 static real half_space_support(const struct solid *s, const real *along, int dim)
 {
     const real length = sqrt(dot(s->normal, s->normal, dim)), size = sqrt(dot(along, along, dim));
@@ -114,7 +119,8 @@ static real half_space_support(const struct solid *s, const real *along, int dim
 
 /* ---- bodies of revolution ---------------------------------------------------------------------------------------- */
 
-/* Computes the coordinates of X relative to the axis from .. to. */
+/* Returns the cylindrical coordinates of X relative to the middle of the axis s->from .. s->to: position along the
+ * axis, distance from it, and the unit vectors of both directions. */
 static struct axis_place axis_place_of(const struct solid *s, const real *X)
 {
     struct axis_place p = {0};
@@ -141,14 +147,14 @@ static struct axis_place axis_place_of(const struct solid *s, const real *X)
     return p;
 }
 
-/* Converts a normal in the half plane of axis and radius to 3D. */
+/* Converts a normal in the half-plane of axis and radius, in_plane[2], to the vector normal[3]. */
 static void axis_normal(const struct axis_place *p, const real in_plane[2], real *normal)
 {
     for (int d = 0; d < DIM_MAX; d++) normal[d] = in_plane[0] * p->axis[d] + in_plane[1] * p->out[d];
 }
 
-/* Returns the distance from a box in the half plane of axis and radius: from the inner to the outer radius; for a
- * cylinder the inner one is the mirror image of the outer. */
+/* Returns the signed distance of X from a cylinder or tube [m] and its outward normal in normal[3]. In the half-plane
+ * through axis and X it is a box from the radius `inner` to s->radius; the `inner` of a cylinder is -s->radius. */
 static real pipe_from(const struct solid *s, const real *X, real inner, real *normal)
 {
     const struct axis_place p = axis_place_of(s, X);
@@ -160,22 +166,22 @@ static real pipe_from(const struct solid *s, const real *X, real inner, real *no
     return distance;
 }
 
-/* Returns the signed distance of X from a cylinder, negative inside [m], and the outward normal. */
+/* Returns the signed distance of X[3] from a cylinder, negative inside [m], and the outward normal in normal[3]. */
 static real cylinder_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
     return pipe_from(s, X, -s->radius, normal);
 }
 
-/* Returns the signed distance of X from a tube with the radii `inner` and `radius`, negative inside [m], and the
- * normal. */
+/* Returns the signed distance of X[3] from a tube with the radii s->inner and s->radius, negative inside [m], and the
+ * outward normal in normal[3]. */
 static real tube_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
     return pipe_from(s, X, s->inner, normal);
 }
 
-/* Computes the unit vector of b - a and returns its length; a length of 0 gives the vector 0. */
+/* Computes the unit vector from a to b [dim] and returns their distance. A distance of 0 gives the vector 0. */
 static real solid_direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
 {
     real sum = 0;
@@ -185,7 +191,7 @@ static real solid_direction(const real *a, const real *b, int dim, real unit[DIM
     return length;
 }
 
-/* Returns the larger one of the signed distances of X from the mantle and from the ends of a cylinder, <= 0 inside
+/* Returns the larger of the signed distances of X[dim] from the mantle and from the ends of a cylinder, <= 0 inside
  * [m]. */
 static real cylinder_level(const struct solid *s, const real *X, int dim)
 {
@@ -196,8 +202,8 @@ static real cylinder_level(const struct solid *s, const real *X, int dim)
     return real_max(sqrt(across) - s->radius, real_max(-along, along - length));
 }
 
-/* Returns the support, the maximum of X . along over its points X, of a disc about `centre` normal to the axis of the
- * solid. */
+/* Returns the support in direction along[3], the maximum of X . along over its points X, of a disc about `centre`
+ * normal to the axis of the solid s. */
 static real end_support(const struct solid *s, const real *centre, real radius, const real *along)
 {
     real axis[DIM_MAX];
@@ -212,8 +218,8 @@ static real cylinder_support(const struct solid *s, const real *along, int dim)
     return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->radius, along));
 }
 
-/* Returns the signed distance of X from a cone [m] and the normal, both from its section in the plane through axis and
- * X: a trapezoid, or a triangle if the cone ends in a point. */
+/* Returns the signed distance of X[3] from a cone, negative inside [m], and the outward normal in normal[3]. Both
+ * follow from its section in the plane through axis and X: a trapezoid, or a triangle if the cone ends in a point. */
 static real cone_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
@@ -237,8 +243,8 @@ static real cone_support(const struct solid *s, const real *along, int dim)
     return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->inner, along));
 }
 
-/* Returns the signed distance of X from a torus [m] and the normal. The circle of radius `radius` about the axis
- * `normal` is the middle of a round section of radius `inner`. */
+/* Returns the signed distance of X[3] from a torus, negative inside [m], and the outward normal in normal[3]. The torus
+ * has a round section of radius s->inner along the circle of radius s->radius about the axis s->normal. */
 static real torus_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     struct solid line = {0};
@@ -263,7 +269,7 @@ static real torus_support(const struct solid *s, const real *along, int dim)
 
 /* ---- polygons, ellipsoids, extrusions, groups -------------------------------------------------------------------- */
 
-/* Returns the signed distance of X from a polygon in the plane, negative inside [m], and the outward normal. */
+/* Returns the signed distance of X[2] from a polygon, negative inside [m], and the outward normal in normal[2]. */
 static real polygon_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
@@ -283,15 +289,15 @@ static real ellipsoid_support(const struct solid *s, const real *along, int dim)
     return dot(s->centre, along, dim) + sqrt(sum);
 }
 
-/* Computes the two axes of the plane of an extrusion, in order. */
+/* Stores in axes[2] the two axes normal to the axis of an extrusion, in ascending order. */
 static void plane_axes(const struct solid *s, int axes[2])
 {
     axes[0] = s->axis == 0 ? 1 : 0;
     axes[1] = s->axis == 2 ? 1 : 2;
 }
 
-/* Returns the signed distance of X from an extrusion of a plane region along an axis, negative inside [m], and the
- * normal. */
+/* Returns the signed distance of X[3] from an extrusion of a plane region along an axis, negative inside [m], and the
+ * outward normal in normal[3]. */
 static real extrusion_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     int axes[2];
@@ -308,7 +314,8 @@ static real extrusion_from(const struct solid *s, const real *X, int dim, real *
     return outside > 0 ? outside : real_max(across, along);
 }
 
-/* Returns the larger one of the level of the plane region and the distance from the ends of an extrusion [m]. */
+/* Returns the level of X[3] for an extrusion, <= 0 inside: the larger of the level of its plane region and the signed
+ * distance from its ends [m]. */
 static real extrusion_level(const struct solid *s, const real *X, int dim)
 {
     int axes[2];
@@ -318,7 +325,7 @@ static real extrusion_level(const struct solid *s, const real *X, int dim)
     return real_max(region_level_set_value(&s->region, flat, 2), real_max(s->begin - X[s->axis], X[s->axis] - s->end));
 }
 
-/* Returns true if the level of X for an extrusion is at most `most` [m]. */
+/* Returns true if the level of X[3] for an extrusion, <= 0 inside, is at most `most` [m]. */
 static bool extrusion_within(const struct solid *s, const real *X, int dim, real most)
 {
     int axes[2];
@@ -370,7 +377,8 @@ static real hull_reach(const struct solid *s, const real *along, int dim)
     return hull_support(s->hull, along) + s->radius * sqrt(dot(along, along, dim));
 }
 
-/* Returns true if X is at most `most` [m] outside a surface that is extended by the radius of the solid. */
+/* Returns true if the signed distance of X[3] from the solid bounded by a surface, extended by s->radius, is at most
+ * `most` [m]. */
 static bool hull_holds(const struct solid *s, const real *X, int dim, real most)
 {
     (void)dim;
@@ -389,7 +397,8 @@ static real voxels_level(const struct solid *s, const real *X, int dim)
     return voxel_part_distance(s->voxels, X, NULL);
 }
 
-/* Returns the support, the maximum of X . along over its points X, of the box of the whole voxel image. */
+/* Returns the support in direction along[dim], the maximum of X . along over its points X, of the box of the whole
+ * voxel image. */
 static real voxels_reach(const struct solid *s, const real *along, int dim)
 {
     const struct voxels *v = s->voxels->of;
@@ -398,7 +407,7 @@ static real voxels_reach(const struct solid *s, const real *along, int dim)
     return sum;
 }
 
-/* Returns the distance from the solid that fills all of space: -INFINITY, with an arbitrary normal. */
+/* Returns the distance of X from the solid that fills all of space: -INFINITY, with an arbitrary normal. */
 static real all_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)s, (void)X;

@@ -8,7 +8,8 @@
 
 /* ---- motions ----------------------------------------------------------------------------------------------------- */
 
-/* Computes sine and cosine, exact where the angle is a whole number of quarter turns up to round-off. */
+/* Computes sine and cosine of an angle [rad]. Both are exact if the angle is a whole number of quarter turns up to
+ * round-off. */
 static void sine_cosine(real angle, real *sine, real *cosine)
 {
     const real quarter = 1.57079632679489661923, turns = nearbyint(angle / quarter);
@@ -20,7 +21,7 @@ static void sine_cosine(real angle, real *sine, real *cosine)
     *sine = sines[at], *cosine = cosines[at];
 }
 
-/* Computes the rotation matrix about the axis (Rodrigues' formula); in 2D from x to y. */
+/* Computes the rotation matrix R about the axis of motion m by an angle [rad] (Rodrigues' formula); in 2D about z. */
 static void solid_rotation(const struct solid_motion *m, real angle, int dim, real R[DIM_MAX][DIM_MAX])
 {
     real k[DIM_MAX] = {0, 0, 1}, s, c;
@@ -32,7 +33,7 @@ static void solid_rotation(const struct solid_motion *m, real angle, int dim, re
         for (int b = 0; b < DIM_MAX; b++) R[a][b] = (a == b) * c + s * cross[a][b] + (1 - c) * k[a] * k[b];
 }
 
-/* Computes the reflection matrix about the plane normal to the axis. */
+/* Computes the matrix R of the reflection at a plane normal to the axis of motion m: R = I - 2 a a^T/|a|^2. */
 static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_MAX][DIM_MAX])
 {
     const real length2 = dot(m->axis, m->axis, dim);
@@ -41,7 +42,8 @@ static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_M
             R[a][b] = (a == b) - (a < dim && b < dim ? 2 * m->axis[a] * m->axis[b] / length2 : 0);
 }
 
-/* Returns the placement `from` of a copy, transformed by the rotation or reflection R about the point `about` [m]. */
+/* Returns the placement of a copy of a solid that results if the placement `from` is rotated or reflected by the matrix
+ * R about the point `about` [m]. */
 static struct placement image_turned(const struct placement *from, real R[DIM_MAX][DIM_MAX], const real *about, int dim)
 {
     struct placement to = {0};
@@ -54,7 +56,7 @@ static struct placement image_turned(const struct placement *from, real R[DIM_MA
     return to;
 }
 
-/* Returns copy k that a motion makes of placement `from`. */
+/* Returns the placement of copy k that the motion m makes of a solid with the placement `from`. */
 static struct placement image_made(const struct placement *from, const struct solid_motion *m, int k, int dim)
 {
     struct placement to = *from;
@@ -75,7 +77,7 @@ static struct placement image_made(const struct placement *from, const struct so
     return stays ? to : image_turned(from, R, m->about, dim);
 }
 
-/* Returns the number of copies that a motion makes of one. */
+/* Returns the number of copies that the motion m makes of one solid. */
 static real motion_count(const struct solid_motion *m, int dim)
 {
     real count = 1;
@@ -86,7 +88,7 @@ static real motion_count(const struct solid_motion *m, int dim)
 
 /* ---- one copy ---------------------------------------------------------------------------------------------------- */
 
-/* Rotates the direction b back to the coordinates in which the solid was described: to = turn^T b. */
+/* Rotates the vector b[dim] back to the coordinates in which the solid was described: to = turn^T b. */
 static void turn_back(const struct placement *i, const real *b, int dim, real *to)
 {
     for (int c = 0; c < dim; c++) {
@@ -95,7 +97,8 @@ static void turn_back(const struct placement *i, const real *b, int dim, real *t
     }
 }
 
-/* Returns the support, the maximum of X . along over its points X, of one copy of a solid. */
+/* Returns the support in direction along[dim], the maximum of X . along over its points X, of one copy of a solid with
+ * placement i. */
 static real image_support(const struct solid *s, const struct placement *i, const real *along, int dim)
 {
     real own[DIM_MAX] = {0};
@@ -103,7 +106,8 @@ static real image_support(const struct solid *s, const struct placement *i, cons
     return solid_types[s->kind].support(s, own, dim) + dot(i->shift, along, dim);
 }
 
-/* Computes X in the coordinates of the solid as described. */
+/* Computes the position to[dim] of X[dim] in the coordinates in which the solid was described: to = turn^T (X - shift)
+ * with the placement i of a copy. */
 static void place_back(const struct placement *i, const real *X, int dim, real *to)
 {
     real off[DIM_MAX];
@@ -123,7 +127,8 @@ static real box_slack(const struct solid *s, int dim)
     return slack;
 }
 
-/* Computes the box of a copy, or of all copies (i = NULL), larger by more than round-off. */
+/* Computes the bounding box of the copy of a solid with placement i, or of all copies if i is NULL, enlarged by more
+ * than round-off and by box_slack. */
 static void placement_box(const struct solid *s, const struct placement *i, int dim, struct bounds *box)
 {
     const real slack = box_slack(s, s->kind == SOLID_EXTRUSION ? 2 : dim);
@@ -141,7 +146,7 @@ static void placement_box(const struct solid *s, const struct placement *i, int 
 
 void solid_bounding_box(const struct solid *s, int dim, struct bounds *box) { placement_box(s, NULL, dim, box); }
 
-/* Rebuilds the tree over the boxes of all copies. */
+/* Rebuilds the tree over the bounding boxes of all copies of a solid. */
 static void images_index(struct solid *s, int dim)
 {
     struct bounds *box = NEW("solids.box", s->images, struct bounds);
@@ -170,8 +175,8 @@ bool solid_add_motion(struct solid *s, const struct solid_motion *m, int dim)
 
 /* ---- all copies -------------------------------------------------------------------------------------------------- */
 
-/* Returns the signed distance of X from the nearest copy of the solid, negative inside [m], and its normal. If several
- * copies are equally near, the first one counts. */
+/* Returns the signed distance of X[dim] from the nearest copy of the solid, negative inside [m], and its outward normal
+ * in normal[dim]. If several copies are equally near, the first one counts. */
 real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
 {
     real nearest = INFINITY, own[DIM_MAX], at[DIM_MAX];
@@ -194,8 +199,8 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     return nearest;
 }
 
-/* Returns the level (solid_level_set_value, <= 0 inside) of X for the solid as described, before it is moved or copied
- * [m]. */
+/* Returns the level (solid_level_set_value, <= 0 inside) at X[dim] of the solid as described, before it is moved or
+ * copied [m]. */
 static real image_level(const struct solid *s, const real *X, int dim)
 {
     const struct solid_type *type = &solid_types[s->kind];
@@ -216,8 +221,8 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim)
     return nearest;
 }
 
-/* Returns true if the level (solid_level_set_value, <= 0 inside) of X for the solid as described, before it is moved or
- * copied, is at most `most` [m]. */
+/* Returns true if the level (solid_level_set_value, <= 0 inside) at X[dim] of the solid as described, before it is
+ * moved or copied, is at most `most` [m]. */
 static bool image_within(const struct solid *s, const real *X, int dim, real most)
 {
     const struct solid_type *type = &solid_types[s->kind];

@@ -5,10 +5,10 @@
 #include "base/memory.h"
 #include "solid_kinds.h"
 
-/* Returns the z component of a x b. */
+/* Returns the z component of the cross product a x b of two plane vectors. */
 static real cross2(const real *a, const real *b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/* Computes a - b. */
+/* Computes the plane vector to = a - b. */
 static void minus2(const real *a, const real *b, real to[2])
 {
     to[0] = a[0] - b[0];
@@ -24,8 +24,8 @@ struct nearest {
     bool at_corner;
 };
 
-/* Updates the nearest part of the outline with the edge a-b if this is nearer to X. sense: 1 if the corners are in
- * counter-clockwise order, else -1. */
+/* Updates n, the part of the outline nearest to X so far, with the edge a-b if this is nearer. sense: 1 if the corners
+ * are in counter-clockwise order, else -1. */
 static void edge_nearest(struct nearest *n, const real *a, const real *b, real sense, const real *X)
 {
     real along[2], arm[2], foot[2];
@@ -42,7 +42,8 @@ static void edge_nearest(struct nearest *n, const real *a, const real *b, real s
         r2, {foot[0], foot[1]}, {sense * along[1] / length, -sense * along[0] / length}, within != share};
 }
 
-/* Returns true if the polygon is convex at a round corner. */
+/* Returns true if the polygon is convex at a round corner. b: its arc; corner: its sharp position; sense: 1 if the
+ * corners are in counter-clockwise order, else -1. */
 static bool bend_convex(const struct bend *b, const real *corner, real sense)
 {
     real in[2], out[2];
@@ -51,8 +52,8 @@ static bool bend_convex(const struct bend *b, const real *corner, real sense)
     return sense * cross2(in, out) > 0;
 }
 
-/* Returns true if a direction from the centre of an arc is between those of its ends, which are less than half a turn
- * apart; false if the corner has no arc because its edges are collinear. */
+/* Returns true if the direction arm[2] from the centre of the arc b is between the directions of its ends, which are
+ * less than half a turn apart. Returns false if the corner has no arc because its edges are collinear. */
 static bool bend_contains(const struct bend *b, const real *arm)
 {
     real from[2], to[2];
@@ -62,7 +63,7 @@ static bool bend_contains(const struct bend *b, const real *arm)
     return turn != 0 && turn * cross2(from, arm) >= 0 && turn * cross2(arm, to) >= 0;
 }
 
-/* Updates the nearest part with the arc of corner k. */
+/* Updates n, the part of the outline nearest to X so far, with the arc of the polygon's corner k if this is nearer. */
 static void bend_nearest(struct nearest *n, const struct polygon *p, int k, const real *X)
 {
     real arm[2];
@@ -77,8 +78,8 @@ static void bend_nearest(struct nearest *n, const struct polygon *p, int k, cons
                           false};
 }
 
-/* Returns true if X is between corner k and the arc that rounds it: in this region the polygons with sharp and with
- * round corners differ. */
+/* Returns true if X[2] is between corner k and the arc that rounds it. Only in this region do the polygons with sharp
+ * and with round corners differ. */
 static bool bend_cuts(const struct polygon *p, int k, const real *X)
 {
     real arm[2];
@@ -98,7 +99,7 @@ static bool bend_cuts(const struct polygon *p, int k, const real *X)
     return true;
 }
 
-/* Returns true if a ray from X along x crosses the edge a-b. */
+/* Returns true if the ray from X[2] in the direction of +x crosses the edge a-b. */
 static bool edge_crossed(const real *a, const real *b, const real *X)
 {
     if ((a[1] > X[1]) == (b[1] > X[1])) return false;
@@ -158,7 +159,8 @@ static bool edges_meet(const real *a, const real *b, const real *c, const real *
     return left * right <= 0 && under * over <= 0;
 }
 
-/* Checks that edges that are not adjacent do not meet, and that adjacent edges do not fold back. */
+/* Checks the edges of a polygon: adjacent ones have a length and do not fold back, others do not meet. Returns the
+ * fault, or POLYGON_FINE. *corner: receives the corner at which the faulty edge begins. */
 static enum polygon_fault polygon_check(const struct polygon *p, int *corner)
 {
     real(*c)[2] = p->corner, one[2], two[2];
@@ -180,7 +182,7 @@ static enum polygon_fault polygon_check(const struct polygon *p, int *corner)
     return POLYGON_FINE;
 }
 
-/* Computes the arc of corner k. Returns the length that it takes from both edges [m]. */
+/* Computes the arc that rounds corner k. Returns the length by which it shortens both edges at the corner [m]. */
 static real bend_make(struct polygon *p, int k)
 {
     const real *at = p->corner[k], *before = p->corner[(k + p->n - 1) % p->n], *after = p->corner[(k + 1) % p->n];
@@ -200,7 +202,7 @@ static real bend_make(struct polygon *p, int k)
     return take;
 }
 
-/* Returns true if the edges at corner k are collinear, so that it cannot be rounded. */
+/* Returns true if the edges at corner k are collinear, so that the corner cannot be rounded. */
 static bool is_straight(const struct polygon *p, int k)
 {
     real in[2], out[2];
@@ -209,7 +211,8 @@ static bool is_straight(const struct polygon *p, int k)
     return fabs(cross2(in, out)) <= 1e-9 * sqrt(dot(in, in, 2) * dot(out, out, 2));
 }
 
-/* Computes all arcs; POLYGON_TIGHT if two arcs overlap on an edge. */
+/* Computes the arcs of all corners. Returns POLYGON_TIGHT if two arcs overlap on an edge, and stores the corner at
+ * which this edge begins in *corner; else POLYGON_FINE. */
 static enum polygon_fault bends_make(struct polygon *p, int *corner)
 {
     p->bend = NEW("solids.bend", p->n, struct bend);
@@ -252,7 +255,8 @@ enum polygon_fault polygon_make(struct polygon *p, int *corner)
 
 enum { STEPS = 200 };
 
-/* Returns F(t) = sum (e y / (t + e^2))^2 - 1 and its slope; y >= 0. */
+/* Returns F(t) = sum_d (e_d y_d/(t + e_d^2))^2 - 1 and its derivative *slope. e[dim]: half axes of an ellipsoid [m];
+ * y[dim]: a point with components >= 0 [m]. */
 static real ellipsoid_excess(const real *e, const real *y, int dim, real t, real *slope)
 {
     real sum = -1;
@@ -266,9 +270,10 @@ static real ellipsoid_excess(const real *e, const real *y, int dim, real t, real
     return sum;
 }
 
-/* Computes the point x of the surface nearest to y >= 0: x = e^2 y / (t + e^2) at the root of F beyond -e_min^2, where
- * F is decreasing and convex (Eberly 2013), so that Newton's steps from the left do not pass the root. On the plane
- * normal to the least axis there may be no root: then x is not in that plane. */
+/* Computes the point x[dim] of an ellipsoid's surface nearest to y[dim] >= 0: x_d = e_d^2 y_d/(t + e_d^2) at the root t
+ * of F (ellipsoid_excess) beyond -e_min^2. F is decreasing and convex there (Eberly 2013), so that Newton's steps from
+ * the left do not pass the root. If y is on the plane normal to the shortest half axis, there may be no root; then x is
+ * not in that plane. e[dim]: half axes [m]. */
 static void ellipsoid_foot(const real *e, const real *y, int dim, real *x)
 {
     int least = 0;

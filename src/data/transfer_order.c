@@ -8,7 +8,7 @@
 
 /* ---- blocks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the block of cell k in a direction where blocks are `edge` cells long. */
+/* Returns the index of the block that contains cell k along an axis on which blocks are `edge` cells long. */
 static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k >= 0 ? k : k - edge + 1) / edge; }
 
 /* The blocks that overlap the box of a grid. */
@@ -18,7 +18,7 @@ struct block_shape {
     int64_t cells_in_block, n;
 };
 
-/* Computes the blocks of a grid. */
+/* Returns the blocks that overlap the box of the grid g. */
 static struct block_shape block_shape_of(const struct grid *g)
 {
     struct block_shape s = {.dim = g->dim, .cells_in_block = 1, .n = 1};
@@ -31,7 +31,8 @@ static struct block_shape block_shape_of(const struct grid *g)
     return s;
 }
 
-/* Returns the colour of a block. */
+/* Returns the colour of a block, one bit per axis: whether its index along the axis is odd. Blocks of one colour are
+ * not adjacent. */
 static int block_colour(const struct block_shape *s, int64_t block)
 {
     int colour = 0;
@@ -42,7 +43,8 @@ static int block_colour(const struct block_shape *s, int64_t block)
     return colour;
 }
 
-/* Ranks the blocks: by colour, then by number. */
+/* Stores in rank[s->n] the rank of each block in the order by colour, then by number, and in o->blocks_of the first
+ * rank of each colour. */
 static void rank_blocks(struct transfer_order *o, const struct block_shape *s, int32_t *rank)
 {
     int32_t next = 0;
@@ -56,8 +58,8 @@ static void rank_blocks(struct transfer_order *o, const struct block_shape *s, i
 
 /* ---- room -------------------------------------------------------------------------------------------------------- */
 
-/* Extends the list of the first entries of cells, without keeping its contents, so that it holds `cells` cells with a
- * reserve. */
+/* Extends o->cell_start, the list of the first entries of cells, so that it holds `cells` cells with a reserve. Its
+ * contents are lost if it is extended. */
 static void cells_room(struct transfer_order *o, int32_t cells)
 {
     if (o->cells_room >= cells + 1) return;
@@ -97,10 +99,11 @@ struct sorting {
     uint16_t *inside, *sorted; /* [n] cell in the block; sorted by rank */
 };
 
-/* Returns the first entry of a chunk. */
+/* Returns the index of the first entry of a chunk of the list, one of s->chunks equal parts. */
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
 
-/* Returns the rank of the block of point i; *inside: its cell in the block. */
+/* Returns the rank of the block that contains point i. *inside: receives the index of its cell in the block. dim:
+ * dimensions, a constant. */
 static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint16_t *inside, const int dim)
 {
     int64_t block = 0, cell = 0;
@@ -115,8 +118,8 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint
     return s->rank[block];
 }
 
-/* Finds blocks and cells of a chunk's points and counts the points of each block; consecutive points of one block are
- * counted before they are added. */
+/* Finds blocks (s->key) and cells (s->inside) of the points of a chunk of the list, and counts the points of each block
+ * in s->fill. Consecutive points of one block are counted before they are added. dim: dimensions, a constant. */
 static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
 {
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
@@ -131,7 +134,7 @@ static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const 
     count[key] += (int32_t)(chunk_start(s, chunk + 1) - from);
 }
 
-/* Calls find_blocks in the dimension of the grid. */
+/* Calls find_blocks for a chunk of the list with the number of dimensions of the grid as a constant. */
 static void find_blocks_of(const struct sorting *s, int chunk)
 {
     switch (s->shape.dim) {
@@ -146,8 +149,8 @@ static void find_blocks_of(const struct sorting *s, int chunk)
     }
 }
 
-/* Replaces the number of points of each chunk in each block (s->fill) by the index of the first of them in a list
- * sorted by block, then by chunk. block_start [blocks + 1]: receives the first index of each block. */
+/* Replaces the number of points of each chunk in each block, s->fill, by the index of the first of them in a list
+ * sorted by block, then by chunk. block_start[blocks + 1]: receives the first index of each block. */
 static void add_up(const struct sorting *s, int32_t *block_start)
 {
     int32_t next = 0;
@@ -161,7 +164,8 @@ static void add_up(const struct sorting *s, int32_t *block_start)
     block_start[s->shape.n] = next;
 }
 
-/* Copies the points of a chunk and their cells to the indices of their blocks in s->bucket and s->sorted. */
+/* Copies the points of a chunk of the list to the indices of their blocks in s->bucket, and their cells to
+ * s->sorted. */
 static void put_in_blocks(const struct sorting *s, int chunk)
 {
     int32_t *fill = s->fill + chunk * s->shape.n, key = 0, at = fill[0];
@@ -176,7 +180,8 @@ static void put_in_blocks(const struct sorting *s, int chunk)
 
 enum { CELLS_IN_BLOCK_MOST = BLOCK_LENGTH * BLOCK_EDGE * BLOCK_EDGE };
 
-/* Sorts the n particles of a block by cell (counting sort, stable). Returns the number of cells with particles. */
+/* Sorts the n particles of a block by cell (counting sort, stable), from particle, inside to particle_to, inside_to.
+ * inside: cell of each particle in the block, below cells_in_block. Returns the number of cells with particles. */
 static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int32_t *particle_to, uint16_t *inside_to,
                              int64_t cells_in_block)
 {
@@ -196,7 +201,9 @@ static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int
     return cells;
 }
 
-/* Computes the first entry of each cell; on entry block_cell[b+1] is the number of cells of block b. */
+/* Computes o->cell_start, the first entry of each cell in the sorted list. On entry o->block_cell[b + 1] is the number
+ * of cells with points in block b; on return block_cell[b] is the first cell of block b. inside: cell of each entry in
+ * its block. */
 static void find_cells(struct transfer_order *o, const uint16_t *inside)
 {
     o->block_cell[0] = 0;
@@ -212,8 +219,8 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
     o->cell_start[o->cells] = (int32_t)o->n;
 }
 
-/* Allocates the working memory of a sort. Arrays are not cleared, since all entries are written before they are read. A
- * grid without nodes has no blocks and needs no chunks. */
+/* Allocates the working memory of a sort. The arrays are not cleared, since all entries are written before they are
+ * read. A grid without nodes has no blocks and needs no chunks. */
 static void sorting_make(struct sorting *s)
 {
     s->chunks = s->shape.n > 0 ? omp_get_max_threads() : 0;

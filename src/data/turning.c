@@ -7,7 +7,8 @@
 
 #include "base/memory.h"
 
-/* smallest radius of inertia of a group [spacings], for single points and, in 3D, lines; empirical */
+/* Smallest radius of inertia of a group of points that rotate together [spacings], for single points and, in 3D, lines;
+ * empirical. */
 #define LEAST_ARM 0.05
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
@@ -19,7 +20,7 @@ struct member {
     int32_t body, particle, off;
 };
 
-/* Compares the positions a and b of two groups of points, first their bodies. */
+/* Compares the integer positions a and b of two groups of points, first their bodies. Returns -1, 0 or 1. */
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
     if (body_a != body_b) return body_a < body_b ? -1 : 1;
@@ -28,7 +29,8 @@ static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int b
     return 0;
 }
 
-/* Compares two particles by the group of points to which they belong, then by position, then by number, for sorting. */
+/* Compares two particles by the group of points to which they belong, then by position, then by number, for
+ * array_sort. */
 static int by_member(const void *a, const void *b)
 {
     const struct member *p = a, *q = b;
@@ -45,15 +47,17 @@ static int by_group(const void *a, const void *b)
     return order_of_places(p->place, p->body, q->place, q->body);
 }
 
-/* Returns the integer position of the group of points that contains the coordinate u, relative to the middle of the
- * body [spacings]. odd: the middle of the body is the middle of a group, else it is a border between two. */
+/* Returns the integer position along an axis of the group of points that contains the coordinate u, measured from the
+ * middle of the body [spacings]. odd: true if the middle of the body is the middle of a group, false if it is a border
+ * between two. */
 static int64_t group_place(real u, bool odd)
 {
     const real far = floor((fabs(u) + (odd ? (TURNING_EDGE - 1) / 2.0 : TURNING_EDGE)) / TURNING_EDGE);
     return (int64_t)(u < 0 ? -far : far - !odd);
 }
 
-/* Returns the particles sorted by group and position; particle numbers may be arbitrary. Release with memory_free. */
+/* Returns the particles sorted by group and position; their order does not depend on their numbers. middle[3]: middle
+ * of the body [m]; one: index of the joined body for each body. Release it with memory_free. */
 static struct member *members_sorted(const struct particles *p, real spacing, const real *middle, const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
@@ -76,8 +80,8 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
     return all;
 }
 
-/* Stores the indices of the 26 groups of points around group g in its body: first those displaced along one axis, then
- * along two, then along three; -1 where there is none. */
+/* Stores in own->near the indices of the 26 groups of points around group g of the same body: first those displaced
+ * along one axis, then along two, then along three; -1 where there is none. */
 static void groups_near(struct rotation_groups *t, int32_t g)
 {
     struct turning_group *own = &t->group[g];
@@ -125,24 +129,27 @@ void rotation_groups_free(struct rotation_groups *t)
 
 /* ---- sums of a group --------------------------------------------------------------------------------------------- */
 
-/* Returns true if particle i is a point of the grid, not of the mesh. */
+/* Returns true if particle i is a material point of the grid, not a peridynamic particle or a point of the mesh. */
 static bool on_grid(const struct particles *p, int32_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
 }
 
-/* Loop over the members i of group g that are on the grid; all: all members are. */
+/* Loop over the members i of group g that are material points of the grid. all: true if all members are known to be,
+ * which saves the test. */
 #define FOR_POINTS(t, g, p, i, all)                                                                                    \
     for (int64_t m = (g)->first, last = (g)->end; m < last; m++)                                                       \
         for (int32_t i = (t)->member[m], once = (all) || on_grid(p, i); once; once = 0)
 
-/* Returns true if all members of group g are on the grid, by the count of sum_mass. */
+/* Returns true if all members of group g are material points of the grid, by the number g->points that sum_mass has
+ * counted. */
 static ALWAYS_INLINE bool all_on_grid(const struct turning_group *g) { return g->points == g->end - g->first; }
 
-/* Loop over the components c of spins: in 2D z alone. */
+/* Loop over the components c of an angular velocity or momentum: in 2D z alone. */
 #define FOR_SPINS(c, dim) for (int c = (dim) == 2 ? 2 : 0; c < 3; c++)
 
-/* Sums points, mass and first moment of group g. */
+/* Sums the number, mass and first moment (mass times position) of the points of group g into g. dim: dimensions, a
+ * constant. */
 static ALWAYS_INLINE void sum_mass(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
                                    const int dim)
 {
@@ -157,7 +164,8 @@ static ALWAYS_INLINE void sum_mass(const struct rotation_groups *t, struct turni
     memcpy(g->moment, moment, sizeof moment);
 }
 
-/* Sums the angular momentum that the points of group g have lost in the transfer to nodes and back (t->turn). */
+/* Sums into g->sum the angular momentum that the points of group g have lost in the transfer to nodes and back
+ * (t->turn). dim: dimensions, a constant. */
 static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
                                    const int dim)
 {
@@ -168,13 +176,15 @@ static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turni
     memcpy(g->sum, sum, sizeof sum);
 }
 
-/* Computes the arm r of point i about the centre of mass `centre` [m]. */
+/* Computes the arm r[3] of point i, its position relative to the centre of mass `centre` [m]. dim: dimensions, a
+ * constant. */
 static ALWAYS_INLINE void arm_of(const struct particles *p, int32_t i, const real *centre, real *r, const int dim)
 {
     for (int d = 0; d < DIM_MAX; d++) r[d] = d < dim ? p->x[d][i] - centre[d] : 0;
 }
 
-/* Adds the angular momentum of a point with mass m, arm r and velocity v to `sum`. */
+/* Adds the angular momentum m r x v of a point with mass m, arm r and velocity v to sum[3]. dim: dimensions, a
+ * constant. */
 static ALWAYS_INLINE void spin_add(real m, const real *r, const real *v, real *sum, const int dim)
 {
     FOR_SPINS(c, dim)
@@ -184,8 +194,8 @@ static ALWAYS_INLINE void spin_add(real m, const real *r, const real *v, real *s
     }
 }
 
-/* Sums tensor of inertia and angular momentum of the points of group g about the centre of mass of its root, the group
- * that it has joined. */
+/* Sums tensor of inertia (lower half) and angular momentum of the points of group g into g, about the centre of mass of
+ * its root, the group that it has joined. dim: dimensions, a constant. */
 static ALWAYS_INLINE void sum_inertia(const struct rotation_groups *t, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -207,7 +217,7 @@ static ALWAYS_INLINE void sum_inertia(const struct rotation_groups *t, struct tu
 }
 
 /* Adds the rotation root->spin of the root of group g, the group that it has joined, to the velocities of the points of
- * group g, and sums their angular momentum about the root's centre of mass. */
+ * group g. Sums their angular momentum about the root's centre of mass into g->sum. dim: dimensions, a constant. */
 static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
                                      const int dim)
 {
@@ -227,7 +237,7 @@ static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct tur
 }
 
 /* Stores the angular velocity of the root of group g, the group that it has joined, in t->turn for all points of group
- * g. */
+ * g. dim: dimensions, a constant. */
 static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -248,11 +258,12 @@ static int32_t group_root(const struct rotation_groups *t, int32_t g)
     return g;
 }
 
-/* Returns the number of axes along which neighbour k of a group is displaced. */
+/* Returns the number of axes along which neighbour k of a group, in the order of groups_near, is displaced. */
 static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
-/* Joins each group of fewer than TURNING_FEW points to the neighbour with the most points. Among neighbours with
- * equally many, those displaced along fewer axes come first, then those nearer to the middle of the body. */
+/* Joins each group of fewer than TURNING_FEW points to the neighbouring group with the most points. Among neighbours
+ * with equally many, those displaced along fewer axes come first, then those nearer to the middle of the body. Sets
+ * `root` of all groups. */
 static void few_join(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
@@ -272,14 +283,15 @@ static void few_join(struct rotation_groups *t)
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = group_root(t, g);
 }
 
-/* Returns the determinant of a symmetric tensor given by its lower half. */
+/* Returns the determinant of a symmetric tensor J given by its lower half. */
 static real inertia_determinant(const real J[3][3])
 {
     const real d = J[1][0], e = J[2][0], f = J[2][1];
     return J[0][0] * (J[1][1] * J[2][2] - f * f) + d * (e * f - d * J[2][2]) + e * (d * f - J[1][1] * e);
 }
 
-/* Solves J w = sum for a symmetric tensor J given by its lower half. */
+/* Solves J w = sum for the vector w[3]. J: symmetric tensor, given by its lower half; in 2D only the components zz of J
+ * and z of the vectors are used. */
 static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
 {
     if (dim == 2) {
@@ -293,8 +305,8 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
     w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
 }
 
-/* Adds the sums of all groups to those of their roots, the groups that they have joined, and computes the angular
- * velocity of each root from them. It is 0 without mass and in bodies that a support constrains. */
+/* Adds the angular momenta of all groups to those of their roots, the groups that they have joined, and computes the
+ * angular velocity of each root from them. It is 0 for groups without mass, and in bodies that a support constrains. */
 static void spins_find(struct rotation_groups *t, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -309,7 +321,7 @@ static void spins_find(struct rotation_groups *t, int dim)
 }
 
 /* Adds mass and first moment of all groups to those of their roots, the groups that they have joined, and divides the
- * first moments by the masses: `moment` is then the centre of mass. */
+ * first moments by the masses: `moment` is then the centre of mass [m]. */
 static void centres_find(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -323,8 +335,9 @@ static void centres_find(struct rotation_groups *t)
         for (int d = 0; d < DIM_MAX && t->group[g].mass > 0; d++) t->group[g].moment[d] /= t->group[g].mass;
 }
 
-/* Adds the inertia of all groups to that of their roots, the groups that they have joined. If the sum nearly vanishes
- * about some axis, it is increased by the inertia of its mass at a radius of LEAST_ARM spacings. */
+/* Adds the inertia of all groups to that of their roots, the groups that they have joined. If an inertia nearly
+ * vanishes about some axis, it is increased by that of the group's mass at a radius of LEAST_ARM spacings. spacing
+ * [m]. */
 static void inertias_find(struct rotation_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -340,7 +353,8 @@ static void inertias_find(struct rotation_groups *t, real spacing, int dim)
     }
 }
 
-/* Calls SUM for each group, with the number of dimensions as a constant. */
+/* Calls SUM(t, group, p, dim) for each group of points in t, in parallel, with the number of dimensions as a
+ * constant. */
 #define EACH_GROUP_OF(SUM, t, p, dim)                                                                                  \
     TEAM_LOOP((t)->groups > 16, for (int32_t g = 0; g < (t)->groups; g++) SUM(t, &(t)->group[g], p, dim);)
 #define EACH_GROUP(SUM, t, p)                                                                                          \

@@ -19,7 +19,7 @@ bool region_has_image(const struct region *r)
     return image;
 }
 
-/* Returns true if a solid is known to be convex. */
+/* Returns true if a solid is known to be convex, by its kind and because it is not copied. */
 static bool solid_convex(const struct solid *s)
 {
     switch (s->kind) {
@@ -36,7 +36,8 @@ static bool solid_convex(const struct solid *s)
     }
 }
 
-/* Extends the box from .. to by box s if their union is a box. Returns false if it is not. */
+/* Extends the box from .. to by the box s if their union is a box. Returns false, with the box unchanged, if it is
+ * not. */
 static bool box_joins(real *from, real *to, const struct solid *s)
 {
     int axis = -1;
@@ -50,7 +51,7 @@ static bool box_joins(real *from, real *to, const struct solid *s)
     return true;
 }
 
-/* Returns true if the solids of a region are boxes that make one box, each extending those before it. */
+/* Returns true if the solids of a region are boxes that together make one box, each extending those before it. */
 static bool region_is_box(const struct region *r)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -71,8 +72,9 @@ bool region_has_voids(const struct region *r)
 
 /* ---- along a line ------------------------------------------------------------------------------------------------ */
 
-/* Returns a lower bound of the signed distance of X from the surface of a body, negative inside [m]; -INFINITY if the
- * body has no shape, so that it hides nothing. */
+/* Returns a lower bound of the signed distance of X[dim] from the surface of a body, negative inside [m]; -INFINITY if
+ * the body has no shape, so that nothing is outside it. body: index. Positions beyond a plane of symmetry count as
+ * their mirror images. */
 static real void_level(const struct voids *v, int body, const real *X)
 {
     real at[DIM_MAX] = {0}, level = INFINITY;
@@ -92,14 +94,15 @@ struct void_line {
     real along[DIM_MAX], length;
 };
 
-/* Computes the point at distance `at` from the start of a segment. */
+/* Computes the point X[dim] of the segment l at the distance `at` [m] from its start. */
 static void line_place(const struct voids *v, const struct void_line *l, real at, real *X)
 {
     for (int d = 0; d < v->dim; d++) X[d] = l->from[d] + at * l->along[d];
 }
 
-/* Returns the length of the first part of a segment that is inside the body [m], l->length if it ends inside. Steps
- * have the length of the level, a lower bound of the distance, so that no surface is skipped (sphere tracing). */
+/* Returns the length of the first part of the segment l that is inside the body [m]; l->length if all of it is. Steps
+ * have the length of the level, a lower bound of the distance from the surface, so that no surface is skipped (sphere
+ * tracing). body: index. */
 static real line_inside(const struct voids *v, int body, const struct void_line *l)
 {
     real at = 0;
@@ -113,7 +116,8 @@ static real line_inside(const struct voids *v, int body, const struct void_line 
     return l->length;
 }
 
-/* Computes the direction in which the level increases fastest at a point of a segment, by differences. */
+/* Computes normal[dim], the direction in which the level of the body increases fastest at the distance `at` [m] from
+ * the start of the segment l, by central differences. It is not normalised. body: index. */
 static void line_normal(const struct voids *v, int body, const struct void_line *l, real at, real *normal)
 {
     const real step = 1e-4 * v->spacing;
@@ -150,7 +154,8 @@ bool void_separates_points(const struct voids *v, int body, const real *a, const
 
 /* ---- all particles ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if a void is between particles i and j of a body. v NULL: false. */
+/* Returns true if a void is between particles i and j of the same body: the segment that connects them leaves its
+ * shape. Returns false if v is NULL. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX] = {0}, b[DIM_MAX] = {0};
@@ -167,8 +172,8 @@ real voids_surface_distance_bound(const struct voids *v, const struct particles 
     return real_max(0, -void_level(v, p->body[i], X));
 }
 
-/* Returns true if the convex solid s and its images beyond the mirrors within `reach` of X form a convex set: no mirror
- * is near, or s is a box that reaches to the plane. */
+/* Returns true if the convex solid s and its mirror images at planes of symmetry within `reach` [m] of X[dim] form a
+ * convex set: no such plane is near, or s is a box that reaches to it. */
 static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, const real *X, real reach)
 {
     for (int m = 0; m < v->mirrors; m++) {
@@ -182,7 +187,7 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
 }
 
 /* Returns the set of convex solids of its body that contain particle i, one bit each, or ALONE if a single solid is
- * within `reach` of it. Returns 0 if a subtracted or intersecting solid is near, or if the body has more than
+ * within `reach` [m] of it. Returns 0 if a subtracted or intersecting solid is near, or if the body has more than
  * SOLIDS_MOST solids. No void is between two particles at most `reach` apart that one of these solids contains. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
@@ -207,9 +212,9 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
 }
 
 /* Returns VOID_NEAR if a segment from particle i to a particle of its body in `near` leaves the body, with VOID_ACROSS
- * if both surfaces that it crosses face each other; else 0. depth: [p->n_all] lower bounds of the particles' distances
- * from the surface [m]: a segment covered by the balls of these radii around its ends is inside; inside: [p->n_all]
- * results of solids_around. */
+ * added if both surfaces that it crosses face each other; else 0. depth[n_all]: lower bounds of the particles'
+ * distances from the surface [m]; a segment covered by the balls of these radii around its ends is inside.
+ * inside[n_all]: values of solids_around. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
                            int64_t i, const struct neighbour_list *near)
 {

@@ -15,7 +15,7 @@ void voxels_free(struct voxels *v)
     *v = (struct voxels){0};
 }
 
-/* Returns the voxel of X along direction d; limited to -1 .. n, so that it fits an integer. */
+/* Returns the index along axis d of the voxel that contains X[dim]; limited to -1 .. n, so that it fits an integer. */
 static int64_t voxel_along(const struct voxels *v, const real *X, int d)
 {
     const real at = floor((X[d] - v->from[d]) / v->size[d] + BORDER);
@@ -35,9 +35,9 @@ int voxels_grey_value(const struct voxels *v, const real *X)
 
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
-/* Replaces f by squared distances along one line: minimum over q of (size (p - q))^2 + f[q], the lower envelope of
- * parabolas (Felzenszwalb, Huttenlocher 2012). f: n entries, `stride` apart; room: 3 n + 1 numbers of working
- * memory. */
+/* Replaces the n entries of f along one line, `stride` apart, by squared distances: f[p] = min over q of (size (p -
+ * q))^2 + f[q], the lower envelope of parabolas (Felzenszwalb, Huttenlocher 2012). size: edge of a voxel along the line
+ * [m]. room: working memory of 3 n + 1 numbers. */
 static void line_distances(float *f, int64_t n, int64_t stride, real size, real *room)
 {
     real *border = room, *value = room + n + 1, *foot = value + n;
@@ -62,7 +62,7 @@ static void line_distances(float *f, int64_t n, int64_t stride, real size, real 
     }
 }
 
-/* Computes the numbers n of voxels with one more on each side. Returns their product. */
+/* Stores in n[3] the numbers of voxels along each axis with one more on each side. Returns their product. */
 static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
 {
     int64_t all = 1;
@@ -70,7 +70,8 @@ static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
     return all;
 }
 
-/* Computes squared distances of all voxels from those with f = 0; on entry all others are infinite. */
+/* Computes the squared distances f of all voxels of the padded grid from those with f = 0 [m^2]. On entry f is 0 or
+ * infinite. */
 static void grid_distances(const struct voxels *v, float *f)
 {
     int64_t n[DIM_MAX], stride = 1, all = padded(v, n);
@@ -88,7 +89,7 @@ static void grid_distances(const struct voxels *v, float *f)
     }
 }
 
-/* Returns true if a grey value is in one of the ranges. */
+/* Returns true if a grey value is in one of the ranges of p. */
 static bool grey_in(const struct voxel_part *p, int grey)
 {
     bool in = false;
@@ -127,7 +128,8 @@ void voxel_part_free(struct voxel_part *p)
     p->level = NULL;
 }
 
-/* Returns the index in the padded grid of the voxel at X, moved by `step` along `direction` (-1: none). */
+/* Returns the index in the padded grid, which has one more voxel on each side, of the voxel at X[dim], moved by `step`
+ * voxels along the axis `direction` (-1: not moved). Limited to the grid. */
 static int64_t level_index(const struct voxels *v, const real *X, int direction, int step)
 {
     int64_t n[DIM_MAX], at = 0;
@@ -140,7 +142,7 @@ static int64_t level_index(const struct voxels *v, const real *X, int direction,
     return at;
 }
 
-/* Returns the distance of X from the box of the image [m]. */
+/* Returns the distance of X[dim] from the box of the image [m]; 0 inside. */
 static real box_beyond(const struct voxels *v, const real *X)
 {
     real sum = 0;
