@@ -22,8 +22,8 @@ static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint
 
 /* ---- archive entries --------------------------------------------------------------------------------------------- */
 
-/* Composes the path of an archive entry in the file. Entries lie in one group: '/' becomes '.', so that the name of one
- * entry may be the beginning of another name. path: capacity `capacity` [byte]. */
+/* Composes the path of an archive entry in the HDF5 file, path[capacity]. All entries are in one group: '/' in the name
+ * becomes '.', so that the name of one entry may be the beginning of another name. */
 static void entry_path(char *path, size_t capacity, const char *name)
 {
     int length = snprintf(path, capacity, "/state/%s", name);
@@ -31,8 +31,8 @@ static void entry_path(char *path, size_t capacity, const char *name)
     for (char *c = path + strlen("/state/"); *c; c++) *c = *c == '/' ? '.' : *c;
 }
 
-/* Writes one archive entry. Returns OK also after a fault, which struct hdf keeps; the function that opened the file
- * reports it. */
+/* Writes one archive entry: `size` bytes of `data` under `name`. Returns FAILED after a fault of the file, which struct
+ * hdf records; the function that opened the file reports it. */
 static status entry_save(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -42,7 +42,8 @@ static status entry_save(struct archive *a, const char *name, void *data, size_t
     return f->failed ? FAILED : OK;
 }
 
-/* Reads one entry. FAILED if it is missing, of another size or unreadable. */
+/* Reads one archive entry, `size` bytes, into `data`. Returns FAILED if the entry is missing, of another size or
+ * unreadable. */
 static status entry_restore(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -73,8 +74,8 @@ static struct archive archive_of(struct hdf *f, bool saving)
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes the state to an HDF5 file under a temporary name, without the footer. archive_all(context, ...) passes all
- * entries. On a fault the file is removed. */
+/* Writes the state to an HDF5 file under the temporary name of `path`, without the footer. archive_all(context, a)
+ * passes all entries to the archive. Returns FAILED, and removes the file, on a fault. */
 static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
                           void *context)
 {
@@ -94,7 +95,8 @@ static status state_write(struct output *o, const char *path, const char *scene_
     return f.failed ? file_report_write_failure(path, f.cause) : s;
 }
 
-/* Syncs history.csv: the samples before a checkpoint must be on the disk before it. */
+/* Syncs history.csv to the disk: the samples before a checkpoint must be there before it. Returns FAILED if that is not
+ * possible. */
 static status history_sync(const struct output *o)
 {
     if (!o->history || (fflush(o->history) == 0 && fsync(fileno(o->history)) == 0)) return OK;
@@ -122,7 +124,7 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the open checkpoint belongs to this scene. */
+/* Returns true if the open checkpoint belongs to the scene with this text. */
 static bool same_scene(struct hdf *f, const char *scene_text)
 {
     int64_t length = hdf_dataset_size(f, "/Cleave/scene");
@@ -134,7 +136,8 @@ static bool same_scene(struct hdf *f, const char *scene_text)
     return same;
 }
 
-/* Restores the state from a file with a correct hash. FAILED for another format or another scene. */
+/* Restores the state from the checkpoint `path`, whose hash has been checked. archive_all(context, a) reads all
+ * entries. Returns FAILED for a file of another format or another scene, and if it cannot be read. */
 static status state_read(const char *path, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct hdf f;

@@ -19,9 +19,9 @@ struct hash {
     uint64_t lane[LANES_OF_HASH], length;
 };
 
-/* Mixes one word into a lane: the hash of Fowler, Noll and Vo (FNV-1a) on 64-bit words instead of bytes, with an
- * additional shift because a product carries only to higher bits. Invertible in `lane` and in `word`: a change of one
- * word changes the lane in all later steps. */
+/* Mixes one word into a lane of the hash and returns the new lane: the hash of Fowler, Noll and Vo (FNV-1a) on 64-bit
+ * words instead of bytes, with an additional shift because a product carries only to higher bits. It is invertible in
+ * `lane` and in `word`: a change of one word changes the lane in all later steps. */
 static inline uint64_t hash_step(uint64_t lane, uint64_t word)
 {
     lane = (lane ^ word) * UINT64_C(0x9E3779B97F4A7C15);
@@ -34,7 +34,7 @@ static void hash_start(struct hash *h)
     h->length = 0;
 }
 
-/* Adds `strides` blocks of STRIDE bytes to the hash. */
+/* Adds `strides` blocks of STRIDE bytes each to the hash, one word of each block to each lane. */
 static void hash_strides(struct hash *h, const unsigned char *bytes, size_t strides)
 {
     uint64_t a = h->lane[0], b = h->lane[1], c = h->lane[2], d = h->lane[3], word[LANES_OF_HASH];
@@ -48,7 +48,7 @@ static void hash_strides(struct hash *h, const unsigned char *bytes, size_t stri
     h->lane[0] = a, h->lane[1] = b, h->lane[2] = c, h->lane[3] = d;
 }
 
-/* Adds bytes to the hash, filled up with zeros to a multiple of STRIDE. */
+/* Adds `length` bytes to the hash, filled up with zeros to a multiple of STRIDE. */
 static void hash_add(struct hash *h, const unsigned char *bytes, size_t length)
 {
     unsigned char rest[STRIDE] = {0};
@@ -76,7 +76,8 @@ uint64_t bytes_hash(uint64_t start, const void *bytes, size_t length)
     return hash_value(&h);
 }
 
-/* Computes the hash of the first `length` bytes of an open file. Returns 0 or an errno. */
+/* Computes the hash *value of the first `length` bytes of the open file fd. Returns 0, or an errno if the file cannot
+ * be read. */
 static int hash_file(int fd, uint64_t length, uint64_t *value)
 {
     struct hash h;
@@ -125,7 +126,8 @@ bool file_has_footer(const char *path)
     return has;
 }
 
-/* Checks the footer of an open file. Returns NULL if the file is whole, else a phrase for a message. */
+/* Checks length and hash of the open file fd against its footer. Returns NULL if the file is whole, else a phrase for a
+ * message, such as "is empty". */
 static const char *open_fault(int fd)
 {
     struct stat s;

@@ -14,8 +14,9 @@ bool file_name_is_ignored(const char *name)
     return name[0] == '.' || (length > 4 && strcmp(name + length - 4, ".tmp") == 0);
 }
 
-/* Checks that a folder contains only hidden and temporary files and those that a folder of this kind has at first.
- * REFUSED with the name of another entry. */
+/* Checks that a folder contains only hidden files, temporary files and those that a folder of this kind has at first,
+ * so that a command may write into it. Returns REFUSED with the name of another entry; OK if there is no such
+ * folder. */
 static status entries_guard(const struct folder_kind *kind, const char *folder)
 {
     char found[PATH_NAME_ROOM] = "";

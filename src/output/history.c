@@ -11,10 +11,11 @@
 #include "output/output_files.h"
 #include "output/renamed_results.h"
 
-/* Returns the length of the entry that starts at `from`: up to a comma or the end of the line. */
+/* Returns the length of the entry of a CSV line that starts at `from`: up to a comma or the end of the line. */
 static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
 
-/* Returns an allocated copy of the name in `name [unit]`, without the unit. */
+/* Returns the name in a column heading of `length` characters, `name [unit]`, without the unit. Release it with
+ * memory_free. */
 static char *history_column_name(const char *from, size_t length)
 {
     char *name = NEW("history.name", (int64_t)length + 1, char);
@@ -37,8 +38,8 @@ static void read_header(struct history *h, const char *line)
     }
 }
 
-/* Reads one line into row[columns]. An entry that is not a number becomes NaN. Returns false if the number of entries
- * differs. */
+/* Reads one line of history.csv into row[columns]. An entry that is not a number becomes NAN. Returns false if the line
+ * has another number of entries. */
 static bool read_row(const struct history *h, const char *line, double *row)
 {
     const char *at = line;
@@ -53,8 +54,8 @@ static bool read_row(const struct history *h, const char *line, double *row)
     return true;
 }
 
-/* Reads all complete lines into h->value, [rows][columns]. FAILED, with file and line, for a malformed line. line,
- * room: buffer of getline. */
+/* Reads all complete lines of the open file `from` into h->value [rows][columns]. path: its name, for messages; line,
+ * room: buffer of getline. Returns FAILED, with file and line in the message, for a malformed line. */
 static status read_rows(struct history *h, FILE *from, const char *path, char **line, size_t *room)
 {
     ssize_t length;
@@ -113,7 +114,7 @@ void history_free(struct history *h)
     *h = (struct history){0};
 }
 
-/* Returns the index of the column with exactly this name; -1: none. */
+/* Returns the index of the column with exactly this name; -1 if there is none. */
 static int column_called(const struct history *h, const char *name)
 {
     for (int k = 0; k < h->columns; k++)

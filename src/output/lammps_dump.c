@@ -46,7 +46,7 @@ static status dump_open(struct dump *d, const char *path)
     return OK;
 }
 
-/* Reads the next line. Returns false at the end of the file or if the line is incomplete. */
+/* Reads the next line of the dump into d->text. Returns false at the end of the file and if the line is incomplete. */
 static bool dump_line(struct dump *d)
 {
     d->line++;
@@ -78,7 +78,8 @@ static status head_columns(struct dump *d, struct dump_head *h)
     return OK;
 }
 
-/* Reads the header of the next time step. Sets *more to false at the end of the file. */
+/* Reads the header of the next time step into h. Sets *more to false at the end of the file, also within a header.
+ * Returns FAILED for text that is no dump of LAMMPS. */
 static status head_next(struct dump *d, struct dump_head *h, bool *more)
 {
     *more = dump_line(d);
@@ -97,7 +98,7 @@ static status head_next(struct dump *d, struct dump_head *h, bool *more)
     return h->n < 0 ? dump_fault(d, "ITEM: NUMBER OF ATOMS is missing") : head_columns(d, h);
 }
 
-/* Skips n lines. Returns false if the file ends before. */
+/* Skips n lines of the dump. Returns false if the file ends before. */
 static bool skip_rows(struct dump *d, int64_t n)
 {
     bool more = true;
@@ -105,8 +106,8 @@ static bool skip_rows(struct dump *d, int64_t n)
     return more;
 }
 
-/* Appends the numbers of all complete time steps of a dump to step[], and counts them in *n. FAILED unless they
- * ascend. */
+/* Appends the numbers of all complete time steps of a dump to the array *step, of *n entries, which grows. Returns
+ * FAILED unless they ascend. */
 static status steps_read(struct dump *d, int *n, int64_t **step)
 {
     struct dump_head h;
@@ -137,7 +138,7 @@ status lammps_list_steps(const char *path, int *n, int64_t **step)
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-/* Allocates the arrays of a frame for the particles in a header. */
+/* Allocates the arrays of the frame f for the number of particles in the header h. */
 static void lammps_frame_make(struct lammps_frame *f, const struct dump_head *h)
 {
     f->n = h->n, f->step = h->step;
@@ -155,7 +156,8 @@ void lammps_frame_free(struct lammps_frame *f)
     *f = (struct lammps_frame){0};
 }
 
-/* Reads the wanted quantities from the line in d. Returns false if a column is missing or not a number. */
+/* Reads the wanted quantities of one particle from the current line of d into value[WANTED]; 0 for those that the dump
+ * does not have. h: header with their columns. Returns false if a column is missing or not a finite number. */
 static bool dump_row_read(const struct dump *d, const struct dump_head *h, double value[WANTED])
 {
     double number[FRAME_COLUMNS_MOST];
@@ -173,8 +175,9 @@ static bool dump_row_read(const struct dump *d, const struct dump_head *h, doubl
     return true;
 }
 
-/* Reads the rows of all particles of a time step into f, in the order of their ids. seen[n]: zeros, marks the ids
- * read. FAILED if an id is missing, repeated or out of range. */
+/* Reads the lines of all particles of the time step with header h into f, in the order of their ids. seen[n]: marks the
+ * ids that have been read; zeros on entry. Returns FAILED if an id is repeated or out of range, or a line is
+ * malformed. */
 static status rows_take(struct dump *d, const struct dump_head *h, struct lammps_frame *f, uint8_t *seen)
 {
     double value[WANTED];

@@ -41,15 +41,15 @@ static const struct {
     {"frames.vtkhdf", NULL},         {"rigid.vtp.series", NULL},
 };
 
-/* Returns true if `name` consists of at least six digits and `type`, followed by `end`. */
+/* Returns true if `name` consists of at least six digits, then the text `type` and the text `end`. */
 static bool is_numbered(const char *name, const char *type, const char *end)
 {
     const size_t digits = strspn(name, "0123456789"), length = strlen(type);
     return digits >= 6 && strncmp(name + digits, type, length) == 0 && strcmp(name + digits + length, end) == 0;
 }
 
-/* Returns true if `name` is that of a frame, 123456.hdf, or of a particles file, particles_123456.h5, followed by
- * `end`. */
+/* Returns true if `name` is that of a frame, 123456.hdf, or of a particles file, particles_123456.h5, followed by `end`
+ * ("" or the ending of temporary files). */
 static bool is_frame(const char *name, const char *end)
 {
     static const char particles[] = "particles_";
@@ -58,7 +58,8 @@ static bool is_frame(const char *name, const char *end)
     return is_numbered(name, ".hdf", end);
 }
 
-/* Returns true if `name` is that of a file of rigid bodies, rigid_123456.vtp, followed by `end`. */
+/* Returns true if `name` is that of a file of rigid bodies, rigid_123456.vtp, followed by `end` ("" or the ending of
+ * temporary files). */
 static bool is_rigid_file(const char *name, const char *end)
 {
     static const char rigid[] = "rigid_";
@@ -67,7 +68,8 @@ static bool is_rigid_file(const char *name, const char *end)
 
 static status file_remove(const char *path) { return (void)unlink(path), OK; }
 
-/* Removes a picture that Cleave drew; other pictures stay. */
+/* Removes the picture at `path` if Cleave drew it, by its mark; other pictures remain. Returns FAILED if it cannot be
+ * removed. */
 static status picture_remove(const char *path) { return picture_has_mark(path) ? file_remove(path) : OK; }
 
 static bool has_frames(const char *folder)
@@ -82,8 +84,9 @@ static bool has_frames(const char *folder)
 
 /* ---- check of the folder ----------------------------------------------------------------------------------------- */
 
-/* Returns the part of a line of a scene that has to be equal for the scenes to be equal, and stores its length. This
- * is the line, or for a line with the checksum of a file only the checksum, since the path of the file may differ. */
+/* Returns the part of a line of scene.yaml that has to be equal for two scenes to be equal, and stores its length. The
+ * part is the whole line or, in a line with the hash of a file, only the hash, since the path of the file may
+ * differ. */
 static const char *line_meaning(const char *line, size_t *length)
 {
     static const char mark[] = "  # contents ";
@@ -93,8 +96,8 @@ static const char *line_meaning(const char *line, size_t *length)
     return contents ? contents : line;
 }
 
-/* Returns the number of the first line in which two scenes differ and moves *a and *b to this line; 0 if the scenes are
- * equal. */
+/* Returns the number, from 1, of the first line in which the scenes *a and *b differ, and advances *a and *b to this
+ * line. Returns 0 if the scenes are equal. */
 static int scene_difference(const char **a, const char **b)
 {
     for (int line = 1; **a || **b; line++) {
@@ -122,7 +125,7 @@ bool scene_file_has_text(const char *path, const char *scene_text)
     return same;
 }
 
-/* Describes the first line in which two scenes differ. text: capacity `capacity` [byte]. */
+/* Writes a description of the first line in which the scenes a (earlier) and b (now) differ to text[capacity]. */
 static void difference_text(const char *a, const char *b, char *text, size_t capacity)
 {
     const int line = scene_difference(&a, &b);
@@ -140,8 +143,8 @@ static void difference_text(const char *a, const char *b, char *text, size_t cap
              lb < SHOWN ? lb : SHOWN, b);
 }
 
-/* Returns true if the file is the scene.yaml of a run: Cleave wrote it and it is beside a folder of frames, which a run
- * creates first; or it has the text scene_text. */
+/* Returns true if the file `path` is the scene.yaml of a run: its text is scene_text, or Cleave wrote it and it is
+ * beside a folder `frames`, which a run creates first. */
 static bool is_scene_of_run(const char *path, const char *scene_text)
 {
     struct path frames;
@@ -155,7 +158,8 @@ static bool is_scene_of_run(const char *path, const char *scene_text)
     return is;
 }
 
-/* Returns true for a folder of frames: a run that was killed before it wrote scene.yaml leaves only this folder. */
+/* Returns true if `name` in the folder is a folder `frames` without frames: a run that was killed before it wrote
+ * scene.yaml leaves only this folder. */
 static bool is_frames_folder(const char *folder, const char *name)
 {
     const struct path frames = path_join(folder, name);
@@ -170,8 +174,9 @@ static bool is_frames_folder(const char *folder, const char *name)
 static const struct folder_kind run_kind = {
     .what = "run", .sign = "scene.yaml", .is_sign = is_scene_of_run, .is_early = is_frames_folder, .inner = {"frames"}};
 
-/* Checks the folder in which a run would write. REFUSED if it holds other files, or the run of another scene that
- * must not be overwritten. */
+/* Checks the folder in which a run of the scene with the text scene_text would write. mode: whether an older run may be
+ * overwritten. Returns REFUSED if the folder holds other files, or the run of another scene and mode is not
+ * OUTPUT_OVERWRITE. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
     char difference[500], *text = NULL;
@@ -198,8 +203,8 @@ static bool has_run(const char *folder)
     return any;
 }
 
-/* Returns true if a run has written output after the first step; its first checkpoint is written before the first
- * step. */
+/* Returns true if the run in the folder has written output after its first step: a second frame, or a line of
+ * history.csv. (The first checkpoint is written before the first step.) */
 static bool has_advanced(const char *folder)
 {
     char *text = NULL;
@@ -212,8 +217,9 @@ static bool has_advanced(const char *folder)
     return lines > 1;
 }
 
-/* Checks that `mode` suits an older run of the scene in the folder. REFUSED if there is one and `mode` is OUTPUT_FIRST,
- * or if `mode` is OUTPUT_RESUME and the older run has no checkpoints. */
+/* Checks that `mode` suits an older run of the scene in the folder. Returns REFUSED if there is one and mode is
+ * OUTPUT_FIRST, or if mode is OUTPUT_RESUME and the older run has advanced but has no checkpoints. Warns if there is
+ * nothing to resume. */
 static status mode_check(const char *folder, enum output_mode mode)
 {
     char ended[NAME_MAX_LENGTH] = "interrupted";
@@ -238,16 +244,16 @@ static status mode_check(const char *folder, enum output_mode mode)
     return OK;
 }
 
-/* Calls `each` for the file `name` in the folder, if there is one. */
+/* Calls each(path) for the file `name` in the folder, if there is one, and returns its status; else OK. */
 static status file_each(const char *folder, const char *name, file_visit_fn *each)
 {
     const struct path path = path_join(folder, name);
     return path_exists(path.text) ? each(path.text) : OK;
 }
 
-/* Calls `each` for the frames in the folder `inner` (frames_NAME) of a region and for its index files. end:
- * additional ending of the file names, such as the one of temporary files. If the files are removed, removes the
- * folder too, unless other files are in it. */
+/* Calls each(path) for the frames in the folder `inner` (frames_NAME) of a region, below `folder`, and for its index
+ * files. end: additional ending of the file names, "" or that of temporary files. If `each` removes files, removes the
+ * folder too, unless other files are in it. Returns the first status other than OK. */
 static status region_each(const char *folder, const char *inner, const char *end, file_visit_fn *each)
 {
     static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
@@ -263,7 +269,7 @@ static status region_each(const char *folder, const char *inner, const char *end
     return OK;
 }
 
-/* Returns true if `inner` is the folder frames_NAME of a region of the scene. */
+/* Returns true if `inner` is the name frames_NAME of the folder of a region of the scene with this text. */
 static bool is_frames_of_region(const char *inner, const char *scene_text)
 {
     char line[PATH_NAME_ROOM + 16];
@@ -272,8 +278,8 @@ static bool is_frames_of_region(const char *inner, const char *scene_text)
     return strstr(scene_text, line) != NULL;
 }
 
-/* Calls region_each for every region that scene.yaml in the folder defines. Other folders named frames_* are left
- * alone. */
+/* Calls region_each for every region that scene.yaml in the folder defines. Other folders named frames_* remain
+ * untouched. end: additional ending of the file names. Returns the first status other than OK. */
 static status regions_each(const char *folder, const char *end, file_visit_fn *each)
 {
     char *text;
@@ -289,7 +295,8 @@ static status regions_each(const char *folder, const char *end, file_visit_fn *e
     return s;
 }
 
-/* Calls `each` for every file that a new run replaces. Stops at the first fault and returns it. */
+/* Calls each(path) for every file in the folder that a new run replaces. Returns the first status other than OK, after
+ * which no further files are visited. */
 static status run_each(const char *folder, file_visit_fn *each)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) TRY(file_each(folder, made[k].name, each));
@@ -300,8 +307,8 @@ static status run_each(const char *folder, file_visit_fn *each)
     return files_visit(pictures_folder(folder).text, is_picture_name, ASIDE_ENDING, each);
 }
 
-/* Removes temporary files of the run. Temporary files of pictures stay: they may belong to a `cleave plot` that is
- * drawing a run to be resumed. */
+/* Removes the temporary files of a run from its folder. Temporary files of pictures remain: they may belong to a
+ * `cleave plot` that is drawing a run to be resumed. */
 static void temporary_remove(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_temporary(path_join(folder, made[k].name).text).text);
@@ -311,8 +318,8 @@ static void temporary_remove(const char *folder)
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
-/* Returns true if the index FOLDER/frames.xdmf, of a region FOLDER/NAME.xdmf, lists the file `path`,
- * FOLDER/frames/FILE or FOLDER/frames_NAME/FILE. */
+/* Returns true if the index of frames lists the file `path`: FOLDER/frames.xdmf for FOLDER/frames/FILE, or
+ * FOLDER/NAME.xdmf of a region for FOLDER/frames_NAME/FILE. */
 static bool index_lists(const char *path)
 {
     const char *const file = strrchr(path, '/'), *inner = file;
@@ -331,23 +338,24 @@ static bool index_lists(const char *path)
     return listed;
 }
 
-/* Checks a file that a run would remove. REFUSED if it has the name of a frame or of a particles file, but neither the
- * footer of Cleave's files nor a place in the index of the older run. */
+/* Checks a file that a run would remove. Returns REFUSED if it has the name of a frame or of a particles file, but
+ * Cleave did not write it: it has no footer of Cleave's files, and the index of the older run does not list it. */
 static status frame_guard(const char *path)
 {
     if (!is_frame(strrchr(path, '/') + 1, "") || file_has_footer(path) || index_lists(path)) return OK;
     return status_set(REFUSED, "%s was not written by cleave, or is cut short; move or remove it", path);
 }
 
-/* Checks a file of rigid bodies that a run would remove. REFUSED if it does not begin as Cleave's do. */
+/* Checks a file of rigid bodies that a run would remove. Returns REFUSED if it does not begin as Cleave's files of
+ * rigid bodies do. */
 static status rigid_guard(const char *path)
 {
     static const char *const begin[] = {RIGID_FILE_BEGIN};
     return file_check_beginning(path, begin, 1);
 }
 
-/* Checks the tables, frames and particles files that a run would write or remove. REFUSED if one of them is an existing
- * file that Cleave did not write. */
+/* Checks the tables, frames and particles files in a folder that a run would write or remove. Returns REFUSED if one of
+ * them is an existing file that Cleave did not write. */
 static status files_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)
@@ -393,7 +401,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     return OK;
 }
 
-/* Returns the path of the folder of frames of a region, or of the whole body if `name` is "". */
+/* Returns the path of the folder frames_NAME of the region `name` in the folder of a run. */
 static struct path series_folder(const char *folder, const char *name)
 {
     char inner[PATH_NAME_ROOM];
@@ -443,8 +451,8 @@ status output_write_text(const struct output *o, const char *name, const char *t
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the number, times and sizes of the frames of a series to an archive, or restores them. FAILED if the lists do
- * not match. */
+/* Saves the number, times and sizes of the frames of a series, and the number and hash of its last particles file, to
+ * the archive a, or restores them. Returns FAILED if the restored lists do not match. */
 static status series_archive(struct frame_series *s, struct archive *a)
 {
     char frames_name[100], entry_name[100], number_name[100], content_name[100];

@@ -7,8 +7,8 @@
 
 #include "data/derived_fields.h"
 
-/* Copies one number per particle, of[i] or of[i] - less[i] if `less` is not NULL, to column c of rows of `columns`
- * numbers. row: indices of the particles of rows first .. end - 1. */
+/* Copies one number per particle, of[i] or of[i] - less[i] if `less` is not NULL, to column c of an array `rows` with
+ * `columns` numbers per row, as floats. row[r]: particle i of row r, for rows first .. end - 1. */
 static ALWAYS_INLINE void copy_column(float *rows, int columns, int c, const int32_t *row, int64_t first, int64_t end,
                                       const real *of, const real *less)
 {
@@ -16,7 +16,8 @@ static ALWAYS_INLINE void copy_column(float *rows, int columns, int c, const int
         rows[columns * r + c] = (float)(less ? of[row[r]] - less[row[r]] : of[row[r]]);
 }
 
-/* Copies vectors `of`, or the differences of - less if `less` is not NULL, to rows of dim numbers. */
+/* Copies the vectors `of` [dim][n], or the differences of - less if `less` is not NULL, to the rows first .. end - 1 of
+ * an array with dim numbers per row. row[r]: particle of row r. */
 static void copy_vectors(float *rows, const int32_t *row, int64_t first, int64_t end, real *const *of,
                          real *const *less, int dim)
 {
@@ -42,7 +43,7 @@ static void copy_velocity(const struct frame_source *s, const int32_t *row, int6
     copy_vectors(rows, row, first, end, s->p->v, NULL, s->p->dim);
 }
 
-/* Copies one number per particle. */
+/* Copies one number per particle, of[row[r]], to the rows first .. end - 1 of an array with one column. */
 static void copy_scalars(float *rows, const int32_t *row, int64_t first, int64_t end, const real *of)
 {
     copy_column(rows, 1, 0, row, first, end, of, NULL);
@@ -54,7 +55,8 @@ static inline int tensor_stored(int dim) { return dim == 1 ? 1 : dim == 2 ? 4 : 
 /* Index in VTK's order of component k of struct particles, by dimension; differs only in 2D, which has xx yy xy. */
 static const int tensor_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
 
-/* Copies the stress of a particle in VTK's order, with the out-of-plane component zz [Pa]. */
+/* Copies the stress of particle i [Pa] to row[6] in VTK's order xx yy zz xy yz xz. In plane strain this includes the
+ * out-of-plane component zz. */
 static void stress_row(const struct particles *p, int64_t i, real *row)
 {
     for (int k = 0; k < SYM_MAX; k++) row[k] = 0;
@@ -73,7 +75,8 @@ static void copy_stress(const struct frame_source *s, const int32_t *row, int64_
         ((float *)rows)[stored * r + 2] = (float)particle_plane_strain_stress(p, row[r]);
 }
 
-/* Fills rows of a field that is derived from another field. */
+/* Fills the rows first .. end - 1 of a field that is derived from the stress or velocity of the particles. row[r]:
+ * particle of row r. */
 static void copy_derived(const struct derived_field *field, const struct frame_source *s, const int32_t *row,
                          int64_t first, int64_t end, float *rows)
 {
@@ -89,9 +92,10 @@ static void copy_derived(const struct derived_field *field, const struct frame_s
 
 /* ---- fields of the displacement gradient ------------------------------------------------------------------------- */
 
-/* Returns the strain zz normal to a plane-stress plane from the stretch F_zz of the thickness [1].
- * An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. Plastic flow preserves volume, so
- * that a yielding material has F_zz = J/J_plane with the elastic volume ratio J of its mean stress. */
+/* Returns the Green-Lagrange strain zz normal to a plane-stress plane, 1/2 (F_zz^2 - 1) [1], of particle i; 0 in other
+ * spaces. An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. Plastic flow preserves
+ * volume, so that a yielding material has F_zz = J/J_plane with the elastic volume ratio J of its mean stress.
+ * strain[6]: in-plane strains in VTK's order. */
 static real strain_across(const struct frame_source *s, int64_t i, const real *strain)
 {
     const struct material *m = &s->extra.material[s->p->material[i]];
@@ -102,8 +106,8 @@ static real strain_across(const struct frame_source *s, int64_t i, const real *s
     return 0.5 * (square(elastic / plane) - 1);
 }
 
-/* Computes the Green-Lagrange strain E = 1/2 (H + H^T + H^T H) of a particle from its displacement gradient H; E is
- * invariant under rotation. */
+/* Computes the Green-Lagrange strain E = 1/2 (H + H^T + H^T H) of particle i from its displacement gradient H, in VTK's
+ * order into strain[6] [1]. E is invariant under rotation. */
 static void strain_row(const struct frame_source *s, int64_t i, real *strain)
 {
     static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 0}, column[SYM_MAX] = {0, 1, 2, 1, 2, 2};
@@ -130,7 +134,8 @@ static void copy_strain(const struct frame_source *s, const int32_t *row, int64_
     }
 }
 
-/* Fills rows of the density rho_0/J with J^2 = det(1 + 2 E), E the Green-Lagrange strain [kg/m^3]. */
+/* Fills the rows first .. end - 1 with the density rho_0/J [kg/m^3], where J^2 = det(1 + 2 E) and E is the
+ * Green-Lagrange strain. row[r]: particle of row r. */
 static void copy_density(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++) {
@@ -152,13 +157,13 @@ static void copy_plastic_work(const struct frame_source *s, const int32_t *row, 
         array_fill_bytes((float *)rows + first, 0, end - first, sizeof(float));
 }
 
-/* Copies one byte per particle. */
+/* Copies one byte per particle, of[row[r]], to the rows first .. end - 1. */
 static void copy_bytes(uint8_t *rows, const int32_t *row, int64_t first, int64_t end, const uint8_t *of)
 {
     for (int64_t r = first; r < end; r++) rows[r] = of[row[r]];
 }
 
-/* Copies one integer per particle. */
+/* Copies one integer per particle, of[row[r]], to the rows first .. end - 1. */
 static void copy_integers(int32_t *rows, const int32_t *row, int64_t first, int64_t end, const int32_t *of)
 {
     for (int64_t r = first; r < end; r++) rows[r] = of[row[r]];
@@ -171,7 +176,8 @@ static void copy_level(const struct frame_source *s, const int32_t *row, int64_t
 
 /* ---- further fields ---------------------------------------------------------------------------------------------- */
 
-/* Copies the damage of the particles of rows first .. end - 1. */
+/* Copies the damage of the particles row[r] to the rows first .. end - 1: that of the frame's state if it has one, else
+ * that of the particles. */
 static void copy_damage(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->extra.state.damage ? s->extra.state.damage : s->p->damage);
@@ -206,7 +212,8 @@ static void copy_fragment(const struct frame_source *s, const int32_t *row, int6
 
 /* ---- fields of the particles file -------------------------------------------------------------------------------- */
 
-/* Copies the spacing of particles, or of material points of coarse cells. */
+/* Copies the spacing [m] of the particles row[r], or of material points of coarse cells, to the rows first .. end -
+ * 1. */
 static void copy_spacing(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++)
@@ -276,8 +283,8 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
 /* Indices of the fields that are written only if the scene requests them; bit k of the request selects field k + 1. */
 enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
-/* Returns true if a frame contains a field: it was requested, if fields of this kind are written on request only, and
- * the data exist. */
+/* Returns true if a frame contains a field: its data exist and, if the field is written on request only, the scene
+ * requests it. */
 static bool field_exists(const struct frame_field *field, const struct frame_source *s)
 {
     const int64_t k = field - frame_fields;
@@ -299,7 +306,8 @@ unsigned frame_field_set_of(const struct frame_source *s)
     return found;
 }
 
-/* Returns the stored numbers per row of a field. dim: dimension of the body. */
+/* Returns the number of stored numbers per row of a field in `dim` dimensions; components that the space lacks are not
+ * stored. */
 static int field_stored(const struct frame_field *field, int dim)
 {
     return field->row == ROW_VECTOR ? dim : field->row == ROW_TENSOR ? tensor_stored(dim) : field->columns;
@@ -310,7 +318,7 @@ size_t frame_field_bytes(const struct frame_field *field, int dim)
     return hdf_type_size(field->type) * (size_t)field_stored(field, dim);
 }
 
-/* Copies rows first .. end - 1 of a field. row: indices of the particles. */
+/* Copies the rows first .. end - 1 of a field from the source to the array `rows`. row[r]: particle of row r. */
 static void copy_rows(const struct frame_field *field, const struct frame_source *source, const int32_t *row,
                       int64_t first, int64_t end, void *rows)
 {

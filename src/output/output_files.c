@@ -15,7 +15,7 @@
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path that consists of three texts; an empty path if it is too long. */
+/* Returns the path that consists of three texts in sequence; an empty path if it is too long. */
 static struct path path_compose(const char *first, const char *between, const char *last)
 {
     struct path p;
@@ -73,13 +73,13 @@ bool path_is_folder(const char *path)
 
 /* ---- unfinished files -------------------------------------------------------------------------------------------- */
 
-/* Paths of files that are being written, by the stepping thread and by the thread that writes frames; "": a free
+/* Paths of files that are being written, by the stepping thread or by the thread that writes frames; "" marks a free
  * slot. */
 enum { UNFINISHED_MOST = 8 };
 static struct path unfinished[UNFINISHED_MOST];
 static pthread_mutex_t unfinished_lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* Replaces the first list entry equal to `from` by `to`, if there is one. */
+/* Replaces the first entry of `unfinished` that equals `from` by `to`, if there is one. */
 static void unfinished_replace(const char *from, const char *to)
 {
     bool found = false;
@@ -111,7 +111,8 @@ void files_unfinished_remove(void)
 
 /* ---- faults ------------------------------------------------------------------------------------------------------ */
 
-/* Returns advice on how to remove the cause (an errno) of a failed write. */
+/* Returns advice on how to remove the cause of a failed write, as the end of a message; "" if there is none. cause: an
+ * errno. */
 static const char *file_remedy(int cause)
 {
     switch (cause) {
@@ -148,8 +149,8 @@ void file_discard(const char *path)
 
 /* ---- what is not replaced ---------------------------------------------------------------------------------------- */
 
-/* Checks that a file may be replaced or removed. REFUSED for an input of this command, a pipe, a socket or a
- * device. */
+/* Checks that a file may be replaced or removed. Returns REFUSED if it is an input of this command, a pipe, a socket or
+ * a device; OK if there is no such file. */
 status file_check_replaceable(const char *path)
 {
     struct stat s;
@@ -187,7 +188,7 @@ bool file_has_contents(const char *path, const void *bytes, size_t length)
 
 /* ---- whole files ------------------------------------------------------------------------------------------------- */
 
-/* Writes `length` bytes. Returns 0 or an errno. */
+/* Writes `length` bytes to the open file fd. Returns 0, or an errno on a fault. */
 static int write_all(int fd, const char *bytes, size_t length)
 {
     while (length > 0) {
@@ -202,7 +203,8 @@ static int write_all(int fd, const char *bytes, size_t length)
     return 0;
 }
 
-/* Opens a file, writes at its end, syncs and closes it. Returns 0 or an errno. */
+/* Opens the file `path` with further flags of open(2), writes `length` bytes at its end, syncs and closes it. With
+ * O_EXCL an existing file is removed first. Returns 0, or an errno on a fault. */
 static int write_synced(const char *path, int flags, const void *bytes, size_t length)
 {
     if (flags & O_EXCL) unlink(path); /* left by a killed run; a link of this name is not followed */
@@ -214,8 +216,8 @@ static int write_synced(const char *path, int flags, const void *bytes, size_t l
     return fault;
 }
 
-/* Syncs the folder that holds `path`, so that a rename survives a crash. Returns 0 or an errno. File systems that
- * cannot sync a folder return EINVAL, which is not a fault. */
+/* Syncs the folder that contains `path`, so that a rename survives a crash. Returns 0, or an errno on a fault. File
+ * systems that cannot sync a folder return EINVAL, which is not a fault. */
 static int sync_folder_of(const char *path)
 {
     struct path folder = path_compose(path, "", "");
@@ -229,7 +231,8 @@ static int sync_folder_of(const char *path)
     return fault;
 }
 
-/* Returns the status for the result of a write, 0 or an errno. On a fault removes the incomplete file. */
+/* Converts the result of a write to a status: OK if fault is 0. If it is an errno, removes the incomplete file of
+ * `path` and returns FAILED with a message. */
 static status outcome(const char *path, int fault)
 {
     if (!fault) return OK;
@@ -280,8 +283,8 @@ status file_write_whole(const char *path, const void *bytes, size_t length)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Creates one folder unless it exists or is a symbolic link to one. REFUSED if a file, or a link to anything else, has
- * this name. */
+/* Creates one folder, unless it exists or is a symbolic link to a folder. Returns REFUSED if a file, or a link to
+ * anything else, has this name; FAILED if it cannot be created. */
 static status folder_make_one(const char *path)
 {
     if (mkdir(path, 0777) == 0) return file_sync_folder(path);
@@ -319,7 +322,7 @@ status files_visit(const char *folder, bool (*chosen)(const char *name, const ch
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Reads up to `capacity` bytes. Returns their number, or -1 on a fault. */
+/* Reads up to `capacity` bytes from the open file fd. Returns their number, or -1 on a fault. */
 static int64_t output_files_read_all(int fd, char *bytes, size_t capacity)
 {
     size_t have = 0;

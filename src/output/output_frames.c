@@ -43,10 +43,12 @@ struct frame_job {
     char message[512];
 };
 
-/* Returns true if the frame of a job has field k with rows of its own. */
+/* Returns true if the frame of a job has field k, and stores its rows in the frame itself, not in the particles
+ * file. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
-/* Copies the fields that change. The memory of the copies is kept for the next frame. */
+/* Copies the rows of the fields that the frame itself stores to o->frame_copy. Its memory is reused for the next
+ * frame. */
 static void job_copy_fields(struct frame_job *job, const struct frame_source *source)
 {
     struct output *o = job->o;
@@ -66,7 +68,7 @@ static void job_copy_fields(struct frame_job *job, const struct frame_source *so
     }
 }
 
-/* Leaves contact forces out of a frame in which all are 0. */
+/* Removes the field of contact forces from a frame in which all are 0, and marks the frame as untouched. */
 static void job_drop_contact(struct frame_job *job)
 {
     const float *force = (const float *)job->field[FIELD_CONTACT];
@@ -78,7 +80,8 @@ static void job_drop_contact(struct frame_job *job)
     if (job->untouched) job->fields &= ~(1u << FIELD_CONTACT);
 }
 
-/* Sets the particles file to which the frame links: the last one, or a new one if its contents differ. */
+/* Sets the particles file to which the frame of the job links: the last one of the series, or a new one if its contents
+ * would differ. scene_text: text of the scene, which the file contains. */
 static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
 {
     struct frame_series *s = job->series;
@@ -97,7 +100,8 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
     job->particles.compress = job->compress;
 }
 
-/* Creates a job for a frame at time t [s] and copies the fields. */
+/* Creates the job of a frame at time t [s] and time step number `step`, and copies the fields of the particles.
+ * scene_text: text of the scene, for the particles file. */
 static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
                                   real t, int64_t step, const char *scene_text)
 {
@@ -120,7 +124,7 @@ static void job_free(struct frame_job *job)
 
 /* ---- the rows ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the indices 0..n-1, released with free; NULL if memory is exhausted. */
+/* Returns the indices 0 .. n - 1 in an array to be released with free; NULL if memory is exhausted. */
 static int32_t *ascending_order(int64_t n)
 {
     int32_t *order = calloc((size_t)n + 1, sizeof *order);
@@ -128,8 +132,8 @@ static int32_t *ascending_order(int64_t n)
     return order;
 }
 
-/* Returns the indices of the particles sorted by id, [n]; ids are unique but may have gaps. NULL if memory is
- * exhausted. Release with free. */
+/* Returns the indices of the particles sorted by id [p->n]. Ids are unique but may have gaps. Returns NULL if memory is
+ * exhausted. Release the array with free. */
 static int32_t *order_by_id(const struct particles *p)
 {
     int64_t room = 0, k = 0;
@@ -146,7 +150,8 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-/* Releases the rows of a series, which are selected again for the next frame. */
+/* Releases the list of the rows of a series, the particles that its frames show. They are selected again for the next
+ * frame. */
 static void rows_free(struct frame_series *s)
 {
     free(s->rows.index);
@@ -154,7 +159,8 @@ static void rows_free(struct frame_series *s)
     s->particles.current = false;
 }
 
-/* Returns true if the series shows particle (or material point of a coarse cell) i of p. */
+/* Returns true if the frames of the series show particle i of p, which may also be material points of coarse cells: it
+ * is in the region of the series, if there is one. */
 static bool series_shows(const struct frame_series *s, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
@@ -163,8 +169,9 @@ static bool series_shows(const struct frame_series *s, const struct particles *p
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Selects the rows of a series. They are kept until output_discard_particle_order and while there are no points of
- * coarse cells, which may change at any step. Returns false if memory is exhausted. */
+/* Selects the rows of a series, the particles that its frames show, in the order of their ids. The selection is kept
+ * until output_discard_particle_order, unless there are material points of coarse cells, which may change at any step.
+ * Returns false if memory is exhausted. */
 static bool rows_make(struct frame_series *s, const struct frame_source *source)
 {
     const struct particles *more = source->extra.more;
@@ -192,7 +199,7 @@ void output_discard_particle_order(struct output *o)
 
 /* ---- writing thread: has no thread team, hence allocates no arrays with memory_new ------------------------------- */
 
-/* Writes the groups and attributes of a frame, and its time, which VTK shows beside the particles. */
+/* Writes the groups and attributes of a frame to the file f, and its time, which VTK shows beside the particles. */
 static void write_marks(struct hdf *f, const struct frame_job *job)
 {
     static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
@@ -211,7 +218,8 @@ static void write_marks(struct hdf *f, const struct frame_job *job)
     if (job->untouched) hdf_write_text_attribute(f, "/Cleave", "zero", "contact_force");
 }
 
-/* Writes PATH.cleave.tmp and renames it to PATH, after the particles file. */
+/* Writes the frame of a job to PATH.cleave.tmp and renames it to PATH, after the particles file, if that is new.
+ * Returns FAILED if a file cannot be written. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
@@ -226,8 +234,8 @@ static status frame_write(struct frame_job *job)
     return file_publish(job->path.text);
 }
 
-/* Writes the frame and then the indices, which thus never list a missing frame. The folder of the run is two levels
- * above the frame. */
+/* Writes the frame of a job and then the indices of its series, which thus never list a missing frame. The folder of
+ * the run is two levels above the frame. Returns FAILED if a file cannot be written. */
 static status job_write(struct frame_job *job)
 {
     TRY(frame_write(job));
@@ -260,8 +268,8 @@ status output_wait_for_frame(struct output *o)
     return s;
 }
 
-/* Adds a frame to the list of its series before it is written. If writing fails, output_wait_for_frame removes it
- * again. */
+/* Appends a frame to the list of its series, before it is written. If writing fails, output_wait_for_frame removes it
+ * from the list. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frames", s->entry, s->frames + 1);
@@ -269,8 +277,8 @@ static void frame_count(struct frame_series *s, const struct frame_job *job)
         (struct frame_entry){.time = job->t, .rows = job->n, .fields = job->fields, .particles = s->particles.number};
 }
 
-/* Starts the writing thread. The thread blocks all signals, which the stepping thread then receives, except the signals
- * of its own faults. */
+/* Starts the thread that writes the frame of a job; writes it at once if no thread is available. The thread blocks all
+ * signals except those of its own faults, so that the stepping thread receives them. */
 static void output_frames_job_start(struct frame_job *job)
 {
     sigset_t all, before;
@@ -321,8 +329,9 @@ struct particles_seen {
     int64_t content;           /* this hash */
 };
 
-/* Checks the particles file `number` of a series, unless it is the one that was checked last. The checkpoint has the
- * hash of the last particles file of the series; a file with another hash is of another run, and counts as lost. */
+/* Checks the particles file `number` of a series in the folder of a run, unless it is the one that was checked last,
+ * and stores what it finds in `seen`. The checkpoint has the hash of the last particles file of the series; a file with
+ * another hash belongs to another run and counts as lost. */
 static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
                                 int number)
 {
@@ -336,8 +345,8 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
         seen->fault = "is of another run";
 }
 
-/* Reads time [s] and hash of the contents of the particles file from the frame at `path`. Returns false if the frame
- * cannot be read. */
+/* Reads time [s] and the hash of its particles file from the frame at `path`. Returns false if the frame cannot be
+ * read. */
 static bool frame_read_marks(const char *path, real *time, int64_t *content)
 {
     struct hdf f;
@@ -349,9 +358,9 @@ static bool frame_read_marks(const char *path, real *time, int64_t *content)
     return read;
 }
 
-/* Returns true if the frame at `path` is lost, and writes a phrase that completes "FRAME ..." to `text`, capacity
- * `capacity` [byte]. Returns false if the frame has no fault or cannot be read. particles: the particles file to which
- * the frame should link. */
+/* Returns true if the frame at `path` is lost, and writes a phrase that completes "FRAME ..." to text[capacity].
+ * Returns false if the frame has no fault or cannot be read. e: its entry in the list of frames; particles: the
+ * particles file to which it should link. */
 static bool frame_is_lost(const char *path, const struct frame_entry *e, const struct particles_seen *particles,
                           char *text, size_t capacity)
 {
@@ -368,9 +377,9 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
     return snprintf(text, capacity, "and %s, to which it links, are of different runs", particles->name) > 0;
 }
 
-/* Marks the lost frames of a series, adds their number to *lost and writes the first of all to `text`, capacity
- * `capacity` [byte]. Frames marked at an earlier restart that are there again lose their mark. A particles file that is
- * lost is not used for further frames. */
+/* Marks the lost frames of a series, adds their number to *lost, and describes the first lost frame of all in
+ * text[capacity]. Frames that were marked at an earlier restart and exist again lose their mark. A particles file that
+ * is lost is not used for further frames. */
 static void series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t capacity)
 {
     struct particles_seen seen = {.number = -1};
@@ -387,7 +396,7 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
     if (seen.fault) s->particles.number = -1;
 }
 
-/* Composes and writes both index files of a series again. */
+/* Composes and writes both index files of a series. Returns FAILED if one cannot be written. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_indices index = {0};

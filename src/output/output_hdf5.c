@@ -36,8 +36,8 @@ static hid_t hdf_native(enum hdf_type type)
     }
 }
 
-/* Records the result of an HDF5 call, which is negative on a fault, and errno in f. Returns true if there was no
- * fault. */
+/* Records the result of an HDF5 call, which is negative on a fault, and errno in f. Returns true if the call
+ * succeeded. */
 static bool good(struct hdf *f, int64_t result)
 {
     if (result >= 0) return true;
@@ -46,15 +46,15 @@ static bool good(struct hdf *f, int64_t result)
     return false;
 }
 
-/* Returns true if no fault has occurred on the file. Clears errno for the next call. */
+/* Returns true if no operation on the file has failed so far. Clears errno for the next call. */
 static bool ready(const struct hdf *f)
 {
     errno = 0;
     return !f->failed;
 }
 
-/* Returns the access properties for a file: objects that are still open are closed with it, and no file locks are
- * used, which some network file systems do not have. */
+/* Returns the access properties for an HDF5 file: objects that are still open are closed with it, and no file locks are
+ * used, which some network file systems do not have. Release the list with H5Pclose. */
 static hid_t access_list(struct hdf *f)
 {
     hid_t list = -1;
@@ -145,7 +145,7 @@ struct table {
     size_t number;       /* size of a number [byte] */
 };
 
-/* Returns true if rows first .. end - 1 of a table hold nothing but the fill value, bit for bit. */
+/* Returns true if the rows first .. end - 1 of a table hold only the fill value, bit for bit. */
 static bool table_is_fill(const struct table *t, int64_t first, int64_t end)
 {
     const char *at = t->data + (size_t)first * t->row;
@@ -154,7 +154,7 @@ static bool table_is_fill(const struct table *t, int64_t first, int64_t end)
     return arrays_equal(at, &t->fill, 1, t->number) && arrays_equal(at + t->number, at, 1, length - t->number);
 }
 
-/* Writes the chunk of rows first .. end - 1 of a table. Returns false on a fault. */
+/* Writes the rows first .. end - 1 of a table, one chunk, to the file. Returns false on a fault. */
 static bool table_write_chunk(struct hdf *f, const struct table *t, int64_t first, int64_t end)
 {
     const hsize_t at[2] = {(hsize_t)first, 0}, shape[2] = {(hsize_t)(end - first), t->stored};
@@ -170,7 +170,8 @@ static bool table_write_chunk(struct hdf *f, const struct table *t, int64_t firs
            good(f, H5Dwrite(t->set, t->native, from, t->space, H5P_DEFAULT, rows)) && good(f, H5Sclose(from));
 }
 
-/* Writes all chunks of a table that hold more than the fill value. Returns false on a fault. */
+/* Writes all chunks of a table that hold more than the fill value; HDF5 reads the others as fill value. Returns false
+ * on a fault. */
 static bool table_write_chunks(struct hdf *f, const struct table *t)
 {
     for (int64_t first = 0; first < t->rows; first += t->chunk) {
@@ -180,7 +181,8 @@ static bool table_write_chunks(struct hdf *f, const struct table *t)
     return true;
 }
 
-/* Returns the creation list of a table: chunks of `chunk` rows of the stored numbers, compressed if requested. */
+/* Returns the creation properties of a table: fill value, chunks of t->chunk rows, compressed if f->compress. Returns
+ * -1 on a fault. */
 static hid_t table_list(struct hdf *f, const struct table *t)
 {
     const hsize_t chunk[2] = {(hsize_t)t->chunk, t->stored};
@@ -233,7 +235,9 @@ bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t capa
 
 /* ---- virtual datasets -------------------------------------------------------------------------------------------- */
 
-/* Maps the rows of one source to the rows from at[0] on of a virtual dataset. Returns false on a fault. */
+/* Maps the rows of one source file to the rows from at[0] on of a virtual dataset. list: creation properties of the
+ * dataset; space: its data space; name: path of the dataset in the source; shape[rank]: rows and columns of the source.
+ * Returns false on a fault. */
 static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name, const hsize_t *at,
                        const struct hdf_source *source, const hsize_t *shape, int rank)
 {
@@ -264,7 +268,8 @@ void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int 
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
-/* Returns the HDF5 type of a text with a fixed length; VTK 9.1 cannot read texts of variable length. */
+/* Returns an HDF5 type for this text with its length, or -1 on a fault: VTK 9.1 cannot read texts of variable length.
+ * Release it with H5Tclose. */
 static hid_t text_type(struct hdf *f, const char *text)
 {
     hid_t type = -1;
@@ -302,7 +307,7 @@ void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
     free(plain);
 }
 
-/* Writes an attribute of a group and closes its data space. */
+/* Writes the attribute `name` of a group with one value of this type and data space, and closes the data space. */
 static void output_hdf5_mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space,
                              const void *value)
 {

@@ -12,7 +12,8 @@
 
 static struct path history_path(const struct output *o) { return path_join(o->folder, "history.csv"); }
 
-/* FNV-1a hash (Fowler, Noll and Vo), updated with each byte, so that a checkpoint need not read the file. */
+/* Returns the FNV-1a hash (Fowler, Noll and Vo) updated with n bytes. The hash of history.csv is updated with each
+ * line, so that a checkpoint need not read the file. It begins with HASH_START. */
 #define HASH_START UINT64_C(0xCBF29CE484222325)
 static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
 {
@@ -27,7 +28,7 @@ struct line {
     FILE *to;
 };
 
-/* Opens a memory stream for the text of a line. Returns false if memory is exhausted. */
+/* Opens a memory stream l->to for the text of a line. Returns false if memory is exhausted. */
 static bool line_begin(struct line *l)
 {
     *l = (struct line){0};
@@ -35,8 +36,8 @@ static bool line_begin(struct line *l)
     return l->to != NULL;
 }
 
-/* Writes the line to history.csv, adds it to the length and hash of the file, and frees it. FAILED if it cannot be
- * written. */
+/* Writes the finished line to history.csv, adds it to length and hash of the file in o, and frees it. Returns FAILED if
+ * it cannot be written. */
 static status line_end(struct output *o, struct line *l)
 {
     errno = 0;
@@ -49,7 +50,7 @@ static status line_end(struct output *o, struct line *l)
     return s;
 }
 
-/* Writes the header: `name [unit]` of all columns. */
+/* Writes the header of history.csv: `name [unit]` of all columns. Returns FAILED if it cannot be written. */
 static status history_header(struct output *o, const struct column *column)
 {
     struct line l;
@@ -68,8 +69,8 @@ static status history_header(struct output *o, const struct column *column)
     return line_end(o, &l);
 }
 
-/* Cuts the file to its length at the checkpoint. A new file is created, so that targets of links and other hard links
- * stay unchanged. FAILED if the first part is missing or has changed. */
+/* Cuts history.csv to its length at the checkpoint. A new file is created, so that targets of links and other hard
+ * links remain unchanged. Returns FAILED if the file is missing or shorter, or if this part of it has changed. */
 static status history_cut(const struct output *o)
 {
     struct path path = history_path(o);
@@ -87,7 +88,8 @@ static status history_cut(const struct output *o)
                       path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
 }
 
-/* Opens history.csv, new or at its end (resume), without following a link. Returns NULL and sets errno on a fault. */
+/* Opens history.csv at `path` for writing, new or at its end (resume), without following a link. Returns NULL and sets
+ * errno on a fault. */
 static FILE *history_file(const char *path, bool resume)
 {
     if (!resume) unlink(path);

@@ -20,7 +20,7 @@ void series_file_name(const struct frame_series *s, char *name, size_t capacity,
     snprintf(name, capacity, "%s%s", s->name[0] ? s->name : "frames", end);
 }
 
-/* Writes frames.hdf.series. */
+/* Writes the index frames.hdf.series of a series, in JSON: name and time [s] of each frame that is not lost. */
 static void series_print(FILE *out, const struct frame_series *s)
 {
     const char *between = "";
@@ -35,7 +35,8 @@ static void series_print(FILE *out, const struct frame_series *s)
     fprintf(out, "\n]}\n");
 }
 
-/* Writes a reference to a whole dataset. file: path of the file that holds it; XDMF's readers follow no links. */
+/* Writes an XDMF reference to the dataset of a field with n rows. file: path of the file that contains the dataset
+ * itself, since readers of XDMF follow no links. */
 static void xdmf_item(FILE *out, const char *file, const struct frame_field *field, int64_t n)
 {
     static const char *const number[] = {
@@ -46,7 +47,7 @@ static void xdmf_item(FILE *out, const char *file, const struct frame_field *fie
     fprintf(out, "\">%s:%s</DataItem>", file, field->path);
 }
 
-/* Writes an XDMF attribute: a field of n points in the file `file`. */
+/* Writes an XDMF attribute: a field of n points. file: path of the file that contains the field. */
 static void xdmf_attribute(FILE *out, const char *file, const struct frame_field *field, int64_t n)
 {
     /* A Matrix, not an XDMF Tensor6: XDMF orders the six components differently, and readers would permute them. */
@@ -57,7 +58,8 @@ static void xdmf_attribute(FILE *out, const char *file, const struct frame_field
     fprintf(out, "</Attribute>\n");
 }
 
-/* Writes the XDMF grid of one frame. frame, particles: paths of the frame and of its particles file. */
+/* Writes the XDMF grid of one frame. frame, particles: paths of the frame and of its particles file; e: time, number of
+ * particles and fields of the frame. */
 static void xdmf_grid(FILE *out, const char *frame, const char *particles, const struct frame_entry *e)
 {
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", e->time);
@@ -74,7 +76,7 @@ static void xdmf_grid(FILE *out, const char *frame, const char *particles, const
     fprintf(out, "</Grid>\n");
 }
 
-/* Writes frames.xdmf: a collection in time of the grids of all frames that are not lost. */
+/* Writes the index frames.xdmf of a series: a collection in time of the grids of all frames that are not lost. */
 static void xdmf_print(FILE *out, const struct frame_series *s)
 {
     fprintf(out, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n");
@@ -91,7 +93,8 @@ static void xdmf_print(FILE *out, const struct frame_series *s)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of an index. which: 0 for frames.hdf.series, 1 for frames.xdmf. */
+/* Returns the path of an index file of a series in the folder of a run. which: 0 for frames.hdf.series, 1 for
+ * frames.xdmf. */
 static struct path index_path(const char *folder, const struct frame_series *s, int which)
 {
     static const char *const end[INDICES] = {".hdf.series", ".xdmf"};
@@ -100,7 +103,8 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
     return path_join(folder, name);
 }
 
-/* Composes the text of an index in memory. */
+/* Composes the text of an index file of a series in memory, index->text[which]. which: 0 for frames.hdf.series, 1 for
+ * frames.xdmf. folder: folder of the run, for messages. Returns FAILED if memory is exhausted. */
 static status index_make(struct frame_indices *index, const char *folder, const struct frame_series *s, int which)
 {
     static void (*const print[INDICES])(FILE *, const struct frame_series *) = {series_print, xdmf_print};

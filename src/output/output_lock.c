@@ -15,22 +15,22 @@ static const char lock_name[] = ".running", lock_begin[] = "process ";
 
 enum { TRIES = 100 }; /* a lock file may be removed between open and lock */
 
-/* Returns true if `path` still is the file that is open as fd, and was not removed or replaced. */
+/* Returns true if `path` still is the file that is open as fd, and has not been removed or replaced. */
 static bool is_still_there(int fd, const char *path)
 {
     struct stat own, there;
     return fstat(fd, &own) == 0 && lstat(path, &there) == 0 && own.st_ino == there.st_ino && own.st_dev == there.st_dev;
 }
 
-/* Returns true if the file has another hard link, through which a write would change another file. */
+/* Returns true if the open file has another hard link: writing to it would then change another file. */
 static bool has_other_names(int fd)
 {
     struct stat own;
     return fstat(fd, &own) == 0 && own.st_nlink > 1;
 }
 
-/* Checks that an open file is empty or begins with the text that sign() writes. REFUSED if not; FAILED if the file
- * cannot be read. */
+/* Checks that the open file fd is empty or begins with the text that `sign` writes. Returns REFUSED if it does not, and
+ * FAILED if it cannot be read. */
 static status lock_file_check(int fd, const char *path)
 {
     char begin[sizeof lock_begin - 1];
@@ -40,7 +40,8 @@ static status lock_file_check(int fd, const char *path)
     return status_set(REFUSED, "%s is not the lock file of a run; choose another -o", path);
 }
 
-/* Locks an open file. Returns 0, EAGAIN if another process holds the lock, or another errno. */
+/* Locks the whole open file fd with a POSIX record lock. Returns 0, EAGAIN if another process holds the lock, or
+ * another errno. */
 static int lock_try(int fd)
 {
     struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -50,7 +51,8 @@ static int lock_try(int fd)
     return errno == EACCES ? EAGAIN : errno;
 }
 
-/* Returns REFUSED with a message about the process that holds the lock, as named in the lock file. */
+/* Returns REFUSED with the message that the folder is in use by the process that holds the lock, as named in the lock
+ * file fd. */
 static status say_holder(int fd, const char *folder)
 {
     char who[160];
@@ -61,7 +63,7 @@ static status say_holder(int fd, const char *folder)
                       who[0] ? who : "another process");
 }
 
-/* Writes the process number and the name of the machine to the lock file, for messages. */
+/* Writes the process number and the name of the machine to the lock file fd, for the messages of other processes. */
 static void sign(int fd)
 {
     char host[64] = "this machine", text[128];

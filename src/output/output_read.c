@@ -14,11 +14,12 @@
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Largest plausible number of particles per byte of a file: gzip compresses the 8-byte reference positions by less.
- * Limits the memory that a damaged file can request. */
+/* Largest plausible number of particles per byte of a frame: gzip compresses the 8-byte reference positions by a
+ * smaller factor. It limits the memory that a damaged file can request. */
 enum { PARTICLES_PER_BYTE_MOST = 1024 };
 
-/* Reads a dataset of n rows and `columns` columns and copies column from[k] to out[k], [n], for k < wanted. */
+/* Reads the dataset `name` of n rows and `columns` columns, and copies its column from[k] to a new array out[k], [n],
+ * for k < wanted. The caller releases the arrays. */
 static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from,
                          float **out)
 {
@@ -38,7 +39,8 @@ static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int6
     return data;
 }
 
-/* Reads all fields of a frame; stress in the order of struct particles, with zz last in the plane. */
+/* Reads all fields of a frame into new arrays of f. Stress components are in the order of struct particles, with zz
+ * last in plane spaces. */
 static void read_fields(struct output_frame *f, struct hdf *h)
 {
     static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
@@ -59,7 +61,8 @@ static void read_fields(struct output_frame *f, struct hdf *h)
         f->spacing = read_list(h, "/VTKHDF/PointData/spacing", HDF_F32, f->n);
 }
 
-/* Reads dimension, time, step and number of particles. A value out of range is recorded as a fault of the file. */
+/* Reads dimension, time, step and number of particles of a frame into f. Values out of range are recorded as a fault of
+ * the file. bytes: size of the file. */
 static void read_size(struct output_frame *f, struct hdf *h, int64_t bytes)
 {
     int32_t dim = 0;
@@ -115,7 +118,7 @@ void frame_free(struct output_frame *f)
 
 /* ---- one field by name ------------------------------------------------------------------------------------------- */
 
-/* Fills row[SYM_MAX] with the velocity or stress of particle i, from which another field is derived. Components that
+/* Copies the velocity or stress of particle i, from which another field is derived, to row[SYM_MAX]. Components that
  * the space does not have are 0. */
 static void source_row(const struct output_frame *f, enum derived_from from, int64_t i, real *row)
 {
@@ -175,7 +178,8 @@ status frame_field_read(const struct output_frame *f, const char *path, const ch
 
 /* ---- times of frames --------------------------------------------------------------------------------------------- */
 
-/* Reads the next entry of the index. Returns false at the end. */
+/* Reads the next entry of the text of frames.hdf.series at *at into f, and advances *at behind it. Returns false if
+ * there is no further entry. */
 static bool next_frame(const char **at, struct listed_frame *f)
 {
     static const char name[] = "frames/", key[] = "\"time\":";

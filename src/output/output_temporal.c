@@ -31,7 +31,8 @@ struct temporal {
     struct hdf_source *source; /* [n] scratch; its numbers of rows are those of the frames */
 };
 
-/* Lists the frames that are there, and the fields that they share. */
+/* Lists in `a` the frames of a series whose files exist, with their particles files, and the fields that all of them
+ * share. */
 static void frames_look(struct temporal *a, const struct frame_series *series)
 {
     unsigned all = (1u << FRAME_FIELDS) - 1, any = 0;
@@ -48,7 +49,8 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
     a->fields = all | (any & 1u << FIELD_CONTACT);
 }
 
-/* Writes the group Steps: the times, and where the data of each time begin. number: work array of n entries. */
+/* Writes the group Steps of the temporal file: the times, and where the data of each time begin. number: working memory
+ * of n entries. */
 static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
@@ -75,8 +77,9 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     }
 }
 
-/* Writes a virtual dataset. needed: bits of the fields that a frame must have to have the dataset (0: every frame has
- * it); its rows are 0 in other frames. more: rows more than points in each frame. */
+/* Writes a virtual dataset that concatenates a field of all frames. needed: bits of the fields that a frame must have
+ * to contain the dataset (0: every frame has it); its rows are 0 for other frames. more: number of rows in each frame
+ * beyond its number of points. */
 static void write_virtual(struct hdf *f, const struct temporal *a, const struct frame_field *field, uint32_t needed,
                           int more)
 {
@@ -87,7 +90,7 @@ static void write_virtual(struct hdf *f, const struct temporal *a, const struct 
     hdf_write_virtual(f, field->path, field->type, field->columns, a->source, a->n, more);
 }
 
-/* Writes points, cells and fields as virtual datasets. */
+/* Writes points, cells and fields of all frames as virtual datasets. number: working memory of n entries. */
 static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
@@ -107,8 +110,8 @@ static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
     }
 }
 
-/* Writes the units of the fields and the scene as field data that all times share. number: work array of 2 n
- * entries. */
+/* Writes the units of the fields and the text of the scene as field data that all times share. number: working memory
+ * of 2 n entries. */
 static void write_texts(struct hdf *f, const struct temporal *a, const char *scene_text, int64_t *number)
 {
     static const char *const name[] = {"units", "scene"};
@@ -130,8 +133,8 @@ static void write_texts(struct hdf *f, const struct temporal *a, const char *sce
     }
 }
 
-/* Writes the temporal file under a temporary name and renames it. Sets *broken to true if HDF5 fails, after which the
- * incomplete file is removed. */
+/* Writes the temporal file under the temporary name of `path` and renames it. Returns FAILED if that is not possible;
+ * if HDF5 fails, sets *broken to true and removes the incomplete file. */
 static status temporal_write(const struct temporal *a, const char *path, const char *scene_text, bool *broken)
 {
     static const int32_t version[2] = {2, 0};

@@ -21,10 +21,10 @@ void particles_file_name(const struct frame_series *s, char *name, size_t capaci
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if field k is in the particles file. */
+/* Returns true if field k (FIELD_*) is in the particles file, as its values do not change from frame to frame. */
 static bool is_inside(const struct particles_file *f, int k) { return f->fields >> k & 1 && frame_fields[k].fixed; }
 
-/* Returns the size of all rows of field k [byte]. */
+/* Returns the size of all rows of field k (FIELD_*) in the particles file [byte]. */
 static size_t field_bytes(const struct particles_file *f, int k)
 {
     return (size_t)f->n * frame_field_bytes(&frame_fields[k], f->dim);
@@ -58,13 +58,14 @@ void particles_file_free(struct particles_file *f)
     f->rows = NULL, f->cells = NULL;
 }
 
-/* Writes a list of the cells. entries: of the list at `of`. */
+/* Writes one of the lists that define the cells (CELLS_*). of[entries]: its values, in the type of the list. */
 static void particles_write_list(struct hdf *h, int list, int64_t entries, const void *of)
 {
     hdf_write_table(h, frame_cells[list].path, frame_cells[list].type, entries, 1, 1, of);
 }
 
-/* Writes one vertex cell per particle: cell k consists of point k and starts at k. */
+/* Writes the cells of a particles file for VTK, one vertex per particle: cell k consists of point k and starts at entry
+ * k of the connectivity. */
 static void particles_write_cells(struct hdf *h, const struct particles_file *f)
 {
     for (int k = 0; k < 3; k++) hdf_write_rows(h, linked[k], HDF_I64, 1, 1, &f->n);
@@ -75,7 +76,7 @@ static void particles_write_cells(struct hdf *h, const struct particles_file *f)
     particles_write_list(h, CELLS_TYPES, f->n, f->cells);
 }
 
-/* Writes groups, marks, texts, cells and fields of a particles file. */
+/* Writes the groups, attributes, texts, cells and fields of a particles file to h. */
 static void particles_write_contents(struct hdf *h, const struct particles_file *f)
 {
     static const int32_t version = PARTICLES_VERSION;

@@ -37,7 +37,8 @@ static const struct picture_end {
                      true},
 };
 
-/* Reads up to `capacity` bytes from the end of an open file. Returns their number. */
+/* Reads the last bytes of an open file of `length` bytes, at most `capacity`, into `to`. Returns their number; 0 on a
+ * fault. */
 static size_t read_end(int fd, int64_t length, char *to, size_t capacity)
 {
     const size_t wanted = length < (int64_t)capacity ? (size_t)length : capacity;
@@ -45,7 +46,7 @@ static size_t read_end(int fd, int64_t length, char *to, size_t capacity)
     return have < 0 ? 0 : (size_t)have;
 }
 
-/* Returns true if the lengths of the boxes of a film add up to the length of the file. */
+/* Returns true if the lengths of the boxes of a film (MP4) add up to the length of the open file [byte]. */
 static bool boxes_are_whole(int fd, int64_t length)
 {
     int64_t at = 0;
@@ -62,8 +63,8 @@ static bool boxes_are_whole(int fd, int64_t length)
     return length > 0;
 }
 
-/* Returns the offset at which the end mark of the format begins, or the length of a file made of boxes [byte]; -1 if
- * the file is incomplete. */
+/* Returns the offset in the open file of `length` bytes at which the end of its format e begins; for a file made of
+ * boxes the length of the file [byte]. Returns -1 if the file is incomplete. */
 static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
 {
     char last[END_LENGTH];
@@ -75,8 +76,8 @@ static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
     return length - (int64_t)(have - own + e->end_length);
 }
 
-/* Writes the mark of Cleave into a complete picture and syncs the file. Returns 0, an errno, or -1 if the picture is
- * incomplete. */
+/* Writes the mark of Cleave into the complete picture fd of format e, and syncs the file. Returns 0, an errno, or -1 if
+ * the picture is incomplete. */
 static int mark_and_sync(int fd, const struct picture_end *e)
 {
     char bytes[2 * END_LENGTH];

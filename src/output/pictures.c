@@ -15,7 +15,8 @@ static const char field_prefix[] = "field_";
 
 struct path pictures_folder(const char *dir) { return path_join(dir, "pictures"); }
 
-/* Composes the path of a picture. of: base name; number: "" or "_000012". */
+/* Composes the path of a picture in the folder of a run, dir. of: base name of the picture; number: "" or the number of
+ * its frame as "_000012"; ending: extension without the point. The path is empty if it is too long. */
 static struct path picture_place(const char *dir, const char *of, const char *number, const char *ending)
 {
     char name[PATH_NAME_ROOM];
@@ -41,7 +42,7 @@ struct path picture_path_of_field(const char *dir, const char *field, const char
     return picture_place(dir, field_prefix, field, ending);
 }
 
-/* Returns true if the end of a name, after its first part, is the extension of a picture such as .png, followed by
+/* Returns true if `rest`, a file name behind its base name, is the extension of a picture, such as .png, followed by
  * `end`. */
 static bool ends_as_picture(const char *rest, const char *end)
 {

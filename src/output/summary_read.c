@@ -49,7 +49,8 @@ static bool escape(struct reader *r)
     return true;
 }
 
-/* Parses a string; its bytes between the quotes are [*from, *to). Returns false if it is malformed. */
+/* Parses a JSON string. *from, *to: receive its beginning and end without the quotes; escapes remain as they are.
+ * Returns false if the string is malformed. */
 static bool string(struct reader *r, const char **from, const char **to)
 {
     if (!summary_read_take(r, '"')) return false;
@@ -95,8 +96,8 @@ static bool word(struct reader *r, const char *text)
     return true;
 }
 
-/* Returns what remains of the dotted key `rest` after its first part, if this part is `name`; NULL if it is another
- * name or rest is NULL. */
+/* Returns the part of the dotted key `rest` below its first part, if the first part is `name` of `length` characters.
+ * Returns NULL if it is another name or rest is NULL. */
 static const char *summary_read_below(const char *rest, const char *name, size_t length)
 {
     if (rest == NULL || strncmp(rest, name, length) != 0) return NULL;
@@ -104,8 +105,9 @@ static const char *summary_read_below(const char *rest, const char *name, size_t
     return rest[length] == '.' ? rest + length + 1 : NULL;
 }
 
-/* Parses the value of the member `name` of an object; r->key has its dotted key meanwhile, truncated if it is too
- * long. rest: part of the wanted key from this member on. Returns false if the text is malformed. */
+/* Parses the value of the member `name` of an object. Meanwhile r->key is the dotted key of the value, truncated if it
+ * is too long. rest: part of the wanted key from this member on. depth: levels of nesting. Returns false if the text is
+ * malformed. */
 static bool member(struct reader *r, const char *rest, const char *name, size_t length, int depth)
 {
     const size_t above = r->length;
@@ -142,7 +144,9 @@ static bool list(struct reader *r, const char *rest, int depth)
 
 static bool value(struct reader *r, const char *rest, int depth)
 
-/* Parses any value; records where the wanted one begins. */
+/* Parses any value at r->at, and stores in r->found where the wanted value begins. rest: remaining part of the wanted
+ * key, "" if this is the wanted value, NULL if the value is not on its path. depth: levels of nesting. Returns false if
+ * the text is malformed. */
 {
     const char *from, *to;
     if (depth == DEPTH_MAX) return false;
@@ -175,7 +179,8 @@ static bool value(struct reader *r, const char *rest, int depth)
     return true;
 }
 
-/* Reads a whole file into *text, which the caller frees. */
+/* Reads the whole file `path` into *text, with a final 0; the caller releases it with free. Returns FAILED if it cannot
+ * be read. */
 static status read_text(const char *path, char **text)
 {
     if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is no regular file", path);
@@ -201,8 +206,9 @@ static status read_text(const char *path, char **text)
     return OK;
 }
 
-/* Parses the whole document. text: receives its bytes, which the caller frees, on a fault as well. FAILED, with file
- * and line, if it is not JSON. */
+/* Parses summary.json in a folder from the first to the last byte, in search of the value of `key`. *text: receives the
+ * bytes of the file, which the caller frees, also on a fault. Returns FAILED, with file and line in the message, if the
+ * text is not JSON. */
 static status summary_read_document(struct reader *r, const char *folder, const char *key, char **text)
 {
     char path[4096];
@@ -219,8 +225,9 @@ static status summary_read_document(struct reader *r, const char *folder, const 
     return status_set(FAILED, "%s:%d: not JSON", path, line);
 }
 
-/* Finds the value of a key. text: receives the document, which the caller frees; found: first byte of the value in it.
- * FAILED as summary_read_document, or if there is no such key. */
+/* Finds the value of `key` in summary.json of a folder, also under its earlier name. *text: receives the document,
+ * which the caller frees; *found: first byte of the value in it. Returns FAILED, with the document freed, if it is not
+ * JSON or has no such key. */
 static status summary_read_find(const char *folder, const char *key, char **text, const char **found)
 {
     struct reader r = {0};
