@@ -41,11 +41,11 @@ struct deck {
 
 /* ---- lines and fields ------------------------------------------------------------------------------------------ */
 
-/* Returns true at the end of a line or of the file. */
+/* Returns true if the reading position of s is at the end of a line or of the file. */
 static bool at_end_of_line(const struct source *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
 
-/* Reads the next field of the line without surrounding blanks. Returns false if there is none; a trailing comma adds no
- * field. */
+/* Reads the next field of the line, up to a comma, without surrounding blanks. Returns false if there is none; a
+ * trailing comma adds no field. A field of FIELD or more characters is cut off. */
 static bool deck_field(struct source *s, char field[FIELD])
 {
     size_t n = 0;
@@ -59,8 +59,8 @@ static bool deck_field(struct source *s, char field[FIELD])
     return true;
 }
 
-/* Moves to the next line that is neither empty nor a comment. Returns false if it is a keyword, or at the end of the
- * file. */
+/* Advances to the next line that is neither empty nor a comment. Returns true if it is a line of data; false if it is a
+ * keyword, and at the end of the file. */
 static bool data_line(struct source *s)
 {
     while (s->at < s->length) {
@@ -74,8 +74,8 @@ static bool data_line(struct source *s)
     return false;
 }
 
-/* Parses a field as a number; also with Fortran's exponent letter d. An empty field is 0. REFUSED unless it is a
- * finite number. */
+/* Parses a field as a number, also with Fortran's exponent letter d. An empty field is 0, as Abaqus prescribes. Returns
+ * REFUSED unless it is a finite number. */
 static status deck_real(const struct source *s, const char *field, real *value)
 {
     char text[FIELD], *end;
@@ -91,7 +91,7 @@ static status deck_real(const struct source *s, const char *field, real *value)
 /* Returns true if a field is a label, not the name of a set. */
 static bool is_label(const char *field) { return isdigit((unsigned char)field[0]); }
 
-/* Parses a field as a label of a node or element. REFUSED unless it is a whole number from 0 to LABEL_MAX. */
+/* Parses a field as the label of a node or element. Returns REFUSED unless it is a whole number from 0 to LABEL_MAX. */
 static status deck_label(const struct source *s, const char *field, int32_t *label)
 {
     real value;
@@ -105,7 +105,7 @@ static status deck_label(const struct source *s, const char *field, int32_t *lab
 
 /* ---- keywords ------------------------------------------------------------------------------------------------- */
 
-/* Copies a word in capitals without blanks. */
+/* Copies a word to to[FIELD] in capitals and without blanks. */
 static void word_plain(char *to, const char *from)
 {
     size_t n = 0;
@@ -114,7 +114,8 @@ static void word_plain(char *to, const char *from)
     to[n] = '\0';
 }
 
-/* Appends a parameter NAME or NAME=VALUE to a keyword. Ignores parameters beyond PARAMETERS_MAX. */
+/* Appends the parameter in `field`, NAME or NAME=VALUE, to a keyword; modifies the field. Parameters beyond
+ * PARAMETERS_MAX are ignored. */
 static void parameter_add(struct keyword *k, char *field)
 {
     char *equals = strchr(field, '=');
@@ -129,7 +130,8 @@ static void parameter_add(struct keyword *k, char *field)
     word_plain(p->name, field);
 }
 
-/* Reads a keyword line, which continues on the next line after a trailing comma. */
+/* Reads a keyword line into d->key and advances to the next line. The keyword continues on the next line after a
+ * trailing comma. */
 static void keyword_read(struct deck *d)
 {
     struct source *s = d->s;
@@ -148,7 +150,7 @@ static void keyword_read(struct deck *d)
     } while (more);
 }
 
-/* Returns the value of a parameter of the current keyword; NULL if it is missing. */
+/* Returns the value of the parameter `name` of the current keyword, "" if it has no value; NULL if it is missing. */
 static const char *parameter(const struct deck *d, const char *name)
 {
     for (int k = 0; k < d->key.n; k++)
@@ -158,8 +160,9 @@ static const char *parameter(const struct deck *d, const char *name)
 
 /* ---- nodes and elements ---------------------------------------------------------------------------------------- */
 
-/* Finds or creates the set whose name is the value of a parameter; *set is -1 if the parameter is missing. REFUSED if
- * there are too many sets. */
+/* Finds or creates the set whose name is the value of the parameter `name`, and stores its index in *set; -1 if the
+ * parameter is missing. of_nodes: true for a set of nodes, false for one of elements. Returns REFUSED if there are too
+ * many sets. */
 static status set_named(struct deck *d, const char *name, bool of_nodes, int *set)
 {
     const char *given = parameter(d, name);
@@ -167,8 +170,8 @@ static status set_named(struct deck *d, const char *name, bool of_nodes, int *se
     return given && *set < 0 ? source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
 }
 
-/* Reads the data lines of *NODE: a label and coordinates each. With NSET the nodes are added to a set. REFUSED for
- * malformed lines and other coordinate systems. */
+/* Reads the data lines of *NODE, each a label and coordinates. If the keyword has the parameter NSET, the nodes are
+ * added to this set. Returns REFUSED for malformed lines and for other than Cartesian coordinates. */
 static status nodes_read(struct deck *d)
 {
     int set;
@@ -208,8 +211,8 @@ static const struct size {
              {false, 6, ELEMENT_PRISM},        {false, 15, ELEMENT_PRISM},     {false, 8, ELEMENT_HEXAHEDRON},
              {false, 20, ELEMENT_HEXAHEDRON},  {false, 27, ELEMENT_HEXAHEDRON}};
 
-/* Returns the row of the table of sizes for an element type, such as C3D10M or CPS4R, with its shape and number of
- * nodes. Returns NULL for elements that are neither solids nor surfaces. */
+/* Returns the row of the table `sizes` for an element type such as C3D10M or CPS4R: its shape and number of nodes.
+ * Returns NULL for elements that are neither solids nor surfaces. */
 static const struct size *size_of_type(const char *type)
 {
     for (size_t f = 0; f < COUNT_OF(families); f++) {
@@ -223,9 +226,9 @@ static const struct size *size_of_type(const char *type)
     return NULL;
 }
 
-/* Reads the node labels of an element, which may continue on further lines: its corners into node[], its middle nodes
- * into middle[] in the order of elements.h. In elements with 27 nodes the interior node is skipped. REFUSED if the
- * number of labels is wrong. */
+/* Reads the node labels of an element, which may continue on further lines: those of its corners into node[], those of
+ * its middle nodes into middle[] in the order of elements.h. In elements with 27 nodes the interior node is skipped.
+ * Returns REFUSED if the element has another number of labels than size->nodes. */
 static status element_nodes(struct deck *d, const struct size *size, int32_t *node, int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
@@ -250,7 +253,8 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
     return source_fault(d->s, "an element of a type with %d nodes lists more, such as %.20s", size->nodes, field);
 }
 
-/* Reads the elements of *ELEMENT. Unsupported types are skipped. */
+/* Reads the data lines of *ELEMENT, each a label and nodes. If the keyword has the parameter ELSET, the elements are
+ * added to this set. Elements of unsupported types are skipped. Returns REFUSED for malformed lines. */
 static status elements_read(struct deck *d)
 {
     int set;
@@ -277,8 +281,8 @@ static status elements_read(struct deck *d)
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Adds the labels first, first + step, .., last of a line after GENERATE to a set. REFUSED if the step is not
- * positive, last is below first, or there are too many members. */
+/* Adds the labels first, first + step, .. last, which a line after GENERATE gives, to the set with this index. Returns
+ * REFUSED if the step is not positive, last is below first, or there are too many members. */
 static status generate_line(struct deck *d, int set)
 {
     int32_t bound[3] = {0, 0, 1};
@@ -292,7 +296,8 @@ static status generate_line(struct deck *d, int set)
     return OK;
 }
 
-/* Adds the current members of another set. REFUSED: too many sets or members. */
+/* Adds the current members of the set `name` to the set with index `set`. of_nodes: true for sets of nodes. Returns
+ * REFUSED if there are too many sets or members. */
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
     const int other = element_mesh_find_set(d->m, name, of_nodes);
@@ -305,8 +310,8 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     return OK;
 }
 
-/* Replaces the labels that were added to sets since the last call by indices of nodes or elements. Removes labels
- * that the scope does not contain. */
+/* Replaces the labels that were added to sets since the last call by indices of nodes or elements of the scope, a part
+ * or what is outside parts. Removes labels that the scope does not contain. */
 static void sets_resolve(struct deck *d, const struct scope *scope)
 {
     for (int k = 0; k < d->m->sets; k++) {
@@ -321,7 +326,8 @@ static void sets_resolve(struct deck *d, const struct scope *scope)
     }
 }
 
-/* Finds a part by its own name or that of its instance; returns -1 if there is none. */
+/* Returns the index of the part with this name, or, if `instance`, of the part whose instance has it; -1 if there is
+ * none. */
 static int scope_find(const struct deck *d, const char *name, bool instance)
 {
     for (int k = 1; k < d->scopes; k++)
@@ -329,7 +335,8 @@ static int scope_find(const struct deck *d, const char *name, bool instance)
     return -1;
 }
 
-/* Reads a set of *NSET or *ELSET: labels, names of other sets, or ranges. */
+/* Reads the set of *NSET or *ELSET: labels, names of other sets, or ranges. of_nodes: true for *NSET. Returns REFUSED
+ * for malformed lines, a set without name or an unknown instance. */
 static status set_read(struct deck *d, bool of_nodes)
 {
     int set;
@@ -362,7 +369,8 @@ static status set_read(struct deck *d, bool of_nodes)
 
 /* ---- parts ---------------------------------------------------------------------------------------------------- */
 
-/* Replaces a node label of element k by the index of the node. REFUSED if there is no such node. */
+/* Replaces the node label *node of element k by the index of the node. scope: the part to which the element belongs.
+ * Returns REFUSED if the part has no such node. */
 static status node_resolve(const struct deck *d, const struct scope *scope, int64_t k, int32_t *node)
 {
     const int64_t index = label_find(&scope->node_of, *node);
@@ -373,8 +381,8 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
     return OK;
 }
 
-/* Ends the current scope and replaces its labels by indices. Label 0 of a middle node means that it is missing and
- * the edge is straight. REFUSED for unknown or repeated labels. */
+/* Ends the current scope, a part or what is outside parts, and replaces its labels by indices. Label 0 of a middle node
+ * means that it is missing and the edge is straight. Returns REFUSED for unknown or repeated labels. */
 static status scope_end(struct deck *d)
 {
     struct scope *scope = &d->scope[d->now];
@@ -400,7 +408,7 @@ static status scope_end(struct deck *d)
     return OK;
 }
 
-/* Begins a new scope, which becomes the current one. */
+/* Begins a new scope, a part with this name or "" outside parts, which becomes the current one. */
 static void scope_begin(struct deck *d, const char *name)
 {
     GROW("abaqus.parts", d->scope, d->scopes + 1);
@@ -410,8 +418,9 @@ static void scope_begin(struct deck *d, const char *name)
     scope->node = d->m->nodes, scope->element = d->m->elements;
 }
 
-/* Ends the current scope and begins a new one, called at the start and end of a part. name: name of the part; NULL
- * outside parts, where labels belong to the assembly. REFUSED if there are too many parts. */
+/* Ends the current scope and begins a new one, at the beginning and end of a part. name: name of the part; NULL outside
+ * parts, where labels belong to the assembly. Returns REFUSED if there are too many parts, or if the labels of the
+ * ended scope are invalid. */
 static status scope_change(struct deck *d, const char *name)
 {
     if (d->scopes >= PARTS_MAX) return source_fault(d->s, "more than %d parts", PARTS_MAX);
@@ -420,7 +429,7 @@ static status scope_change(struct deck *d, const char *name)
     return OK;
 }
 
-/* Rotates X by `angle` [rad] about the axis from a to b (Rodrigues' formula). */
+/* Rotates the point X by `angle` [rad] about the axis from a to b (Rodrigues' formula). a and b must differ. */
 static void rotate_about(real *X, const real *a, const real *b, real angle)
 {
     real axis[DIM_MAX], arm[DIM_MAX], length = 0;
@@ -434,8 +443,8 @@ static void rotate_about(real *X, const real *a, const real *b, real angle)
     }
 }
 
-/* Moves a part to the position of its instance, from up to two lines: a displacement; two points of an axis and an
- * angle in degrees. REFUSED if the part is unknown or has two instances. */
+/* Moves the nodes of a part to the position of its instance, which up to two lines give: a displacement; two points of
+ * an axis and an angle in degrees. Returns REFUSED if the part is unknown or has two instances. */
 static status instance_read(struct deck *d)
 {
     const char *part = parameter(d, "PART"), *name = parameter(d, "NAME");
@@ -465,7 +474,8 @@ static status instance_read(struct deck *d)
 
 /* ---- the deck ------------------------------------------------------------------------------------------------- */
 
-/* Handles the current keyword and its data lines. */
+/* Reads the data lines of the current keyword, or skips them if it has no meaning for the mesh. Returns REFUSED for
+ * invalid data, and for keywords that generate nodes or elements or include files. */
 static status keyword_follow(struct deck *d)
 {
     static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "INCLUDE"};

@@ -112,7 +112,7 @@ void element_mesh_free(struct element_mesh *m)
 
 /* ---- labels --------------------------------------------------------------------------------------------------- */
 
-/* Orders entries by label, then by index. */
+/* Orders entries of a label map by label, then by index, for array_sort. */
 static int label_entry_order(const void *a, const void *b)
 {
     const struct label_entry *p = a, *q = b;

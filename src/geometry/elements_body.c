@@ -11,7 +11,8 @@ void surface_builder_add_face(struct surface_builder *b, int32_t i, int32_t j, i
     memcpy(b->face[b->n++], face, sizeof face);
 }
 
-/* Returns true if X comes before Y, by the first coordinate in which they differ by more than 1e-9 of `size`. */
+/* Returns true if the point X comes before Y in the order by x, y, z: by the first coordinate in which they differ by
+ * more than 1e-9 of `size`. */
 static bool point_before(const real *X, const real *Y, real size)
 {
     for (int d = 0; d < DIM_MAX; d++)
@@ -19,8 +20,9 @@ static bool point_before(const real *X, const real *Y, real size)
     return false;
 }
 
-/* Adds a quadrilateral as two triangles, a triangle as it is. The diagonal starts at the corner that is first by
- * position, so that two elements that share the side but not its nodes use the same diagonal. */
+/* Adds a side of an element, with n = 3 or 4 corners node[n], to the faces: a triangle as it is, a quadrilateral as two
+ * triangles. Its diagonal starts at the corner that is first by position, so that two elements that share the side but
+ * not its nodes use the same diagonal. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n)
 {
     int low = 0;
@@ -32,7 +34,8 @@ void surface_builder_add_side(struct surface_builder *b, const int32_t *node, in
     if (n == 4) surface_builder_add_face(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
 }
 
-/* Adds the sides of an element that fills a part of the body, or the element itself if it is a part of the surface. */
+/* Adds the sides of an element of the body's dimension to the faces, or the element itself if its dimension is
+ * lower. */
 static void builder_add_element(struct surface_builder *b, const struct element *e)
 {
     const struct element_sides *sides = &element_sides[e->kind];
@@ -55,7 +58,8 @@ static void builder_add_element(struct surface_builder *b, const struct element 
     }
 }
 
-/* Returns six times the volume enclosed by the faces from `first` on, in 2D twice the area [file unit^dim]. */
+/* Returns six times the volume enclosed by the faces from number `first` on, in 2D twice the area [unit of the
+ * file^dim]. */
 static real builder_volume(const struct surface_builder *b, int64_t first)
 {
     const real *O = b->m->node[b->face[first][0]];
@@ -72,9 +76,9 @@ static real builder_volume(const struct surface_builder *b, int64_t first)
     return sum;
 }
 
-/* Returns one side of an element with its n corners, the middle nodes of its edges, and the node at its centre.
- * corner[n]: numbers of the corners in the element. centre: number of the middle node of the side, or -1. turned:
- * reverses the orientation of the side. */
+/* Returns one side of the element e as a patch: its n corners, the middle nodes of its edges, and the node at its
+ * centre. corner[n]: numbers of the corners in the element. centre: number of the side's central node among the middle
+ * nodes of the element, or -1. turned: true to reverse the orientation of the side. */
 static struct patch patch_of(const struct surface_builder *b, const struct element *e, const signed char *corner, int n,
                              int centre, bool turned)
 {
@@ -91,7 +95,8 @@ static struct patch patch_of(const struct surface_builder *b, const struct eleme
     return p;
 }
 
-/* Adds the sides of an element as patches, like builder_add_element. */
+/* Adds the sides of an element as patches, which have middle nodes, or the element itself if its dimension is lower
+ * than that of the body. turned: true to reverse their orientation. */
 static void builder_add_patches(struct surface_builder *b, const struct element *e, bool turned)
 {
     static const signed char all[] = {0, 1, 2, 3};
@@ -110,7 +115,8 @@ static void builder_add_patches(struct surface_builder *b, const struct element 
     }
 }
 
-/* Adds the sides of an element, reversed if its corners have the opposite orientation. */
+/* Adds the sides of an element to the faces, or to the patches if the mesh has middle nodes. They are reversed if the
+ * corners of the element have the opposite orientation, so that they point outwards. */
 static void builder_add_oriented(struct surface_builder *b, const struct element *e)
 {
     const int64_t first = b->n;
@@ -128,8 +134,8 @@ static void builder_add_oriented(struct surface_builder *b, const struct element
 }
 
 /* Makes a hull of the collected faces and the nodes they use, in metres, and removes the faces from the builder.
- * closed: the hull encloses a volume. *node_of: node of the mesh at each corner of the hull, to be freed by the
- * caller. If node_of is NULL, nodes added by subdivision are removed from the mesh. */
+ * closed: true if the hull encloses a volume. *node_of: receives the node of the mesh at each corner of the hull, to be
+ * released by the caller with memory_free. If node_of is NULL, nodes added by subdivision are removed from the mesh. */
 static void builder_close(struct surface_builder *b, struct hull *hull, bool closed, int32_t **node_of)
 {
     struct element_mesh *m = b->m;
@@ -158,8 +164,8 @@ static void builder_close(struct surface_builder *b, struct hull *hull, bool clo
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Makes the surface of a set of elements: closed if some of them fill a part of the body, else open and made of its
- * faces, lines and points. */
+/* Makes the surface `hull` of a set of elements. It is closed if some of them fill a part of the body, else open and
+ * made of the set's faces, lines and points. */
 static void set_of_elements(struct surface_builder *b, const struct element_set *set, struct hull *hull)
 {
     const struct element *e = b->m->element;
@@ -170,7 +176,8 @@ static void set_of_elements(struct surface_builder *b, const struct element_set 
     builder_close(b, hull, fills, NULL);
 }
 
-/* Makes the surface of a set of nodes: the nodes, and the faces of the body whose nodes are all members. */
+/* Makes the open surface `hull` of a set of nodes: the nodes, and the faces of the body whose nodes are all members of
+ * the set. whole: surface of the body; node_of: node of the mesh at each of its corners. */
 static void set_of_nodes(struct surface_builder *b, const struct element_set *set, const struct hull *whole,
                          const int32_t *node_of, struct hull *hull)
 {
@@ -193,8 +200,8 @@ static void set_of_nodes(struct surface_builder *b, const struct element_set *se
     builder_close(b, hull, false, NULL);
 }
 
-/* Makes the surface of each set of nodes or elements that is not empty, and stores it in g. node_of: node of the mesh
- * at each corner of the body's hull. */
+/* Makes the surface of each set of nodes or elements that is not empty, and stores it in g->set. node_of: node of the
+ * mesh at each corner of the body's surface g->whole. */
 static void take_sets(struct surface_builder *b, const int32_t *node_of, struct geometry *g)
 {
     g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);
@@ -213,7 +220,8 @@ static void take_sets(struct surface_builder *b, const int32_t *node_of, struct 
 /* ---- the body ------------------------------------------------------------------------------------------------- */
 
 /* Stores in *body_dim the dimension of the elements that make up the body: dim, or 2 in 3D if the mesh has surface
- * elements only. Returns REFUSED if the mesh has no such elements, or solid elements in 2D. */
+ * elements only. path: file of the mesh, for messages. Returns REFUSED if the mesh has no such elements, or has solid
+ * elements in 2D. */
 static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
 {
     int64_t n[1 + DIM_MAX] = {0};
@@ -231,7 +239,8 @@ static status body_dim_of(const struct element_mesh *m, const char *path, int di
                                : "tetrahedra, hexahedra, prisms, pyramids or a closed surface of triangles");
 }
 
-/* Returns REFUSED unless 2D elements have equal z to 1e-6 of their extent. */
+/* Returns REFUSED unless all 2D elements of the mesh have equal z to 1e-6 of their extent. path: file of the mesh, for
+ * the message. */
 static status check_plane(const struct element_mesh *m, const char *path)
 {
     real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};

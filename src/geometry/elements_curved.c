@@ -7,16 +7,16 @@
 
 enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
 #define COARSE_MOST 10.0 /* coarse curves are accepted up to this multiple of the wanted distance */
-/* default distance as a share of the largest sagitta */
+/* Default of the largest distance of chords from curved edges, as a share of the largest sagitta of an edge [1]. */
 #define SAGITTA_SHARE (1.0 / 256)
-/* an edge is straight if its middle node is closer to its chord than this share of its length */
+/* An edge is straight if its middle node is closer to its chord than this share of the length of the chord [1]. */
 #define STRAIGHT 1e-6
 #define FARTHEST 1e30 /* [m] squares and triple products stay finite */
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of a middle node from the chord of its edge [unit of the file]; 0 without a middle node or if
- * nearly straight. */
+/* Returns the distance of the middle node of an edge from its chord [unit of the file]; 0 if the edge has no middle
+ * node (-1) or is straight to STRAIGHT. from, to: nodes at its ends. */
 static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle)
 {
     if (middle < 0) return 0;
@@ -28,8 +28,8 @@ static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, i
     return off2 > square(STRAIGHT) * along2 ? sqrt(off2) : 0;
 }
 
-/* Returns the number of chords, 1..most, whose distance from a curve is at most `wanted`. sagitta: distance of a
- * single chord; the distance falls with the square of the number of chords. */
+/* Returns the number of chords, 1 .. most, whose distance from a curved edge is at most `wanted`. sagitta: distance of
+ * a single chord, in the same unit. The distance falls with the square of the number of chords. */
 static int pieces_for(real sagitta, real wanted, int most)
 {
     const real pieces = ceil(sqrt(sagitta / wanted));
@@ -57,8 +57,8 @@ status surface_builder_set_fineness(struct surface_builder *b, const char *path,
                       path, sagitta * b->scale, most);
 }
 
-/* Adds a node to the mesh at X and records the corners from which it was interpolated, at most four. Returns its
- * index. */
+/* Adds a node to the mesh at X and records the corners parent[parents], at most four, from which it was interpolated.
+ * Returns its index. */
 static int32_t node_between(struct surface_builder *b, const real *X, const int32_t *parent, int parents)
 {
     const int32_t node = element_mesh_append_node(b->m, X, -1);
@@ -68,15 +68,16 @@ static int32_t node_between(struct surface_builder *b, const real *X, const int3
     return node;
 }
 
-/* Computes the position of the middle node of an edge, or the midpoint of its ends if it has no middle node. */
+/* Computes the position X of the middle node of an edge; the midpoint of its ends if it has no middle node (-1). from,
+ * to: nodes at its ends. */
 static void middle_point(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle, real X[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++)
         X[d] = middle >= 0 ? m->node[middle][d] : 0.5 * (m->node[from][d] + m->node[to][d]);
 }
 
-/* Adds pieces - 1 nodes along an edge to the mesh, by quadratic interpolation through its middle node. Returns the
- * index of the first; the others follow in order from node `from` to node `to`. */
+/* Adds pieces - 1 nodes to the mesh that divide an edge, by quadratic interpolation through its middle node. from, to:
+ * nodes at its ends. Returns the index of the first new node; the others follow in order from `from` to `to`. */
 static int32_t edge_divide(struct surface_builder *b, int32_t from, int32_t to, int32_t middle, int pieces)
 {
     const int32_t first = (int32_t)b->m->nodes, ends[] = {from, to};
@@ -92,7 +93,7 @@ static int32_t edge_divide(struct surface_builder *b, int32_t from, int32_t to, 
     return first;
 }
 
-/* Adds an edge in 2D, or a line in 3D, as straight pieces. */
+/* Adds a patch that is an edge in 2D, or a line or point in 3D, to the faces as straight pieces. */
 static void line_add(struct surface_builder *b, const struct patch *p)
 {
     const int32_t from = p->corner[0], to = p->corner[p->n - 1];
@@ -122,8 +123,8 @@ struct patch_key {
     int64_t of; /* index of the patch */
 };
 
-/* Returns the sorted corners and the orientation of a patch, so that patches with the same corners can be found. of:
- * index of the patch. */
+/* Returns the sorted corners and the orientation of a patch, as a key by which patches with the same corners are found.
+ * of: index of the patch. */
 static struct patch_key patch_key_of(const struct patch *p, int64_t of)
 {
     struct patch_key key = {.of = of};
@@ -142,7 +143,7 @@ static struct patch_key patch_key_of(const struct patch *p, int64_t of)
     return key;
 }
 
-/* Orders keys by corners, then by index. */
+/* Orders keys of patches by their sorted corners, then by index, for array_sort. */
 static int key_order(const void *a, const void *b)
 {
     const struct patch_key *p = a, *q = b;
@@ -151,8 +152,8 @@ static int key_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Removes patches that coincide with opposite orientation, as two elements on both sides of an inner face add them.
- * If several patches with the same corners remain, keeps one. */
+/* Removes patches that coincide with opposite orientation, as two elements on both sides of an inner face add them. If
+ * several patches with the same corners remain, one of them is retained. */
 static void patches_cancel(struct surface_builder *b)
 {
     struct patch_key *key = NEW("mesh.keys", b->patches, struct patch_key);
@@ -192,7 +193,7 @@ struct curves {
     struct curve *curve;
 };
 
-/* Orders edges by ends, then by middle node. */
+/* Orders edges by the nodes at their ends, then by middle node. */
 static int curve_order(const void *a, const void *b)
 {
     const struct curve *p = a, *q = b;
@@ -201,14 +202,15 @@ static int curve_order(const void *a, const void *b)
     return (p->middle > q->middle) - (p->middle < q->middle);
 }
 
-/* Returns edge k of a patch as a curve with its ends and middle node; it is not divided yet. */
+/* Returns edge k of a patch, from corner k to the next, as a curve with its ends and middle node; it is not divided
+ * yet. */
 static struct curve curve_of(const struct patch *p, int k)
 {
     const int32_t from = p->corner[k], to = p->corner[(k + 1) % p->n];
     return (struct curve){.low = from < to ? from : to, .high = from < to ? to : from, .middle = p->middle[k]};
 }
 
-/* Finds edge k of a patch in the list, by bisection. */
+/* Returns edge k of a patch in the sorted list of all edges, which must contain it, by bisection. */
 static struct curve *curve_find(const struct curves *c, const struct patch *p, int k)
 {
     const struct curve wanted = curve_of(p, k);
@@ -223,7 +225,8 @@ static struct curve *curve_find(const struct curves *c, const struct patch *p, i
     return &c->curve[low];
 }
 
-/* Returns true if an edge of the patch is curved, or the node at its centre is not at the mean of its corners. */
+/* Returns true if a patch is curved: an edge is off its chord, or the node at its centre is off the mean of its
+ * corners, by more than b->sagitta. */
 static bool patch_curved(const struct surface_builder *b, const struct patch *p)
 {
     const struct element_mesh *m = b->m;
@@ -239,7 +242,8 @@ static bool patch_curved(const struct surface_builder *b, const struct patch *p)
     return curved || off2 > square(b->sagitta);
 }
 
-/* Lists the edges of all patches and divides those of curved patches. The caller frees c->curve. */
+/* Lists the edges of all patches in c, sorted, and divides those of curved patches by new nodes. The caller releases
+ * c->curve with memory_free. */
 static void curves_make(struct curves *c, struct surface_builder *b)
 {
     int64_t kept = 0;
@@ -262,7 +266,8 @@ static void curves_make(struct curves *c, struct surface_builder *b)
     }
 }
 
-/* Returns the index of node number `at`, 0..pieces, along edge k of a patch, counted from its corner k. */
+/* Returns the index of node number `at`, 0 .. b->pieces, along edge k of a patch, counted from its corner k. An edge
+ * that is not divided has only its ends. */
 static int32_t curve_node(const struct surface_builder *b, const struct curves *c, const struct patch *p, int k, int at)
 {
     const struct curve *e = curve_find(c, p, k);
@@ -271,7 +276,7 @@ static int32_t curve_node(const struct surface_builder *b, const struct curves *
     return e->first + (p->corner[k] == e->low ? at : b->pieces - at) - 1;
 }
 
-/* Computes a point of a triangle with six nodes; u, v: area coordinates of corners 1 and 2. */
+/* Computes the point X of a triangle with six nodes at the area coordinates u, v of its corners 1 and 2. */
 static void triangle_point(const struct element_mesh *m, const struct patch *p, real u, real v, real X[DIM_MAX])
 {
     const real L[3] = {1 - u - v, u, v};
@@ -285,7 +290,7 @@ static void triangle_point(const struct element_mesh *m, const struct patch *p, 
     }
 }
 
-/* Computes a point of a quadrilateral with eight nodes; x, y: reference coordinates in [-1, 1]. */
+/* Computes the point X of a quadrilateral with eight nodes at the reference coordinates x, y in [-1, 1]. */
 static void quad_point(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
 {
     static const int at[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, side[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
@@ -300,8 +305,8 @@ static void quad_point(const struct element_mesh *m, const struct patch *p, real
     }
 }
 
-/* Computes a point of a quadrilateral at the reference coordinates x, y in [-1, 1], from its eight nodes and, if
- * there is one, the node at its centre. */
+/* Computes the point X of a quadrilateral at the reference coordinates x, y in [-1, 1], from its eight nodes and, if it
+ * has one, the node at its centre. */
 static void quad_point_whole(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
 {
     real middle[DIM_MAX];
@@ -311,8 +316,8 @@ static void quad_point_whole(const struct element_mesh *m, const struct patch *p
     for (int d = 0; d < DIM_MAX; d++) X[d] += (1 - x * x) * (1 - y * y) * (m->node[p->centre][d] - middle[d]);
 }
 
-/* Returns the index of the node at grid position (i, j), each 0..pieces, of a curved patch. On the edges this is the
- * node shared with the neighbours; inside the patch a new one. */
+/* Returns the index of the node at position (i, j), each 0 .. b->pieces, of the grid that divides a curved patch. On
+ * the edges this is the node that neighbouring patches share; inside the patch a new node is added. */
 static int32_t grid_node(struct surface_builder *b, const struct curves *c, const struct patch *p, int i, int j)
 {
     const int n = b->pieces;
@@ -329,7 +334,7 @@ static int32_t grid_node(struct surface_builder *b, const struct curves *c, cons
     return node_between(b, X, p->corner, p->n);
 }
 
-/* Adds the triangles of a curved patch; row: buffer for two rows of nodes. */
+/* Adds a curved patch to the faces, divided into triangles. row: working memory for two rows of b->pieces + 1 nodes. */
 static void patch_divide(struct surface_builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     const int n = b->pieces;
@@ -347,7 +352,7 @@ static void patch_divide(struct surface_builder *b, const struct curves *c, cons
     }
 }
 
-/* Adds a flat patch with divided edges as triangles around a new node at its centre. */
+/* Adds a flat patch, of which some edges are divided, to the faces as triangles around a new node at its centre. */
 static void patch_star(struct surface_builder *b, const struct curves *c, const struct patch *p)
 {
     real X[DIM_MAX] = {0};
@@ -362,8 +367,8 @@ static void patch_star(struct surface_builder *b, const struct curves *c, const 
     }
 }
 
-/* Adds a patch as triangles: subdivided if it is curved, around its centre if only its edges are divided, else as it
- * is. row: buffer. */
+/* Adds a patch to the faces as triangles: subdivided if it is curved, around its centre if only its edges are divided,
+ * else as it is. row: working memory for two rows of b->pieces + 1 nodes. */
 static void patch_add(struct surface_builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     bool divided = false;

@@ -50,7 +50,7 @@ struct exodus {
 
 /* ---- nodes and blocks -------------------------------------------------------------------------------------------- */
 
-/* Appends all nodes. */
+/* Appends all nodes of the file to the mesh. Returns REFUSED if they cannot be read. */
 static status nodes_add(struct exodus *x)
 {
     real *axis[DIM_MAX] = {NULL};
@@ -64,7 +64,8 @@ static status nodes_add(struct exodus *x)
     return s;
 }
 
-/* Finds the shape of elements by the name of their type and the number of their nodes. *skip: they are left out. */
+/* Finds the shape *kind of elements by the name of their type and the number of their nodes. *skip: true if they have
+ * no volume or surface and are left out. Returns REFUSED for unknown types. */
 static status kind_of(const struct exodus *x, const char *type, int64_t nodes, enum element_kind *kind, bool *skip)
 {
     *skip = false;
@@ -84,7 +85,8 @@ static status kind_of(const struct exodus *x, const char *type, int64_t nodes, e
                         type, (long long)nodes);
 }
 
-/* Appends an element with the nodes label[nodes], which count from 1. REFUSED if there is no such node. */
+/* Appends an element to the mesh, with the nodes label[nodes], which count from 1. Returns REFUSED if there is no such
+ * node. */
 static status element_add(struct exodus *x, enum element_kind kind, const int64_t *label, int nodes)
 {
     const int corners = element_corners[kind];
@@ -103,8 +105,9 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
     return OK;
 }
 
-/* Creates the set number `row` of n sets: with its name in the array `names`, else by the word `word` and its number in
- * the array `numbers`, also where another set has this name. Returns its index in *set. */
+/* Creates the set number `row` of n sets of a kind, and stores its index in *set. Its name is the one in the array
+ * `names` of the file; if that is missing or taken by another set, `word` followed by its number in the array
+ * `numbers`, such as block_1. of_nodes: true for a set of nodes. Returns REFUSED if there are too many sets. */
 static status set_begin(struct exodus *x, const char *names, const char *numbers, const char *word, int64_t row,
                         int64_t n, bool of_nodes, int *set)
 {
@@ -122,7 +125,8 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
     return *set >= 0 ? OK : exodus_fault(&x->file, "more than %d blocks and sets", ELEMENT_SETS_MAX);
 }
 
-/* Appends the elements of block `number` (from 1) and makes a set of them. */
+/* Appends the elements of block `number` (from 1) to the mesh, and makes a set of them. Returns REFUSED for elements of
+ * unknown types or with unknown nodes. */
 static status element_block_add(struct exodus *x, int64_t number)
 {
     char type[NAME_MAX_LENGTH];
@@ -151,7 +155,8 @@ static status element_block_add(struct exodus *x, int64_t number)
 
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
-/* Appends edge `edge` of element e, with its middle node, as an element. */
+/* Appends edge number `edge` of element e, with its middle node, to the mesh as a line element. Returns REFUSED if the
+ * mesh has too many elements. */
 static status side_edge_add(struct exodus *x, const struct element *e, int edge)
 {
     const signed char *corner = element_edges[e->kind].corner[edge];
@@ -162,7 +167,8 @@ static status side_edge_add(struct exodus *x, const struct element *e, int edge)
     return OK;
 }
 
-/* Appends side `side` of the solid element e, with its middle nodes, as an element. */
+/* Appends side number `side` of the solid element e, with its middle nodes, to the mesh as a triangle or quadrilateral.
+ * Returns REFUSED if the mesh has too many elements. */
 static status side_face_add(struct exodus *x, const struct element *e, int side)
 {
     const signed char *corner = element_sides[e->kind].corner[side];
@@ -180,8 +186,8 @@ static status side_face_add(struct exodus *x, const struct element *e, int side)
     return OK;
 }
 
-/* Adds a side, which counts from 1, of the element with index `element` to a set. Sides 1 and 2 of a surface element in
- * space are its two faces, its edges follow. REFUSED if the element has no such side. */
+/* Adds a side of an element of the mesh to a set. set, element: their indices; side: counts from 1. Sides 1 and 2 of a
+ * surface element in space are its two faces, its edges follow. Returns REFUSED if the element has no such side. */
 static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 {
     const struct element e = x->m->element[element];
@@ -199,7 +205,8 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
     return OK;
 }
 
-/* Returns in *element the index in the mesh of an element of a set; -1: it is left out. REFUSED if there is none. */
+/* Stores in *element the index in the mesh of the element of a set that has this label (from 1) in the file; -1 if it
+ * was left out. Returns REFUSED if there is no such element. */
 static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
 {
     if (label < 1 || label > x->elements)
@@ -209,7 +216,8 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
     return OK;
 }
 
-/* Reads side set `number` (from 1). An empty one has no arrays. */
+/* Reads side set `number` (from 1) into a set of elements, one per side. An empty side set has no arrays and makes no
+ * set. Returns REFUSED for unknown elements or sides. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_dimension(&x->file, "num_side_ss", number);
@@ -228,7 +236,8 @@ static status side_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads node set `number` (from 1). */
+/* Reads node set `number` (from 1) into a set of nodes. An empty node set makes no set. Returns REFUSED for unknown
+ * nodes. */
 static status node_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_dimension(&x->file, "num_nod_ns", number);
@@ -248,7 +257,8 @@ static status node_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads element set `number` (from 1). */
+/* Reads element set `number` (from 1) into a set of elements. An empty one makes no set. Returns REFUSED for unknown
+ * elements. */
 static status element_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_dimension(&x->file, "num_ele_els", number);
@@ -266,7 +276,8 @@ static status element_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads nodes, blocks and sets. Sides come before nodes, as both often have one name and sides say more. */
+/* Reads nodes, blocks and sets of the file into the mesh. Sides come before nodes: both often have one name, and sides
+ * contain more information. Returns REFUSED for an invalid file. */
 static status mesh_read(struct exodus *x)
 {
     const struct exodus_file *f = &x->file;

@@ -17,7 +17,7 @@ struct header {
     bool good;   /* false: it has ended too early, or holds what it must not */
 };
 
-/* Reads an unsigned number of `bytes` bytes; 0 beyond the end. */
+/* Reads an unsigned number of `bytes` bytes at h->at. Returns 0, and sets h->good to false, at the end of the file. */
 static uint64_t next_bytes(struct header *h, int bytes)
 {
     uint64_t value = 0;
@@ -26,7 +26,8 @@ static uint64_t next_bytes(struct header *h, int bytes)
     return value;
 }
 
-/* Reads a count, of which each item takes at least `least` bytes of the file. */
+/* Reads the number of items that follow, each of at least `least` bytes. Sets h->good to false if the file is
+ * shorter. */
 static int64_t next_count(struct header *h, int64_t least)
 {
     const uint64_t value = next_bytes(h, h->version == 5 ? 8 : 4);
@@ -34,7 +35,7 @@ static int64_t next_count(struct header *h, int64_t least)
     return h->good ? (int64_t)value : 0;
 }
 
-/* Reads the length of a dimension, which a file without data need not contain. */
+/* Reads the length of a dimension. It need not be below the size of the file, which may have no data along it. */
 static int64_t next_length(struct header *h)
 {
     const uint64_t value = next_bytes(h, h->version == 5 ? 8 : 4);
@@ -42,7 +43,8 @@ static int64_t next_length(struct header *h)
     return h->good ? (int64_t)value : 0;
 }
 
-/* Skips bytes and those that fill them up to a multiple of four. */
+/* Skips `bytes` bytes, and those that fill them up to a multiple of four. Sets h->good to false if the file is
+ * shorter. */
 static void skip_padded(struct header *h, int64_t bytes)
 {
     const int64_t padded = (bytes + 3) / 4 * 4;
@@ -50,7 +52,8 @@ static void skip_padded(struct header *h, int64_t bytes)
     if (h->good) h->at += padded;
 }
 
-/* Copies the next `length` bytes, cut if there are too many, without blanks at their end. */
+/* Copies the next `length` bytes to text[NAME_MAX_LENGTH], without blanks at their end; cut off if there are too
+ * many. */
 static void next_text(struct header *h, int64_t length, char *text)
 {
     const int64_t from = h->at;
@@ -61,10 +64,11 @@ static void next_text(struct header *h, int64_t length, char *text)
     exodus_text_clean(text);
 }
 
-/* Reads a name. */
+/* Reads a name, preceded by its length, into text[NAME_MAX_LENGTH]. */
 static void next_name(struct header *h, char *text) { next_text(h, next_count(h, 1), text); }
 
-/* Reads the tag and the length of a list; an absent list has two zeros. */
+/* Reads the tag and the length of a list and returns the length. Sets h->good to false for another tag. An absent list
+ * has two zeros. */
 static int64_t next_list(struct header *h, uint64_t tag)
 {
     const uint64_t found = next_bytes(h, 4);
@@ -73,7 +77,8 @@ static int64_t next_list(struct header *h, uint64_t tag)
     return h->good ? n : 0;
 }
 
-/* Reads a list of attributes. elements[NAME_MAX_LENGTH]: receives the attribute elem_type, if it is among them. */
+/* Reads a list of attributes. elements[NAME_MAX_LENGTH]: receives the value of the attribute elem_type, "" if there is
+ * none. */
 static void next_attributes(struct header *h, char *elements)
 {
     const int64_t n = next_list(h, TAG_ATTRIBUTES);
@@ -92,7 +97,7 @@ static void next_attributes(struct header *h, char *elements)
     }
 }
 
-/* Reads the list of dimensions. */
+/* Reads the list of dimensions, their names and lengths, into h->f->dimension. */
 static void dimensions_read(struct header *h)
 {
     const int64_t n = next_list(h, TAG_DIMENSIONS);
@@ -104,7 +109,8 @@ static void dimensions_read(struct header *h)
     }
 }
 
-/* Reads one array, and keeps it if it has one or two dimensions, none of them that of records. */
+/* Reads the description of one array, and appends it to h->f->array if it has one or two dimensions, neither of them
+ * that of records. */
 static void header_array(struct header *h)
 {
     struct exodus_array a = {.extent = {1, 1}};
@@ -130,7 +136,7 @@ static void header_array(struct header *h)
     h->f->array[h->f->arrays++] = a;
 }
 
-/* Returns REFUSED if an array ends after the end of the file. */
+/* Returns REFUSED if an array ends beyond the end of the file. */
 static status arrays_check(const struct exodus_file *f)
 {
     for (int64_t k = 0; k < f->arrays; k++) {

@@ -12,7 +12,8 @@
 #include "exodus_parts.h"
 #include "source.h"
 
-/* Largest number of bytes of an array per byte of a netCDF-4 file: gzip does not compress equal numbers further. */
+/* Largest number of bytes of an array per byte of a netCDF-4 file: gzip does not compress equal numbers by a larger
+ * factor. */
 enum { UNPACKED_MOST = 1024 };
 
 status exodus_fault(const struct exodus_file *f, const char *format, ...)
@@ -37,7 +38,8 @@ bool is_exodus_name(const char *path)
 
 /* ---- the file ---------------------------------------------------------------------------------------------------- */
 
-/* Opens the arrays of either form of netCDF, by the first bytes of the file. */
+/* Opens the arrays of the file, by its first bytes as netCDF-4 (HDF5) or classic netCDF. Returns REFUSED if it is
+ * neither. */
 static status arrays_open(struct exodus_file *f)
 {
     static const char hdf5[] = "\211HDF\r\n\032\n";
@@ -48,7 +50,8 @@ static status arrays_open(struct exodus_file *f)
     return exodus_fault(f, "does not begin as a netCDF file; a file in the format Exodus II is expected");
 }
 
-/* Reads the counts that every mesh has. REFUSED if they are not those of a mesh. */
+/* Reads the dimension and the numbers of nodes, blocks and sets, which every mesh has, into f. Returns REFUSED if they
+ * are not those of a mesh. */
 static status counts_read(struct exodus_file *f)
 {
     const int64_t dim = exodus_dimension(f, "num_dim", 0);
@@ -97,7 +100,7 @@ void exodus_close(struct exodus_file *f)
 
 /* ---- arrays ------------------------------------------------------------------------------------------------------ */
 
-/* Writes a name with its number, if that is not 0. */
+/* Writes `name` followed by `number` to text[NAME_MAX_LENGTH]; `name` alone if the number is 0. */
 static void name_numbered(char *text, const char *name, int64_t number)
 {
     if (number > 0)
@@ -116,7 +119,7 @@ int64_t exodus_dimension(const struct exodus_file *f, const char *name, int64_t 
     return 0;
 }
 
-/* Finds an array; returns false if there is none. */
+/* Finds the array `name` of the file and describes it in *a. Returns false if there is none. */
 static bool array_find(const struct exodus_file *f, const char *name, struct exodus_array *a)
 {
     if (f->hdf5 >= 0) return exodus_hdf5_find(f, name, a);
@@ -136,7 +139,8 @@ bool exodus_has(const struct exodus_file *f, const char *name, int64_t number)
     return array_find(f, called, &a);
 }
 
-/* Finds an array of n numbers. REFUSED if it is missing, has another size, or is larger than its file. */
+/* Finds the array `name` of n numbers and describes it in *a. Returns REFUSED if it is missing, has another size, holds
+ * letters, or is larger than its file can be. */
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
     if (!array_find(f, name, a)) return exodus_fault(f, "array %s is missing", name);
@@ -149,8 +153,9 @@ static status array_check(const struct exodus_file *f, const char *name, int64_t
                         name, (long long)n);
 }
 
-/* Reads the array that is called `name` followed by `number`, of n numbers, into one of the two, which it allocates.
- * The other is NULL. REFUSED, with nothing allocated, if it is missing, has another size, or the file is damaged. */
+/* Reads the array that is called `name` followed by `number`, of n numbers, into the new array *reals or *integers; one
+ * of the two pointers is NULL. The caller releases it with memory_free. Returns REFUSED, with nothing allocated, if it
+ * is missing, has another size, or the file is damaged. */
 static status array_read(const struct exodus_file *f, const char *name, int64_t number, int64_t n, real **reals,
                          int64_t **integers)
 {

@@ -11,13 +11,14 @@
 #define DOUBT_MOST 0.02 /* share of sample points that may be neither inside nor outside */
 #define FARTHEST 1e30   /* [m] squares and triple products stay finite */
 
-/* Readers by extension. */
+/* Functions that read meshes, by the extension of the file name. */
 static const struct format {
     const char *ending;
     status (*read)(struct element_mesh *, struct source *);
 } formats[] = {{".stl", stl_read}, {".msh", gmsh_read}, {".inp", abaqus_read}}, exodus = {".exo", exodus_read};
 
-/* Returns the format for a path, ignoring case; NULL: unknown extension. */
+/* Returns the format of a file by the extension of its name, in capital or small letters; NULL for an unknown
+ * extension. */
 static const struct format *format_of(const char *path)
 {
     const size_t length = strlen(path);
@@ -26,7 +27,8 @@ static const struct format *format_of(const char *path)
     return is_exodus_name(path) ? &exodus : NULL;
 }
 
-/* Returns REFUSED if the surface encloses nothing, or is so open that inside and outside cannot be told apart. */
+/* Returns REFUSED if the surface encloses nothing, is too large, or is so open that inside and outside cannot be
+ * distinguished. path: its file, for messages. */
 static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;
@@ -50,7 +52,9 @@ static status check_closed(const struct hull *s, const char *path)
     return status_set(REFUSED, "%s: encloses no volume; a body is expected", path);
 }
 
-/* Reads a file into g. After a failure g may be partly filled. */
+/* Reads the mesh or surface file `path` into g. dim: dimensions of the space; scale: length of the file's unit [m];
+ * fine: largest distance of chords from curved edges [m], NAN for the default. Returns REFUSED for an invalid file or a
+ * surface that is not closed; g may then be partly filled. */
 static status read_elements(struct geometry *g, const char *path, int dim, real scale, real fine)
 {
     const struct format *format = format_of(path);

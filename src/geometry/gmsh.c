@@ -59,7 +59,8 @@ struct gmsh {
 /* Combines dimension and tag of an entity into one number. */
 static int64_t entity_key(int64_t dim, int64_t tag) { return tag * 4 + dim; }
 
-/* Returns the element type with Gmsh's number. REFUSED: unsupported type. */
+/* Sets *type to the row of the table `types` for Gmsh's element type `number`. Returns REFUSED for an unsupported
+ * type. */
 static status type_of(const struct source *s, int64_t number, const struct gmsh_type **type)
 {
     for (size_t k = 0; k < COUNT_OF(types); k++)
@@ -73,7 +74,8 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
                         (long long)number);
 }
 
-/* Adds an element to the set of a physical group. REFUSED: too many groups. */
+/* Adds an element to the set of a physical group, which is created if it is new. dim, tag: dimension and number of the
+ * group; element: index. Returns REFUSED if there are too many groups. */
 static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
 {
     if (g->last_set < 0 || dim != g->last_dim || tag != g->last_tag) {
@@ -88,7 +90,8 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
     return OK;
 }
 
-/* Reads a node label and returns its index. REFUSED: unknown node. */
+/* Reads the label of a node of an element, and stores the node's index in *index. Returns REFUSED for an unknown
+ * node. */
 static status node_next(struct gmsh *g, int32_t *index)
 {
     int64_t label;
@@ -100,8 +103,8 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* Returns REFUSED unless a node on an edge of order 3 or more is on the straight line between the ends of the edge.
- * edge: number of the edge in Gmsh's order; between: the node. */
+/* Returns REFUSED unless a node on an edge of an element of order 3 or more is on the straight line between the ends of
+ * the edge. node: corners of the element; edge: number of the edge in Gmsh's order; between: index of the node. */
 static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
                              int32_t between)
 {
@@ -117,8 +120,9 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
         type->order);
 }
 
-/* Reads the nodes of an element and appends it. Middle nodes are kept in second-order elements only; edges of higher
- * order must be straight. */
+/* Reads the nodes of an element of this type and appends it to the mesh. Middle nodes are stored for second-order
+ * elements only; edges of higher order must be straight. label: its number in the file. Returns REFUSED for unknown
+ * nodes. */
 static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t label)
 {
     const int corners = element_corners[type->kind], edges = element_edges[type->kind].n;
@@ -137,7 +141,7 @@ static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t
     return OK;
 }
 
-/* Creates the map from node labels to indices. REFUSED if a label occurs twice. */
+/* Creates g->node, the map from labels of nodes to their indices. Returns REFUSED if a label occurs twice. */
 static status nodes_known(struct gmsh *g)
 {
     int64_t twice;
@@ -148,8 +152,8 @@ static status nodes_known(struct gmsh *g)
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
 
-/* Reads a text in double quotes, truncated to `capacity` bytes. REFUSED if there are no quotes, or no closing one on
- * the line. */
+/* Reads a text in double quotes into text[capacity]; cut off if it is too long. Returns REFUSED if there are no quotes,
+ * or no closing one on the line. */
 static status quoted_next(struct source *s, char *text, size_t capacity)
 {
     size_t n = 0;
@@ -162,7 +166,8 @@ static status quoted_next(struct source *s, char *text, size_t capacity)
     return OK;
 }
 
-/* Reads the names of physical groups. */
+/* Reads the section of the names of physical groups into g->name. Returns REFUSED if it is malformed, or there are too
+ * many. */
 static status names_read(struct gmsh *g)
 {
     int64_t n;
@@ -179,7 +184,7 @@ static status names_read(struct gmsh *g)
     return OK;
 }
 
-/* Appends the pair of an entity and a physical group to which it belongs. */
+/* Appends the pair of an entity (its entity_key) and the tag of a physical group to which it belongs. */
 static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
 {
     GROW("gmsh.entities", g->entity, g->links + 1);
@@ -187,7 +192,8 @@ static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
     g->entity[g->links] = entity, g->group[g->links++] = group;
 }
 
-/* Reads an entity: tag, bounding box (for a point its position), groups and, except for points, bounding entities. */
+/* Reads an entity of dimension dim: its tag, bounding box (for a point its position), physical groups and, except for
+ * points, bounding entities. Only the groups are stored. Returns REFUSED if it is malformed. */
 static status entity_read(struct gmsh *g, int64_t dim)
 {
     int64_t tag, groups, group, bounds;
@@ -207,7 +213,8 @@ static status entity_read(struct gmsh *g, int64_t dim)
     return OK;
 }
 
-/* Reads all entities, with their physical groups. */
+/* Reads the section of entities (format 4.1), and creates g->of_entity, the map to their physical groups. Returns
+ * REFUSED if it is malformed. */
 static status entities_read(struct gmsh *g)
 {
     int64_t n[1 + DIM_MAX];
@@ -223,7 +230,8 @@ static status entities_read(struct gmsh *g)
 
 /* ---- format 2.2 ----------------------------------------------------------------------------------------------- */
 
-/* Reads a count, which is text even in binary files, to the end of its line. */
+/* Reads a count of format 2.2, which is text even in binary files, to the end of its line into *n. what: what is
+ * counted, for messages; bytes: least size of one item. Returns REFUSED if the file is too short for it. */
 static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t *n)
 {
     g->s->binary = false;
@@ -233,7 +241,7 @@ static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t
     return source_check_count(g->s, what, *n, bytes);
 }
 
-/* Reads the section of nodes in format 2.2. */
+/* Reads the section of nodes in format 2.2. Returns REFUSED if it is malformed or a label occurs twice. */
 static status old_nodes(struct gmsh *g)
 {
     int64_t n, label;
@@ -247,8 +255,8 @@ static status old_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* Reads the tags of an element, of which the first one is its physical group (0: none), and its nodes. tags: number
- * of tags. */
+/* Reads the tags of an element in format 2.2, of which the first is its physical group (0: none), and then its nodes.
+ * label: number of the element in the file; tags: number of tags. Returns REFUSED if it is malformed. */
 static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
 {
     int64_t tag, group = 0;
@@ -258,8 +266,8 @@ static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t 
     return group == 0 ? OK : group_add(g, element_dim[type->kind], group, g->m->elements - 1);
 }
 
-/* Reads all elements. In binary files, elements of one type are in blocks with a header; in text files each element has
- * its type. */
+/* Reads the section of elements in format 2.2. In binary files, elements of one type are in blocks with a header; in
+ * text files each element has its type. Returns REFUSED if it is malformed. */
 static status old_elements(struct gmsh *g)
 {
     int64_t n, label = 0, number, tags, block = 1;
@@ -283,8 +291,8 @@ static status old_elements(struct gmsh *g)
 
 /* ---- format 4.1 ----------------------------------------------------------------------------------------------- */
 
-/* Reads the first line of a section: the number of blocks, stored in *blocks, and three numbers that are not needed.
- * what: name of the section for messages. */
+/* Reads the first line of a section in format 4.1: the number of blocks, stored in *blocks, and three numbers that are
+ * not needed. what: name of these numbers, for messages. Returns REFUSED if the line is malformed. */
 static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
 {
     int64_t skipped;
@@ -293,8 +301,8 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
     return source_check_count(g->s, "blocks", *blocks, 8);
 }
 
-/* Reads a block of nodes: their labels, then their coordinates, followed by parameters on the entity, which are
- * ignored. */
+/* Reads a block of nodes in format 4.1: their labels, then their coordinates, each followed by its parameters on the
+ * entity, which are ignored. Returns REFUSED if it is malformed. */
 static status new_node_block(struct gmsh *g)
 {
     int64_t dim, tag, parametric, n, label;
@@ -318,7 +326,8 @@ static status new_node_block(struct gmsh *g)
     return OK;
 }
 
-/* Reads the section of nodes in format 4.1, block by block. */
+/* Reads the section of nodes in format 4.1, block by block. Returns REFUSED if it is malformed or a label occurs
+ * twice. */
 static status new_nodes(struct gmsh *g)
 {
     int64_t blocks;
@@ -327,8 +336,8 @@ static status new_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* Reads a block of elements that have one type and lie on one entity, and adds them to the physical groups of the
- * entity. */
+/* Reads a block of elements in format 4.1, which have one type and belong to one entity, and adds them to the physical
+ * groups of the entity. Returns REFUSED if it is malformed. */
 static status new_element_block(struct gmsh *g)
 {
     int64_t dim, tag, number, n, label;
@@ -349,7 +358,7 @@ static status new_element_block(struct gmsh *g)
     return OK;
 }
 
-/* Reads the section of elements in format 4.1, block by block. */
+/* Reads the section of elements in format 4.1, block by block. Returns REFUSED if it is malformed. */
 static status new_elements(struct gmsh *g)
 {
     int64_t blocks;
@@ -360,7 +369,8 @@ static status new_elements(struct gmsh *g)
 
 /* ---- sections ------------------------------------------------------------------------------------------------- */
 
-/* Reads the header. REFUSED: another version, number size or byte order. */
+/* Reads the header of the file. Returns REFUSED for a version other than 2.2 and 4.1, numbers that have not 8 bytes,
+ * and another byte order. */
 static status format_read(struct gmsh *g)
 {
     char version[16];
@@ -384,7 +394,7 @@ static status format_read(struct gmsh *g)
     return one == 1 ? OK : source_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
 }
 
-/* Skips a section: moves behind the line $EndNAME. */
+/* Skips the rest of a section: advances behind the line $EndNAME, where `name` is $NAME, or to the end of the file. */
 static void section_skip(struct source *s, const char *name)
 {
     char end[48];
@@ -393,7 +403,7 @@ static void section_skip(struct source *s, const char *name)
     s->at = found ? found - s->text + length : s->length;
 }
 
-/* Reads a section, or skips it if it is not needed. */
+/* Reads the section `name`, such as $Nodes, or skips it if it is not needed. Returns REFUSED if it is malformed. */
 static status section_read(struct gmsh *g, const char *name)
 {
     static const struct section {
@@ -418,7 +428,7 @@ static status section_read(struct gmsh *g, const char *name)
     return OK;
 }
 
-/* Reads all sections. REFUSED: malformed, without nodes or without elements. */
+/* Reads all sections of the file. Returns REFUSED if one is malformed, or if there are no nodes or elements. */
 static status sections_read(struct gmsh *g)
 {
     char name[40];

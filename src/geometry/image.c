@@ -34,7 +34,7 @@ status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t
     return OK;
 }
 
-/* Appends all pages of a PNG or TIFF file. REFUSED: neither, or malformed. */
+/* Appends all pages of the PNG or TIFF file `path` to p. Returns REFUSED if it is neither or malformed. */
 static status file_read(struct pages *p, const char *path)
 {
     struct source s;
@@ -48,7 +48,8 @@ static status file_read(struct pages *p, const char *path)
     return result;
 }
 
-/* Appends the pages of all files. REFUSED: more than one page in 2D. */
+/* Appends the pages of the files path[files] to p. Returns REFUSED for an invalid file, and for more than one page in
+ * 2D. */
 static status files_read(struct pages *p, int files, char *const *path, int dim)
 {
     for (int k = 0; k < files; k++) TRY(file_read(p, path[k]));
@@ -57,7 +58,7 @@ static status files_read(struct pages *p, int files, char *const *path, int dim)
                       (long long)p->n);
 }
 
-/* Reverses the row order of each page, so that y increases with the row. */
+/* Reverses the order of rows in each page, so that y increases with the row. */
 static void rows_flip(struct pages *p)
 {
     for (int64_t k = 0; k < p->n; k++)

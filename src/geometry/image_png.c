@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "pages.h"
 
-/* Gives libpng the next n bytes of the file. */
+/* Copies the next n bytes of the file to `to`, for libpng. Reports an error to libpng if the file ends before. */
 static void bytes_next(png_structp png, png_bytep to, size_t n)
 {
     struct source *s = png_get_io_ptr(png);
@@ -16,17 +16,17 @@ static void bytes_next(png_structp png, png_bytep to, size_t n)
     s->at += (int64_t)n;
 }
 
-/* Stores the message of an error that libpng reports and jumps back to png_read_pages. */
+/* Stores the message of an error that libpng reports, and jumps back to png_read_pages. */
 static void fault_kept(png_structp png, png_const_charp what)
 {
     snprintf(png_get_error_ptr(png), 128, "%s", what);
     png_longjmp(png, 1);
 }
 
-/* Ignores a warning. */
+/* Ignores a warning of libpng. */
 static void warning_dropped(png_structp png, png_const_charp what) { (void)png, (void)what; }
 
-/* Makes libpng convert any image to grey values of 8 or 16 bits, big-endian. */
+/* Makes libpng convert any kind of image to grey values of 8 or 16 bits, big-endian. */
 static void make_grey(png_structp png, png_infop info)
 {
     const int colour = png_get_color_type(png, info);
@@ -38,7 +38,8 @@ static void make_grey(png_structp png, png_infop info)
     png_read_update_info(png, info);
 }
 
-/* Reads the image into a new page. The caller frees *rows and *bytes, also after a failure. */
+/* Reads the image into a new page of p. s: the file. *rows, *bytes: working memory, which the caller frees, also after
+ * a failure. Returns REFUSED for an image of another size than the other pages, or of an unsupported kind. */
 static status page_read(png_structp png, png_infop info, struct pages *p, const struct source *s,
                         png_bytep *volatile *rows, png_bytep volatile *bytes)
 {

@@ -8,7 +8,7 @@
 
 /* ---- callbacks that let libtiff read from memory ----------------------------------------------------------------- */
 
-/* Copies up to n bytes; returns how many. */
+/* Copies up to n bytes of the file `handle` to `to` for libtiff. Returns their number; 0 at the end of the file. */
 static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
 {
     struct source *s = handle;
@@ -19,14 +19,15 @@ static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
     return taken;
 }
 
-/* Callback for writing, which is not needed; reports a fault. */
+/* Callback of libtiff for writing, which is not needed. Returns -1, a fault. */
 static tmsize_t tiff_write(thandle_t handle, void *from, tmsize_t n)
 {
     (void)handle, (void)from, (void)n;
     return -1;
 }
 
-/* Sets the reading position; returns it, or -1 if outside the file. */
+/* Sets the reading position of the file `handle` for libtiff. whence: origin of the offset (SEEK_*). Returns the
+ * position, or -1 if it is outside the file. */
 static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
 {
     struct source *s = handle;
@@ -36,15 +37,15 @@ static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
     return (toff_t)to;
 }
 
-/* Callback for closing; does nothing, since the caller owns the bytes. */
+/* Callback of libtiff for closing. Does nothing, since the caller owns the bytes. */
 static int tiff_close(thandle_t handle) { return (void)handle, 0; }
 
-/* Returns the file size [byte]. */
+/* Returns the size of the file `handle` [byte], for libtiff. */
 static toff_t tiff_size(thandle_t handle) { return (toff_t)((struct source *)handle)->length; }
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of a 16-bit tag, or its default, or 0. */
+/* Returns the value of a 16-bit tag of the current page, else its default; 0 if it has none. */
 static int tag_of(TIFF *tiff, uint32_t tag)
 {
     uint16_t value = 0;
@@ -60,7 +61,7 @@ struct samples {
     int64_t width, height;
 };
 
-/* Reads the layout of the current page from its tags. */
+/* Returns the layout of the current page's samples, from its tags. */
 static struct samples samples_of(TIFF *tiff)
 {
     uint32_t width = 0, height = 0;
@@ -79,16 +80,16 @@ static struct samples samples_of(TIFF *tiff)
                             .height = height};
 }
 
-/* Returns how many samples per pixel are read directly: 1 for grey, 3 for RGB (further ones are transparency); 0:
- * another kind, which libtiff converts to RGBA. */
+/* Returns how many samples per pixel are read directly: 1 for grey, 3 for RGB (further ones are transparency). Returns
+ * 0 for another kind, which libtiff converts to RGBA. */
 static int samples_used(const struct samples *a)
 {
     const int used = a->photometric <= PHOTOMETRIC_MINISBLACK ? 1 : a->photometric == PHOTOMETRIC_RGB ? 3 : 0;
     return (a->bits == 8 || a->bits == 16) && a->count >= used ? used : 0;
 }
 
-/* Returns REFUSED unless the samples are unsigned integers of up to 16 bits, with rows from left to right or right to
- * left. */
+/* Returns REFUSED unless the samples of a page are unsigned integers of up to 16 bits that are stored row by row. path:
+ * its file, for messages. */
 static status check_samples(const struct samples *a, const char *path)
 {
     if (a->format == SAMPLEFORMAT_IEEEFP || a->format == SAMPLEFORMAT_COMPLEXIEEEFP || a->bits > 16)
@@ -123,8 +124,8 @@ struct planes {
     uint16_t *sample; /* [used][height][width], top row first, left to right */
 };
 
-/* Stores n pixels of file row y from column x on, applying the page's orientation. from: `stride` samples per pixel, of
- * which the first is sample number `first`. */
+/* Stores n pixels of row y of the file, from column x on, in p, with the orientation of the page applied. from: the
+ * pixels, `stride` samples each, of which the first is sample number `first`. */
 static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y, int64_t n, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -140,8 +141,8 @@ static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y
         }
 }
 
-/* Reads all rows or tiles with `stride` samples per pixel from sample `first` on. Returns false if the file is
- * malformed. */
+/* Reads all rows or tiles of the page into p. stride: samples per pixel in the file's rows; first: number of the first
+ * of them. Returns false if the file is malformed. */
 static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -165,7 +166,8 @@ static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
     return good;
 }
 
-/* Fills a page whose samples can be read directly. Returns false if the file is malformed. */
+/* Fills a page[height * width] with the grey values of a page whose samples can be read directly. Returns false if the
+ * file is malformed. */
 static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
 {
     const int64_t size = a->width * a->height;
@@ -182,7 +184,8 @@ static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
     return good;
 }
 
-/* Fills a page from libtiff's RGBA conversion. Returns false if the file is malformed. */
+/* Fills a page[height * width] with grey values from libtiff's conversion to RGBA. Returns false if the file is
+ * malformed. */
 static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t height)
 {
     uint32_t *colour = BARE("image.colours", width * height, uint32_t);
@@ -196,7 +199,8 @@ static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t heig
     return good;
 }
 
-/* Appends the current page of a file to the pages. REFUSED if its samples are not supported or it is malformed. */
+/* Appends the current page of a file to the pages p. s: the file. Returns REFUSED if its samples are not supported or
+ * it is malformed. */
 static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
 {
     const struct samples a = samples_of(tiff);

@@ -20,7 +20,7 @@ struct sheets {
     struct sheet *at;
 };
 
-/* Returns the distance between two corners [m]. */
+/* Returns the distance between the points a and b [dim] [m]. */
 static real corner_distance(const real *a, const real *b, int dim)
 {
     real r2 = 0;
@@ -28,7 +28,7 @@ static real corner_distance(const real *a, const real *b, int dim)
     return sqrt(r2);
 }
 
-/* Returns a copy of a face of a hull, with its centre and size. */
+/* Returns a copy of face number `face` of a surface, with its centre and size. */
 static struct sheet sheet_of(const struct hull *h, int64_t face)
 {
     struct sheet s = {.size = 0};
@@ -41,14 +41,14 @@ static struct sheet sheet_of(const struct hull *h, int64_t face)
     return s;
 }
 
-/* Orders faces by x of their centres. */
+/* Orders faces by the x coordinate of their centres, for array_sort. */
 static int by_centre(const void *a, const void *b)
 {
     const struct sheet *p = a, *q = b;
     return (p->centre[0] > q->centre[0]) - (p->centre[0] < q->centre[0]);
 }
 
-/* Returns true if two faces have the same corners, in any order. */
+/* Returns true if two faces have the same corners, in any order, to SAME of their size. */
 static bool sheets_coincide(const struct sheet *p, const struct sheet *q, int dim)
 {
     for (int c = 0; c < dim; c++) {
@@ -59,7 +59,8 @@ static bool sheets_coincide(const struct sheet *p, const struct sheet *q, int di
     return true;
 }
 
-/* Returns the faces of a hull that coincide with another face, one of each pair. The caller frees s.at. */
+/* Returns the faces of a surface that coincide with another face, one of each pair. The caller releases s.at with
+ * memory_free. */
 static struct sheets sheets_doubled(const struct hull *h)
 {
     struct sheets s = {.dim = h->dim};
@@ -79,7 +80,7 @@ static struct sheets sheets_doubled(const struct hull *h)
 
 /* ---- in the plane ------------------------------------------------------------------------------------------------ */
 
-/* Extends segment `to` by segment `by` and returns true, if they have a common end and are collinear; otherwise
+/* Extends the segment `to` by the segment `by` if they have a common end and are collinear, and returns true; otherwise
  * returns false. */
 static bool segments_join(struct sheet *to, const struct sheet *by)
 {
@@ -97,7 +98,7 @@ static bool segments_join(struct sheet *to, const struct sheet *by)
     return false;
 }
 
-/* Joins collinear segments with a common end until there are no more such pairs. */
+/* Joins collinear segments with a common end in the list s until there are no more such pairs. */
 static void segments_merge(struct sheets *s)
 {
     for (int64_t k = 0; k < s->n; k++)
@@ -114,7 +115,7 @@ struct flat {
     real (*at)[2];
 };
 
-/* Sets the origin and two orthogonal unit vectors of a plane from the corners of a face. */
+/* Sets the origin and two orthogonal unit vectors of the plane f from the corners of a face. */
 static void flat_axes(struct flat *f, const struct sheet *s)
 {
     real w[3], normal[3];
@@ -126,7 +127,7 @@ static void flat_axes(struct flat *f, const struct sheet *s)
     for (int d = 0; d < 3; d++) f->u[d] /= u, f->v[d] /= v;
 }
 
-/* Computes the coordinates of X in the plane. */
+/* Computes the coordinates at[2] of X in the plane f [m]. */
 static void flat_place(const struct flat *f, const real *X, real at[2])
 {
     real arm[3];
@@ -134,21 +135,22 @@ static void flat_place(const struct flat *f, const real *X, real at[2])
     at[0] = dot(arm, f->u, 3), at[1] = dot(arm, f->v, 3);
 }
 
-/* Returns twice the signed area of triangle a, b, c: positive if counter-clockwise. */
+/* Returns twice the signed area of the plane triangle a, b, c [m^2], positive if its corners are counter-clockwise. */
 static real triangle_twice_area(const real *a, const real *b, const real *c)
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Orders points by the first, then the second coordinate. */
+/* Orders plane points by the first, then the second coordinate, for array_sort. */
 static int by_place(const void *a, const void *b)
 {
     const real *p = a, *q = b;
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Computes the convex hull of the points (Andrew's monotone chain) and its area. corner: buffer for twice the points
- * plus 2. Returns the number of corners. */
+/* Computes the convex hull of the points in the plane f (Andrew's monotone chain): its corners in corner[], which has
+ * room for 2 f->n + 2 points, and its *area [m^2]. size: length that tolerances refer to [m]. Returns the number of
+ * corners. */
 static int flat_convex_hull(struct flat *f, real (*corner)[2], real size, real *area)
 {
     int n = 0;
@@ -168,7 +170,7 @@ static int flat_convex_hull(struct flat *f, real (*corner)[2], real size, real *
     return n;
 }
 
-/* Returns the area of a face in 3D [m²]. */
+/* Returns the area of a triangular face in 3D [m^2]. */
 static real sheet_area(const struct sheet *s)
 {
     real u[3], w[3], twice[3];
@@ -177,7 +179,7 @@ static real sheet_area(const struct sheet *s)
     return 0.5 * sqrt(dot(twice, twice, 3));
 }
 
-/* Returns true if face `other` is coplanar with s and shares two corners with it. */
+/* Returns true if the face `other` is coplanar with s and has two corners in common with it. */
 static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
 {
     struct flat f;
@@ -194,8 +196,8 @@ static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
     return common == 2;
 }
 
-/* Moves all faces that are connected to face `first`, directly or through other faces, to the positions after it in
- * the list. Returns the size of this group, with the first face. */
+/* Moves all faces that are connected to face number `first`, directly or through other faces, to the positions after it
+ * in the list. Returns their number, with the first face. */
 static int64_t group_gather(struct sheets *s, int64_t first)
 {
     int64_t n = 1;
@@ -210,7 +212,7 @@ static int64_t group_gather(struct sheets *s, int64_t first)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Appends a crack, whose corners the caller sets. */
+/* Appends a crack with this number of corners, whose positions the caller sets, to the list *crack of *n cracks. */
 static void slit_add(struct crack **crack, int *n, int corners)
 {
     GROW("cracks", *crack, *n + 1);
@@ -218,7 +220,7 @@ static void slit_add(struct crack **crack, int *n, int corners)
     (*n)++;
 }
 
-/* Appends a face as a crack. */
+/* Appends a face as a crack to the list *crack of *n cracks. */
 static void crack_of_sheet(struct crack **crack, int *n, const struct sheet *s, int dim)
 {
     slit_add(crack, n, dim);
@@ -226,7 +228,8 @@ static void crack_of_sheet(struct crack **crack, int *n, const struct sheet *s, 
         for (int d = 0; d < dim; d++) (*crack)[*n - 1].corner[c][d] = s->corner[c][d];
 }
 
-/* Appends the coplanar faces of a group as one crack if they form a convex polygon, else one crack per face. */
+/* Appends the coplanar faces s[sheets] of a group to the list *crack of *n cracks: as one crack if they form a convex
+ * polygon, else one crack per face. */
 static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s, int64_t sheets)
 {
     struct flat f = {.n = 0};

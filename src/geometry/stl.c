@@ -8,7 +8,8 @@
 
 enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* sizes in a binary file [byte] */
 
-/* Appends a corner as a node of its own; every third corner completes a triangle. */
+/* Appends a corner at X as a node of its own; every third corner completes a triangle. Returns REFUSED if the mesh is
+ * full. */
 static status corner_add(struct element_mesh *m, const struct source *s, const real *X)
 {
     const int32_t node[] = {(int32_t)m->nodes - 2, (int32_t)m->nodes - 1, (int32_t)m->nodes};
@@ -18,21 +19,21 @@ static status corner_add(struct element_mesh *m, const struct source *s, const r
 
 /* ---- binary --------------------------------------------------------------------------------------------------- */
 
-/* Reads a little-endian integer at byte `at`. */
+/* Returns the little-endian integer of four bytes at position `at` of the file. */
 static uint32_t word_at(const struct source *s, int64_t at)
 {
     const unsigned char *c = (const unsigned char *)s->text + at;
     return (uint32_t)c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | (uint32_t)c[3] << 24;
 }
 
-/* Returns true if the file has the length that its binary triangle count implies. Binary files may also begin with
- * "solid". */
+/* Returns true if the file is binary: it has the length that its number of triangles implies. Binary files may also
+ * begin with "solid", the first word of text files. */
 static bool is_binary(const struct source *s)
 {
     return s->length >= HEADER + COUNT && s->length == HEADER + COUNT + FACET * (int64_t)word_at(s, HEADER);
 }
 
-/* Reads all triangles of a binary file. REFUSED: a coordinate is not finite. */
+/* Reads all triangles of a binary file into the mesh. Returns REFUSED if a coordinate is not finite. */
 static status binary_read(struct element_mesh *m, struct source *s)
 {
     const int64_t n = word_at(s, HEADER);
@@ -56,7 +57,8 @@ static status binary_read(struct element_mesh *m, struct source *s)
 
 /* ---- text ----------------------------------------------------------------------------------------------------- */
 
-/* Reads all triangles of a text file. REFUSED if a facet does not have three corners, or endsolid is missing. */
+/* Reads all triangles of a text file into the mesh. Returns REFUSED if a facet does not have three corners, or endsolid
+ * is missing. */
 static status words_read(struct element_mesh *m, struct source *s)
 {
     char word[32];
@@ -87,7 +89,7 @@ struct corner_key {
     int32_t at;
 };
 
-/* Orders corners by coordinates, then by node. */
+/* Orders corners by their rounded coordinates, then by node, for array_sort. */
 static int corner_order(const void *a, const void *b)
 {
     const struct corner_key *p = a, *q = b;
@@ -96,11 +98,11 @@ static int corner_order(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
-/* Corners closer than this share of the extent become one: programs write the same corner with different last
- * digits. */
+/* Corners closer than this share of the extent of the mesh become one: programs write the same corner with different
+ * last digits. */
 #define SAME_PLACE 1e-6
 
-/* Returns the largest extent of the nodes over x, y and z. */
+/* Returns the largest extent of the nodes along x, y and z [unit of the file]. */
 static real extent_of(const struct element_mesh *m)
 {
     real extent = 0;
@@ -112,7 +114,8 @@ static real extent_of(const struct element_mesh *m)
     return extent;
 }
 
-/* Replaces corners that coincide by one node, so that neighbouring triangles share nodes. */
+/* Replaces corners that coincide, to SAME_PLACE of the extent, by one node, so that neighbouring triangles share
+ * nodes. */
 static void corners_weld(struct element_mesh *m)
 {
     struct corner_key *key = NEW("stl.corners", m->nodes, struct corner_key);
