@@ -27,7 +27,7 @@ void crash_message_set_file(const char *path)
     memcpy(reading, shown.text, sizeof reading);
 }
 
-/* Writes a text on standard error; safe in a signal handler. */
+/* Writes a text to standard error. It may be called in a signal handler. */
 static void say(const char *text)
 {
     for (size_t done = 0, length = strlen(text); done < length;) {
@@ -37,14 +37,14 @@ static void say(const char *text)
     }
 }
 
-/* Writes a text on standard error and exits. */
+/* Writes a text to standard error and ends the process with the status FAILED. */
 static _Noreturn void say_and_leave(const char *text)
 {
     say(text);
     _exit(FAILED);
 }
 
-/* Reports the file being read as damaged and exits. */
+/* Reports the file that HDF5 reads as damaged, and ends the process with the status FAILED. */
 static _Noreturn void say_damaged_and_leave(void)
 {
     say("cannot read ");
@@ -52,7 +52,7 @@ static _Noreturn void say_damaged_and_leave(void)
     say_and_leave(": the HDF5 library crashed over it; it is damaged, or not what it seems\n");
 }
 
-/* Returns true if so little memory is left that a library's allocation may have failed. */
+/* Returns true if less than 256 MiB of memory are left, so that an allocation of a library may have failed. */
 static bool memory_is_tight(void)
 {
     enum { PLENTY = 256 << 20 };
@@ -62,7 +62,7 @@ static bool memory_is_tight(void)
     return false;
 }
 
-/* Returns true if the stack limit is below 1 MB. */
+/* Returns true if the stack limit of the process is below 1 MiB. */
 static bool stack_is_tight(void)
 {
     enum { ENOUGH = 1 << 20 };
@@ -70,7 +70,7 @@ static bool stack_is_tight(void)
     return getrlimit(RLIMIT_STACK, &l) == 0 && l.rlim_cur < ENOUGH;
 }
 
-/* Handles a crash: reports the likely cause, or lets the signal end the process. */
+/* Handles the signal `number` of a crash: reports the likely cause and ends the process, or lets the signal end it. */
 static void on_crash(int number)
 {
     if (stack_is_tight()) say_and_leave(out_of_stack);
@@ -80,7 +80,7 @@ static void on_crash(int number)
 }
 
 /* Exit handler: reports exhausted memory if a library has called exit(-1), as HDF5 does. The program itself ends by
- * _exit, which calls no handlers. */
+ * _exit, which calls no handlers. result: exit status. */
 #ifdef __GLIBC__
 static void on_library_exit(int result, void *unused)
 {

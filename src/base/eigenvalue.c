@@ -17,8 +17,8 @@ struct lanczos {
     real *v, *before, *w;
 };
 
-/* Adds v . w to sum[0] and w . w to sum[1], over entries first .. end - 1, for reproducible_sums. context: a struct
- * lanczos. */
+/* Adds v . w to sum[0] and w . w to sum[1], over the entries first .. end - 1 of the Lanczos vectors, for
+ * reproducible_sums. context: a struct lanczos. */
 static void overlap_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct lanczos *l = context;
@@ -28,7 +28,7 @@ static void overlap_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-/* Sets v to a fixed pseudo-random unit vector. */
+/* Sets v, the first Lanczos vector, to a fixed pseudo-random unit vector, and the previous one to 0. */
 static void eigenvalue_start(struct lanczos *l)
 {
     uint64_t seed = 1;
@@ -42,8 +42,9 @@ static void eigenvalue_start(struct lanczos *l)
     for (int64_t k = 0; k < l->n; k++) l->v[k] = l->w[k] / sqrt(sum[1]);
 }
 
-/* Computes the next Lanczos vector w = A v - (v . A v) v - last `before`, where apply(context, v, w) computes w = A v.
- * last: length of w in the previous iteration. Stores v . A v in *diagonal. Returns the length of w. */
+/* Computes the next Lanczos vector w = A v - (v . A v) v - last `before` of the symmetric matrix A. apply(context, v,
+ * w): computes w = A v. last: length of w in the previous iteration. Stores v . A v in *diagonal. Returns the length of
+ * w. */
 static real next(struct lanczos *l, matrix_product_fn *apply, void *context, real last, real *diagonal)
 {
     real sum[2];
@@ -56,7 +57,7 @@ static real next(struct lanczos *l, matrix_product_fn *apply, void *context, rea
     return sqrt(sum[1]);
 }
 
-/* Makes v the previous vector, and w, of length `size`, the newest. */
+/* Makes v the previous Lanczos vector, and w, divided by its length `size`, the present one. */
 static void eigenvalue_turn(struct lanczos *l, real size)
 {
     real *spare = l->before;
@@ -65,8 +66,8 @@ static void eigenvalue_turn(struct lanczos *l, real size)
     for (int64_t k = 0; k < l->n; k++) l->v[k] /= size;
 }
 
-/* Returns true if x is above all eigenvalues of the symmetric tridiagonal matrix (Sturm); b[k] is between a[k] and a[k
- * + 1]. */
+/* Returns true if x is above all eigenvalues of the symmetric tridiagonal n x n matrix with the diagonal a[n] and the
+ * secondary diagonal b[n - 1] (Sturm sequence): b[k] couples rows k and k + 1. */
 static bool above_all(const real *a, const real *b, int n, real x)
 {
     real pivot = x - a[0];

@@ -36,8 +36,8 @@ static bool identity_is_known(const struct identity *one)
     return known;
 }
 
-/* Adds a file to the list of inputs. Without memory the file is not registered; the next allocation ends the
- * program. */
+/* Adds a file, by its status s, to the list of inputs, unless it is there. If memory is exhausted, the file is not
+ * registered; the next allocation ends the program. */
 static void input_add(const struct stat *s)
 {
     const struct identity one = identity_of(s);
@@ -66,15 +66,16 @@ bool input_was_read(const char *path)
     return identity_is_known(&one);
 }
 
-/* Returns true for the names of descriptors of this process: a pipe behind one is already open, so opening it does not
- * wait. */
+/* Returns true if `path` is the name of an open descriptor of this process. A pipe behind it is open already, so that
+ * opening it does not wait. */
 static bool is_descriptor(const char *path)
 {
     return strcmp(path, "/dev/stdin") == 0 || strncmp(path, "/dev/fd/", 8) == 0 ||
            strncmp(path, "/proc/self/fd/", 14) == 0;
 }
 
-/* Returns the reason why the open file `fd` (-1: it was not opened) cannot be read as an input, or NULL. */
+/* Returns the reason why a file cannot be read as an input, as text for a message; NULL if it can. fd: the open file,
+ * -1 if it could not be opened; path: its name. *s: receives its status. */
 static const char *input_fault(int fd, const char *path, struct stat *s)
 {
     const int cause = errno;

@@ -19,10 +19,11 @@ static struct {
 
 static pthread_t maker; /* the thread that makes files and children */
 
-/* Handles a signal that ends the process: ends the children, waits for them, since they could create their files once
- * more, removes the files, and ends the process by the same signal. Calls only functions that are safe in a handler. In
- * any other thread than `maker`, which makes files and children, only forwards the signal to `maker`, which would
- * otherwise go on making them (it blocks signals while it starts a child). */
+/* Handles the signal `number`, which ends the process. Ends the child processes, waits for them, since they could
+ * create their files once more, removes the temporary files, and ends the process by the same signal. Calls only
+ * functions that are safe in a handler. In any other thread than `maker`, which creates files and children, only
+ * forwards the signal to `maker`, which would otherwise continue to create them (it blocks signals while it starts a
+ * child). */
 static void on_end(int number)
 {
     if (!pthread_equal(pthread_self(), maker)) {
@@ -40,7 +41,7 @@ static void on_end(int number)
 
 static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
 
-/* Installs the handler for signals that would end the process. */
+/* Installs the handler on_end for the signals that would end the process, at the first call. */
 static void leavings_watch(void)
 {
     static bool watched;

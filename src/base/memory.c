@@ -47,8 +47,9 @@ static _Noreturn void out_of_memory(const char *label, int64_t count, size_t siz
     _exit(FAILED);
 }
 
-/* Writes zeros piece by piece in the static partition of the loops that will use the array, so that a page is in the
- * memory of the processor whose thread uses it; of fresh pages, which are zero, only one byte each. */
+/* Writes zeros to an array of `length` bytes piece by piece, in the static partition of the loops that will use it, so
+ * that each page is in the memory of the processor whose thread uses it. fresh: true for new pages, which are zero
+ * already; then only one byte per page is written. */
 static void zero(char *bytes, size_t length, bool fresh)
 {
     int64_t pieces = (int64_t)((length + PIECE - 1) / PIECE);
@@ -64,10 +65,11 @@ static void zero(char *bytes, size_t length, bool fresh)
     }
 }
 
-/* Returns an offset for the start of an array. Large blocks begin at equal addresses within a page, and a cache set has
- * room for eight or twelve lines: loops over twenty arrays would evict their own lines. Each array therefore begins
- * some lines further on than the previous one. Measured on two cores against no offsets: material points of the current
- * frame take 6 % less time in 2D (160,000) and 16 % less in 3D (512,000); bonds equal time. */
+/* Returns the offset of an array of `length` bytes from the beginning of its block [byte]. Large blocks begin at equal
+ * addresses within a page, and a cache set has room for eight or twelve lines: loops over twenty arrays would evict
+ * their own lines. Each array therefore begins some lines further on than the previous one. Measured on two cores
+ * against no offsets: material points of the current frame take 6 % less time in 2D (160,000) and 16 % less in 3D
+ * (512,000); bonds take equal time. */
 static size_t offset(size_t length)
 {
     static unsigned arrays;
@@ -81,8 +83,8 @@ static int waiting_longest;
 static size_t waiting_bytes;
 static bool reusing;
 
-/* Returns the size of pages for `length` bytes, in steps of at most a quarter, so that a slightly larger array finds
- * its old block; pages beyond an array are never touched. */
+/* Returns the size of the pages for an array of `length` bytes, in steps of at most a quarter, so that a slightly
+ * larger array finds its old block. Pages beyond an array are never touched. */
 static size_t room_of(size_t length)
 {
     size_t step = OWN_PAGES / 4;
@@ -91,7 +93,7 @@ static size_t room_of(size_t length)
 }
 
 /* Removes the smallest block of at least `least` and at most 4 `least` bytes from the store of released blocks and
- * returns it. If there is none, `whole` of the result is NULL. */
+ * returns it. Returns a block with `whole` NULL if there is none. */
 static struct block take_kept(size_t least)
 {
     struct block block = {NULL, 0, 0};
@@ -107,7 +109,9 @@ static struct block take_kept(size_t least)
     return block;
 }
 
-/* Keeps a block in place of the oldest one, and releases more if all exceed KEPT_ALL. */
+/* Adds a released block to the store in place of the oldest one, and returns further old blocks to the system while the
+ * store exceeds KEPT_ALL. The block itself is returned to the system if it is larger than KEPT_MOST, or if blocks are
+ * not reused. */
 static void memory_keep(struct block block)
 {
     if (!reusing || block.mapped > KEPT_MOST) {
@@ -138,8 +142,9 @@ static void keep_none(void)
 }
 #endif
 
-/* Returns `length` bytes at a multiple of `alignment`, NULL if there are none. anew: takes new pages, no kept
- * block. *fresh: the bytes are zero. */
+/* Returns `length` bytes at a multiple of `alignment`, and the block that contains them in *block; NULL if memory is
+ * exhausted. anew: true to take new pages instead of a block from the store of released blocks. *fresh: receives
+ * whether the bytes are zero. */
 static char *memory_block_make(struct block *block, size_t length, size_t alignment, bool anew, bool *fresh)
 {
     *block = (struct block){NULL, 0, 0}, *fresh = false;
@@ -162,9 +167,9 @@ static char *memory_block_make(struct block *block, size_t length, size_t alignm
 
 enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN, MOSTLY_ZERO };
 
-/* Returns an array of `count` elements of `size` bytes at a cache line, after its header (struct block). label: name of
- * the array for the message if memory is exhausted, which ends the program; content: which bytes must be zero, and
- * whether most of them are never written. */
+/* Returns an array of `count` elements of `size` bytes at a cache line, after its header (struct block). content: which
+ * bytes must be zero, and whether most of them are never written. If memory is exhausted, ends the program with a
+ * message that names the array by `label`. */
 static void *array_make(const char *label, int64_t count, size_t size, enum content content)
 {
     size_t length;
@@ -224,8 +229,9 @@ void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, si
     return count <= room ? pointer : memory_resize(label, pointer, room, count > more ? count : more, size);
 }
 
-/* Extends the pages of an array with pages of its own to `length` bytes, possibly moving them: nothing is copied, and
- * unwritten pages stay unwritten. Updates *block and *pointer. Returns false if the system cannot do it. */
+/* Extends the pages of an array *pointer, if it has pages of its own, to `length` bytes. The pages may move, but
+ * nothing is copied, and unwritten pages remain unwritten. Updates *block and *pointer. Returns false if the system
+ * cannot do it. */
 static bool pages_extend(struct block *block, char **pointer, size_t length)
 {
 #ifdef MREMAP_MAYMOVE
@@ -289,8 +295,8 @@ void memory_set_reuse(bool reuse)
 #endif
 }
 
-/* Returns the largest memory of this program so far [byte], 0 if unknown. VmHWM counts this program alone; ru_maxrss
- * would include the program that started it. */
+/* Returns the largest memory that this program has used so far [byte]; 0 if unknown. It reads VmHWM, which counts this
+ * program alone; ru_maxrss would include the program that started it. */
 static int64_t peak_of_program(void)
 {
     FILE *f = fopen("/proc/self/status", "r");

@@ -12,7 +12,7 @@ static int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
 
 /* ---- control groups ---------------------------------------------------------------------------------------------- */
 
-/* Returns the number in a file, INT64_MAX if there is no file or it contains `max`. */
+/* Returns the number in the file `path`; INT64_MAX if there is no file or it contains `max`. */
 static int64_t number_in(const char *path)
 {
     FILE *f = fopen(path, "r");
@@ -22,8 +22,8 @@ static int64_t number_in(const char *path)
     return found ? number : INT64_MAX;
 }
 
-/* Returns the smallest number in the files `file` of a control group and all groups above it (base/group/file) [byte];
- * a container sees its own group as the highest. Destroys `group`. */
+/* Returns the smallest number in the files base/group/file of a control group and of all groups above it [byte]. A
+ * container sees its own group as the highest. Modifies `group`. */
 static int64_t group_and_above(const char *base, char *group, const char *file)
 {
     int64_t limit = INT64_MAX;
@@ -37,8 +37,8 @@ static int64_t group_and_above(const char *base, char *group, const char *file)
     }
 }
 
-/* Returns the tightest limit of all groups of the process. /proc/self/cgroup has lines `number:controllers:group`, in
- * version 2 `0::group`. */
+/* Returns the smallest memory limit of all control groups of the process [byte]; INT64_MAX if there is none.
+ * /proc/self/cgroup has lines `number:controllers:group`, in version 2 `0::group`. */
 static int64_t groups_limit(void)
 {
     FILE *f = fopen("/proc/self/cgroup", "r");
@@ -60,7 +60,8 @@ static int64_t groups_limit(void)
 
 /* ---- limits of the process --------------------------------------------------------------------------------------- */
 
-/* Returns what a limit leaves beyond the memory already taken [byte]; taken: [pages]. */
+/* Returns how much memory a limit of the process (RLIMIT_*) leaves beyond that in use [byte], at least 1; INT64_MAX if
+ * it is unlimited. taken: memory in use [pages]. */
 static int64_t left_of(int resource, long long taken)
 {
     struct rlimit l;

@@ -16,7 +16,8 @@ struct collected {
     bool lost;
 };
 
-/* Ensures room for `more` bytes and a NUL. Returns false if there is no memory. */
+/* Ensures that the collected output has room for `more` further bytes and a NUL. Returns false if memory is
+ * exhausted. */
 static bool collected_room(struct collected *c, size_t more)
 {
     const size_t least = *c->length + more + 1, room = least < 2 * c->room ? 2 * c->room : least;
@@ -27,7 +28,8 @@ static bool collected_room(struct collected *c, size_t more)
     return true;
 }
 
-/* Appends n bytes to the collected output (writer of fopencookie). Returns n, or 0 if memory is exhausted. */
+/* Appends n bytes to the collected output `context`, a struct collected, as the writer of fopencookie. Returns n, or 0
+ * if memory is exhausted. */
 static ssize_t collected_write(void *context, const char *bytes, size_t n)
 {
     struct collected *c = context;

@@ -13,8 +13,9 @@ enum { CHUNK = 4096 };
 
 static const char erase_line[] = "\033[K";
 
-/* Copies a chunk of output and replaces control characters in the copy, except those that the program itself sends to a
- * terminal: line end, tab, erasing a line, and a carriage return at the start of the first chunk (`first`). */
+/* Copies `length` bytes of output and replaces control characters in the copy, except those that the program itself
+ * sends to a terminal: line end, tab, the sequence that erases a line, and, if `first`, a carriage return as the first
+ * byte. */
 static void chunk_harmless(char *to, const char *from, size_t length, bool first)
 {
     memcpy(to, from, length);
@@ -26,8 +27,8 @@ static void chunk_harmless(char *to, const char *from, size_t length, bool first
             memcpy(to + k, erase_line, sizeof erase_line - 1);
 }
 
-/* Writes bytes to a file descriptor, with control characters replaced. Returns the number of bytes written, less than
- * `length` on an error. */
+/* Writes bytes to the file descriptor fd, with control characters replaced. Returns the number of bytes written, less
+ * than `length` on an error. */
 static size_t harmless_write(int fd, const char *bytes, size_t length)
 {
     char text[CHUNK];

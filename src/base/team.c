@@ -32,8 +32,8 @@ static struct memory_limit memory;
 /* The name of the processor, "" before the topology of the machine has been read. */
 static char processor[128];
 
-/* Stores the memory of the machine, or the tightest limit of it. topology: NULL, the figure of the system alone is
- * used. */
+/* Stores the size of the machine's memory, or the smallest limit below it, in `memory`. topology: of the machine, from
+ * hwloc; NULL: the figure of the system alone is used. */
 static void note_memory(hwloc_topology_t topology)
 {
     const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;
@@ -43,7 +43,7 @@ static void note_memory(hwloc_topology_t topology)
     memory = limit.bytes < all ? limit : (struct memory_limit){all, "memory of the machine"};
 }
 
-/* Stores the name of the processor. */
+/* Stores the name of the processor from the topology of the machine in `processor`. */
 static void note_processor(hwloc_topology_t topology)
 {
     hwloc_obj_t package = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_PACKAGE, NULL);
@@ -52,7 +52,7 @@ static void note_processor(hwloc_topology_t topology)
     snprintf(processor, sizeof processor, "%s", name != NULL ? name : "unknown processor");
 }
 
-/* Returns the k-th physical core of the mask; NULL past the last. */
+/* Returns core k, from 0, among the physical cores that this process may use; NULL beyond the last. */
 static hwloc_obj_t core_at(const struct place *place, int k)
 {
     hwloc_obj_t core = NULL;
@@ -61,9 +61,9 @@ static hwloc_obj_t core_at(const struct place *place, int k)
     return NULL;
 }
 
-/* Moves the calling thread to the first core, then allows it the whole mask again: reading the topology visits every
- * core and leaves the thread on the last one, where it would share a helper's core for about 20 ms, until the scheduler
- * moves it. */
+/* Moves the calling thread to the first core that this process may use, then allows it all of them again. Reading the
+ * topology visits every core and leaves the thread on the last one, where it would share the core of another thread for
+ * about 20 ms, until the scheduler moves it. */
 static void rebind_main(const struct place *place)
 {
     const hwloc_obj_t core = core_at(place, 0);
@@ -75,8 +75,8 @@ static void rebind_main(const struct place *place)
     hwloc_bitmap_free(home);
 }
 
-/* Reads the topology of the machine and the hardware threads that this process may use. Returns false if hwloc
- * fails. */
+/* Reads into *place the topology of the machine and the hardware threads that this process may use, and stores memory
+ * and name of the processor. Returns false if hwloc fails. */
 static bool place_make(struct place *place)
 {
     setenv("HWLOC_HIDE_ERRORS", "2", 0); /* a machine that hides its topology is no fault of the run */
@@ -106,7 +106,8 @@ static void place_free(struct place *place)
     hwloc_topology_destroy(place->topology);
 }
 
-/* Returns the number of physical cores of the mask; if hwloc sees none (some virtual machines), of hardware threads. */
+/* Returns the number of physical cores that this process may use; of hardware threads if hwloc sees no cores, as in
+ * some virtual machines. */
 static int core_count(const struct place *place)
 {
     int cores = 0;
@@ -154,9 +155,9 @@ const char *machine_memory_limit_name(void)
 
 /* ---- the team ---------------------------------------------------------------------------------------------------- */
 
-/* Binds each helper to a core of its own, or to the whole mask if there are too few cores. The calling thread stays
- * free: its mask shows the next call (another team size) what the process may use, and programs that it starts inherit
- * it. */
+/* Binds each thread of the team except the calling one to a core of its own, or to all allowed cores if there are fewer
+ * than `threads`. The calling thread remains free: its mask shows the next call, for another team size, what the
+ * process may use, and programs that it starts inherit it. */
 static void bind_helpers(const struct place *place, int threads)
 {
     bool apart = core_at(place, threads - 1) != NULL;
@@ -172,7 +173,8 @@ static void bind_helpers(const struct place *place, int threads)
 
 static bool user_binds(void) { return getenv("OMP_PROC_BIND") != NULL || getenv("OMP_PLACES") != NULL; }
 
-/* Returns the number of hardware threads in the user's OMP_PLACES, at most that of OpenMP. */
+/* Returns the number of hardware threads in the user's OMP_PLACES, at most that of OpenMP; that of OpenMP if OMP_PLACES
+ * is not set. */
 static int bound_threads(void)
 {
     int held = 0, most = omp_get_max_threads();
@@ -180,8 +182,8 @@ static int bound_threads(void)
     return held > 0 && held < most ? held : most;
 }
 
-/* Sets denormal numbers to 0 in every thread: ahead of a wave values mapped from node to node fall below 1e-308 within
- * some steps, and operations on denormal numbers take a hundred times as long. */
+/* Makes every thread of the team treat denormal numbers as 0. Ahead of a wave, values mapped from node to node fall
+ * below 1e-308 within some steps, and operations on denormal numbers take a hundred times as long. */
 static void flush_tiny_numbers(int threads)
 {
 #ifdef __SSE__
@@ -202,8 +204,8 @@ static void *wait_for(void *mutex)
 
 enum { LIBRARY_ROOM = 16 << 20 }; /* memory that the OpenMP library may take besides stacks [byte] */
 
-/* Returns true if so many threads can exist at once; otherwise the OpenMP library would end the process with several
- * lines. */
+/* Returns true if `threads` threads can exist at once, by starting and ending them. If they cannot, the OpenMP library
+ * would end the process with several lines of its own. */
 static bool threads_start(int threads)
 {
     void *room =
@@ -305,7 +307,8 @@ void core_shares_free(struct core_shares *s)
 /* largest number of blocks of a sum without allocation: steps need short sums several times */
 enum { FEW_BLOCKS = 16 };
 
-/* Stores the sums over block number b of n entries in part[terms], by calling `block` on the entries of this block. */
+/* Stores the `terms` sums over block number b of n entries in part[terms]. block(context, first, end, sum): adds the
+ * terms of the entries first .. end - 1 to sum. */
 static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                       const void *context, int64_t b, real *part)
 {
@@ -349,7 +352,7 @@ real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), c
 
 /* ---- clocks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the time of a clock of the system [s]. */
+/* Returns the time of a clock of the system (CLOCK_*) [s]. */
 static double clock_read(clockid_t which)
 {
     struct timespec now;

@@ -45,7 +45,8 @@ void warnings_add_and_print(struct warnings *w, const char *text)
     if (warnings_add(w, "%s", text)) warnings_print_new(w, w->n - 1);
 }
 
-/* Stores all warnings as one text, each with its terminating zero. */
+/* Saves all warnings to the archive a as one text, each with its terminating zero, or adds the saved ones to w. Returns
+ * FAILED if the text does not have the saved length. */
 status warnings_save_or_load(struct warnings *w, struct archive *a)
 {
     int64_t length = 0;
