@@ -18,7 +18,7 @@ extern const struct kernel_set kernel_set_portable;
 #ifdef __x86_64__
 extern const struct kernel_set kernel_set_avx512, kernel_set_avx2;
 
-/* Returns true if the processor reports all `bits` in register ecx of cpuid leaf `leaf`. */
+/* Returns true if the processor reports all features in `bits` in register ecx of the cpuid leaf `leaf`. */
 static inline bool responses(unsigned leaf, unsigned bits)
 {
     unsigned a, b, c, d;
@@ -41,7 +41,7 @@ static inline bool runs_avx512(void)
 }
 #endif
 
-/* The Makefile defines KERNELS_... for each set that it builds. */
+/* All sets of kernels that were built, the fastest first. The Makefile defines KERNELS_NAME for each of them. */
 const struct simd_set simd_sets[] = {
 #ifdef KERNELS_avx512
     {"avx512", "AVX-512 (x86-64-v4), 8 doubles a vector", runs_avx512, &kernel_set_avx512},
@@ -59,8 +59,8 @@ const struct simd_set simd_sets[] = {
 };
 const int simd_set_count = COUNT_OF(simd_sets);
 
-/* The kernels in use, under their own names. With simd_current_kernels the only selection of the program that is stored
- * outside of a run. */
+/* The kernels in use, under their own names. Together with simd_current_kernels they are the only selection of the
+ * program that is stored outside of a run. */
 #define DEFINE(name) __typeof__(&*name) name;
 KERNELS(DEFINE)
 static const struct simd_set *in_use;
@@ -75,7 +75,8 @@ void simd_use_kernels(const struct simd_set *set)
 
 const struct simd_set *simd_current_kernels(void) { return in_use; }
 
-/* Lists the names of all sets, or of the supported ones (running), as in "avx2, portable". Returns text. */
+/* Writes the names of all sets of kernels to text[size], as in "avx2, portable", and returns text. running: true for
+ * the sets that this processor supports only. */
 static const char *names(bool running, char *text, size_t size)
 {
     size_t length = 0;
@@ -107,5 +108,5 @@ status simd_select_kernels(void)
                       names(true, text, sizeof text));
 }
 
-/* Kernels are selected before anything runs; main checks again, and reports a failure. */
+/* Selects the kernels before main starts, which checks the selection again and reports a failure. */
 __attribute__((constructor)) static void simd_start_set(void) { (void)simd_select_kernels(); }
