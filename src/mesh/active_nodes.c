@@ -5,20 +5,20 @@
 
 enum { MOVED = 2 }; /* forces on a node come from adjacent cells: at most one block on every side */
 
-/* Returns the first node of a block. */
+/* Returns the first node of a block, eight consecutive nodes along x. */
 static int64_t nodes_first(const struct mesh *mesh, int64_t block)
 {
     return block / mesh->segments * mesh->grid.count[0] + block % mesh->segments * LANES;
 }
 
-/* Returns the node after the last node of a block. */
+/* Returns the node after the last node of a block, eight consecutive nodes along x or fewer at the end of a row. */
 static int64_t nodes_end(const struct mesh *mesh, int64_t block)
 {
     const int64_t end = nodes_first(mesh, block) + LANES, row = (block / mesh->segments + 1) * mesh->grid.count[0];
     return end < row ? end : row;
 }
 
-/* Returns true if no node of a block has mass and no extra node of a slit belongs to it. */
+/* Returns true if no node of a block has mass and no extra node of a slit belongs to the block. */
 static bool nodes_empty(const struct mesh *mesh, int64_t block)
 {
     if (mesh->slits.linked && mesh->slits.linked[block]) return false; /* cells there may have extra nodes */
@@ -29,8 +29,9 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates the blocks with extra nodes of slits that are positioned in block `near`, because they are neighbours of
- * the nodes there. moves: if `near` itself consists of extra nodes, activates the blocks at their positions, too. */
+/* Activates the blocks with extra nodes of slits whose positions are in block `near`, because they are neighbours of
+ * the nodes there. moves: true if the nodes of `near` move; if they are extra nodes themselves, the blocks at their
+ * positions are then activated, too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -42,7 +43,7 @@ static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
     }
 }
 
-/* Activates a block that moves, and its neighbours that have nodes with mass. */
+/* Activates a block of nodes that moves, and its neighbouring blocks that have nodes with mass. */
 static void mesh_activate(struct mesh *mesh, int64_t block)
 {
     struct active_set *r = &mesh->active;
@@ -59,7 +60,7 @@ static void mesh_activate(struct mesh *mesh, int64_t block)
     }
 }
 
-/* Returns true if a node of the block is displaced. */
+/* Returns true if a node of the block is displaced from its reference position. */
 static bool nodes_moved(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)
@@ -77,8 +78,8 @@ static bool nodes_inactive(const struct mesh *mesh, int64_t block)
     return !nodes_moved(mesh, block);
 }
 
-/* Returns true if a wall holds its node at rest for the whole run: the wall of a mirror, or of a prescribed velocity of
- * 0. */
+/* Returns true if the wall w, a prescribed velocity of a node, holds the node at rest for the whole run: the wall of a
+ * mirror, or of a velocity of 0. */
 static bool wall_is_fixed(const struct loads *l, const struct wall *w)
 {
     const struct boundary *b = l->load[w->load].boundary;
@@ -100,8 +101,9 @@ void active_nodes_activate_all(struct mesh *mesh)
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
 }
 
-/* Recomputes which blocks of nodes are active: those with a node that moves or carries a force, those of moving walls,
- * their neighbours, and those of exposed points. */
+/* Recomputes which blocks of nodes are active: those with a node that moves or carries a force, those with moving walls
+ * (nodes of prescribed velocity), their neighbours, and those around exposed points (points whose motion is needed in
+ * every step). */
 static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;

@@ -10,8 +10,9 @@
 
 /* ---- choice of the frame ----------------------------------------------------------------------------------------- */
 
-/* Returns the reason why a body for which the scene does not choose a frame cannot be in the reference frame; NULL if
- * it can. The body must be one piece on one lattice, with particles at the quarter points of cells. */
+/* Returns the reason why a body for which the scene does not choose a frame cannot be in the reference frame, as part
+ * of a message; NULL if it can. The body must be one piece on one lattice, with two particles per cell and axis.
+ * hollow: cells whose particles were not created. */
 static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm,
                                   const struct cells_without_particles *hollow)
 {
@@ -27,7 +28,7 @@ static void take_frame(struct frame_choice *f, bool reference, const char *reaso
     *f = (struct frame_choice){reference, reason};
 }
 
-/* Sets FLAG_MESHED for all particles of the bodies in the reference frame. */
+/* Sets FLAG_MESHED, the mark of points of the mesh, for all particles of the bodies in the reference frame. */
 static void frames_mark(struct particles *part, struct reference_frame *frame)
 {
     for (int64_t i = 0; i < part->n; i++)
@@ -80,8 +81,8 @@ bool reference_frame_in_use(const struct reference_frame *r)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the elastic constants of the cells [materials]: of the material, or of its bonds on the lattice
- * (mpm.constants). */
+/* Returns the elastic constants of the cells, one entry per material: those of the material, own[materials], or those
+ * of its bonds on the lattice if mpm.constants says so. family: family of these bonds. Release it with memory_free. */
 static struct elastic *cell_constants(const struct scene *s, const struct elastic *own, const struct family *family)
 {
     struct elastic *cell = NEW("engine.cell_elastic", s->materials, struct elastic);
@@ -126,9 +127,9 @@ status reference_frame_make(struct run *e, const struct mesh_source *cuts, bool 
     return OK;
 }
 
-/* Returns the critical time step of the mesh [s], INFINITY without points. Conversion may leave any subset of points in
- * a cell: with partial stress no such cell has a smaller critical step than the initial cells, with hand-shake coupling
- * a cell with a single point has. */
+/* Returns the critical time step of the mesh [s]; INFINITY if it has no points. Conversion to peridynamics may leave
+ * any subset of points in a cell: with partial stress no such cell has a smaller critical step than the initial cells,
+ * with hand-shake coupling a cell with a single point has. */
 real reference_frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;
@@ -156,8 +157,8 @@ void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_
     levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_acting(&r->levels, step));
 }
 
-/* Sets the walls, i.e. the prescribed velocities of nodes, of the mesh and of coarse levels 1 .. due, whose steps are
- * 2^level times as long. middle: time in the middle of the step of the mesh [s]. */
+/* Sets the walls, the prescribed velocities of nodes, of the mesh and of the coarse levels 1 .. due, whose steps are
+ * 2^level times as long. middle: time in the middle of the step of the mesh [s]; dt: its length [s]. */
 static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
     loads_prescribe_mesh_velocities(loads, &r->mesh, middle, dt);
@@ -168,7 +169,8 @@ static void nodes_walls(struct reference_frame *r, const struct loads *loads, re
     }
 }
 
-/* Adds the reactions on the walls of the mesh and of coarse levels 1 .. due to their loads. */
+/* Adds the reactions on the walls, nodes of prescribed velocity, of the mesh and of the coarse levels 1 .. due to their
+ * loads. dt_velocity: time over which the nodes of the mesh were accelerated [s]. */
 static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
     loads_add_grid_reactions(loads, &frame->mesh.grid, dt_velocity);

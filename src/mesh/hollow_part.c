@@ -15,8 +15,8 @@ enum { AHEAD = 4 };     /* range of cells around level 0 that have particles, as
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reason in words why all particles of scene s must be made, or NULL if particles inside coarse cells may
- * be left out. */
+/* Returns the reason in words why all particles of scene s must be created; NULL if those inside coarse cells may be
+ * left out. */
 const char *why_all_particles_are_needed(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene says so";
@@ -45,8 +45,8 @@ const char *why_all_particles_are_needed(const struct scene *s)
     return NULL;
 }
 
-/* Computes the box of cells around the body, with nodes at those of its mesh. Returns REFUSED if it has too many
- * cells. */
+/* Computes the box of cells around the first body, with its nodes at those of the body's mesh. Returns REFUSED if it
+ * has too many cells. */
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
@@ -59,7 +59,8 @@ static status box_find(struct grid *box, const struct scene *s)
                : status_set(REFUSED, "body %s: too large for the spacing", s->body[0].name);
 }
 
-/* Returns true if a particle at X is needed because of pre-cracks. h: size of a cell [m]. */
+/* Returns true if a particle at X[dim] [m] is needed because a pre-crack is near. source: provides the cutoff of bonds;
+ * h: size of a cell [m]. */
 static bool near_cracks(const struct scene *s, const struct bond_source *source, const real *X, real h)
 {
     const real flank = source->family.cutoff + 2 * h;
@@ -76,8 +77,8 @@ static bool near_cracks(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-/* Returns true if X is inside the region of a load that acts in its whole region, not on a face, within `tolerance`
- * [m]. */
+/* Returns true if X[dim] is inside the region of a load that acts in its whole region, not on a face, extended by
+ * `tolerance` [m]. */
 static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -88,8 +89,8 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
     return false;
 }
 
-/* Returns true if a load acts on a face of cell I, beside which the next cell is not completely inside the body, or on
- * a layer behind such a face that contains the cell. X: a point of the cell. */
+/* Returns true if a load acts on a face of cell I beside which the next cell is not completely inside the body, or on a
+ * layer behind such a face that contains the cell. X[dim]: a point of the cell [m]. */
 static bool face_loaded(const struct scene *s, const struct cells_without_particles *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -106,8 +107,8 @@ static bool face_loaded(const struct scene *s, const struct cells_without_partic
     return false;
 }
 
-/* Returns true if X is within r of the position of a probe or, for a probe without position, of an end of a
- * pre-crack. */
+/* Returns true if X[dim] is within the distance r [m] of the position of a probe or, for a probe without position, of
+ * an end of a pre-crack. */
 static bool near_probe(const struct scene *s, const struct probe_request *probe, const real *X, real r)
 {
     if (probe->has_at) return segment_distance(probe->at, probe->at, X, s->dim) < r;
@@ -117,7 +118,7 @@ static bool near_probe(const struct scene *s, const struct probe_request *probe,
     return false;
 }
 
-/* Returns true if a probe uses particles within 3 h of X. */
+/* Returns true if a probe of the scene uses particles within three cells of X[dim] [m]. h: size of a cell [m]. */
 static bool probed(const struct scene *s, const real *X, real h)
 {
     for (int k = 0; k < s->probes; k++) {
@@ -132,7 +133,7 @@ static bool probed(const struct scene *s, const real *X, real h)
 }
 
 /* Returns true if cell I must have particles: near pre-cracks and probes, in regions of loads and on loaded faces, and
- * near the region that is peridynamic from the start. */
+ * near the region that is peridynamic from the start. source: provides the cutoff of bonds. */
 static bool cell_needed(const struct scene *s, const struct bond_source *source,
                         const struct cells_without_particles *h, int64_t I)
 {
@@ -171,8 +172,8 @@ status cells_without_particles_choose(struct cells_without_particles *h, const s
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if a cell that has level 0 (the finest) by level[mesh->grid.n] has no particles, so that the run must be
- * set up again with more particles. */
+/* Returns true if a cell without particles has level 0, the finest, so that the run must be set up again with more
+ * particles. level[grid.n]: levels of the cells of the mesh. */
 bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
@@ -180,8 +181,9 @@ bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level)
     return false;
 }
 
-/* Returns flags [box.n] that are 1 for cells that need no particles with the levels `level`: those farther than `ahead`
- * cells from level 0. A coarse cell has all of its particles or none. The caller frees them. */
+/* Returns flags [box.n] that are 1 for the cells that need no particles: those farther than `ahead` cells from cells of
+ * level 0, the finest. level: levels of the cells of the mesh. A coarse cell has all of its particles or none. Release
+ * it with memory_free. */
 static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
 {
     const struct cells_without_particles *h = &r->hollow;

@@ -4,8 +4,8 @@
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-/* Sets positions, volumes and attributes of the points of a cell, from index `first` on. point: set to their indices
- * [2^dim]. */
+/* Sets positions, volumes, masses and materials of the points of a cell, one for each of its 2^dim integration points.
+ * m: materials of the scene; first: index of the first point in p; point[2^dim]: receives their indices. */
 static void cell_points(struct particles *p, const struct mesh *mesh, const struct material *m, int64_t cell,
                         int64_t first, int32_t *point)
 {
@@ -21,7 +21,8 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
     }
 }
 
-/* Makes the points of the listed cells of a level, from index `first` on, with the motion of the nodes of the level. */
+/* Makes the points of the listed cells of a level, cell[cells], from index `first` on, with the motion of the nodes of
+ * this level. body: the particles of the run; m: materials of the scene. */
 static void level_points(struct reference_frame *r, const struct particles *body, const struct material *m, int level,
                          const int64_t *cell, int64_t cells, int64_t first)
 {

@@ -8,7 +8,7 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the index of the cell of level 0 at the lower corner of the box around all particles in l->offset[0]. */
+/* Stores in l->offset[0] the indices of the cell of level 0 at the lower corner of the box around all particles. */
 static void corner_find(struct mesh_levels *l, const struct particles *p)
 {
     const struct grid *g = &l->fine->grid;
@@ -19,7 +19,8 @@ static void corner_find(struct mesh_levels *l, const struct particles *p)
     }
 }
 
-/* Makes the empty mesh of a level, with the nodes that its cells may have. */
+/* Makes the mesh of a level, without cells, with the nodes that its cells may have. source: number of materials;
+ * density: of each material [kg/m^3]. Returns REFUSED if it has too many nodes. */
 static status level_make(struct mesh_levels *l, int level, const struct mesh_source *source, const real *density)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -75,7 +76,8 @@ void levels_free(struct mesh_levels *l)
 
 /* ---- points of coarse cells -------------------------------------------------------------------------------------- */
 
-/* Copies displacement and velocity of finer nodes to all ghosts, the nodes of a coarser mesh at their positions. */
+/* Copies displacement and velocity of finer nodes to all ghosts, which are nodes of a coarser mesh at the positions of
+ * these finer nodes. */
 void levels_copy_to_ghosts(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) levels_update_ghosts(l, level);
@@ -131,7 +133,7 @@ int64_t levels_count_cells(const struct mesh_levels *l, int level)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
+/* Returns the kinetic energy of the nodes of all coarse levels [J], without that of level 0, the finest. */
 real levels_kinetic_energy(const struct mesh_levels *l)
 {
     real sum = 0;
@@ -167,19 +169,20 @@ real levels_power(const struct mesh_levels *l)
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
-/* Copies the flags of the rows of cells of a mesh (runs) to marks [runs]: 1 if a point of the row may have exceeded the
- * stress at which coarse cells are split, in the last computation of forces. */
+/* Copies the flags `stressed` of the rows of cells of a mesh to marks[runs]: 1 if, in the last computation of forces, a
+ * point of the row may have exceeded the stress at which coarse cells are split. */
 static void stressed_get(const struct mesh *mesh, uint8_t *marks)
 {
     for (int64_t r = 0; r < mesh->runs; r++) marks[r] = mesh->run[r].stressed;
 }
-/* Sets the flags of the rows of cells from marks [runs], the reverse of stressed_get. */
+/* Sets the flags `stressed` of the rows of cells of a mesh from marks[runs], the reverse of stressed_get. */
 static void stressed_put(struct mesh *mesh, const uint8_t *marks)
 {
     for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = marks[r] != 0;
 }
 
-/* Saves or restores the flags of stressed rows of cells of a level. */
+/* Saves the flags of stressed rows of cells of a level to the archive a, or restores them. Returns FAILED if the
+ * archive does not have them. */
 static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 {
     char name[48];
@@ -192,8 +195,8 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
     return s;
 }
 
-/* Rebuilds everything that follows from the levels of the cells: cells and masses of all meshes, interfaces between
- * levels, and distances to coarse cells. */
+/* Rebuilds everything that follows from the levels of the cells, l->level: cells and masses of all meshes, interfaces
+ * between levels, and distances to coarse cells. */
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     mesh_cells_update(l->fine, p, source, l->level);
@@ -219,8 +222,8 @@ void levels_reconnect_finest(struct mesh_levels *l, const struct particles *p, c
     }
 }
 
-/* Saves or restores displacements, velocities and momenta of the nodes of a level, and the flags of its stressed
- * cells. */
+/* Saves displacements, velocities and momenta of the nodes of a level and the flags of its stressed cells to the
+ * archive a, or restores them. Returns FAILED if the archive does not have them. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
     real *const *field[] = {mesh->displacement, mesh->grid.velocity, mesh->grid.momentum};

@@ -6,7 +6,7 @@
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Makes the coarse cells for the present refinement levels and the masses of their nodes, without the transfer of mass
+/* Makes the coarse cells for the present levels, l->level, and the masses of their nodes, without the transfer of mass
  * between levels (levels_add_dependent_masses). */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p)
 {
@@ -35,7 +35,7 @@ void levels_cells_make(struct mesh_levels *l, const struct particles *p)
 
 /* ---- interfaces of levels ---------------------------------------------------------------------------------------- */
 
-/* Returns true if a cell around node I computes forces. */
+/* Returns true if a cell around node I of the mesh computes forces. */
 static bool node_acts(const struct mesh *mesh, int64_t I)
 {
     bool acts = false;
@@ -46,8 +46,8 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     return acts;
 }
 
-/* Returns true if a cell of `level` is beside the node of the next finer level at `at` nodes from the lower corner of
- * the body. */
+/* Returns true if a cell of `level` that computes forces contains a node of the next finer level. at: indices of the
+ * node, counted from the lower corner of the body. */
 static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t *at)
 {
     const struct mesh *mesh = &l->at[level].mesh;
@@ -65,14 +65,16 @@ static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t 
     return false;
 }
 
-/* Appends a ghost: node `coarse` of the coarse mesh, which takes its displacement from node `fine` of the finer one. */
+/* Appends a ghost to the list of level m: node `coarse` of the coarse mesh, whose displacement is that of node `fine`
+ * of the finer mesh at the same position. */
 static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
 {
     GROW("levels.ghost", m->ghost, m->ghosts + 1);
     m->ghost[m->ghosts++] = (struct mesh_ghost){(int32_t)coarse, (int32_t)fine};
 }
 
-/* Appends node I of `mesh`, in the middle of an edge or face along the axes `odd`, to the hanging nodes. */
+/* Appends node I of the finer mesh to the hanging nodes of level m: it is in the middle of a coarse edge or face along
+ * the axes in the bit set `odd`, and its motion is the mean of the nodes at the ends (masters). */
 static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I, unsigned odd)
 {
     struct mesh_hanging h = {.node = (int32_t)I};
@@ -87,8 +89,9 @@ static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I
     m->hanging[m->hangings++] = h;
 }
 
-/* Finds the nodes at the interface between the cells of `level` and finer ones: ghosts, nodes of the coarse mesh with a
- * finer node at their position, and hanging nodes of the finer mesh, in the middle of coarse edges or faces. */
+/* Finds the nodes at the interface between the cells of `level` and finer ones: ghosts, which are nodes of the coarse
+ * mesh with a finer node at their position, and hanging nodes of the finer mesh, in the middle of coarse edges or
+ * faces. */
 static void interface_find(struct mesh_levels *l, int level)
 {
     struct mesh_level *m = &l->at[level];
@@ -138,11 +141,12 @@ void levels_find_interfaces(struct mesh_levels *l)
     }
 }
 
-/* Adds a share of the value of node i of one mesh to node k of another. */
+/* Adds a share of the value of node i of one mesh to node k of another: to[k] += share * from[i]. */
 static inline void give(const real *from, int64_t i, real *to, int64_t k, real share) { to[k] += share * from[i]; }
 
-/* Transfers the momentum of a hanging node to its masters: each receives its share of the mass times its own velocity,
- * and an equal part of the rest, which is 0 for linear velocities. */
+/* Transfers the momentum of a hanging node along axis d to its masters, the nodes at the ends of the edge or face of
+ * which it is the middle. Each receives its share of the mass times its own velocity, and an equal part of the rest,
+ * which is 0 for linear velocities. */
 static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
 {
     const real *velocity = g->velocity[d], share = g->mass[h->node] / h->masters;

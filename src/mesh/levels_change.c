@@ -18,7 +18,8 @@ struct cell_around {
     real t[DIM_MAX];
 };
 
-/* Finds the coarse cell that contains node I of level 0, which has the indices k. */
+/* Returns the coarse cell that contains node I of level 0, which has the indices k, and the position of the node in it;
+ * level 0 if a cell of level 0 contains the node, or no cell does. */
 static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     const struct mesh *fine = l->fine;
@@ -41,7 +42,8 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     return a;
 }
 
-/* Computes the weights of the corners of a cell at the position `a` in the cell [corners, 1]. */
+/* Computes the weights of the 2^dim corners of a cell at the position a->t in the cell, weight[2^dim] [1] (linear along
+ * each axis). */
 static void coarse_corner_weights(const struct cell_around *a, int dim, real *weight)
 {
     for (int c = 0; c < 1 << dim; c++) {
@@ -50,7 +52,7 @@ static void coarse_corner_weights(const struct cell_around *a, int dim, real *we
     }
 }
 
-/* Interpolates a nodal field of the coarse mesh inside a cell. weight: of the corners of the cell, from
+/* Returns the value of a nodal field of a coarse mesh inside a cell. weight: weights of the corners of the cell, from
  * coarse_corner_weights. */
 static real field_at(const struct mesh *mesh, int64_t cell, const real *weight, const real *field)
 {
@@ -60,7 +62,8 @@ static real field_at(const struct mesh *mesh, int64_t cell, const real *weight, 
     return value;
 }
 
-/* Sets the motion of node I of level 0, with indices k, to that of the coarse cell around it. */
+/* Sets displacement and velocity of node I of level 0, with indices k, to those of the coarse cell around it, if there
+ * is one. */
 static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     struct mesh *fine = l->fine;
@@ -75,7 +78,7 @@ static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
     }
 }
 
-/* Interpolates the motion of all nodes of a row of level 0 that are inside coarse cells. */
+/* Sets displacement and velocity of all nodes of a row of level 0 that are inside coarse cells by interpolation. */
 static void row_interpolate(struct mesh_levels *l, int64_t row)
 {
     const struct grid *g = &l->fine->grid;
@@ -103,8 +106,8 @@ void levels_interpolate(struct mesh_levels *l, bool all)
 
 /* ---- motion of the nodes of new cells ---------------------------------------------------------------------------- */
 
-/* Computes lumped mass times velocity of every node, before transfers, and displacement, from the nodes of level 0 at
- * the same positions. */
+/* Computes lumped mass times velocity of every node, before transfers between levels, and displacement, velocity and
+ * mass times velocity of coarse nodes from the nodes of level 0 at the same positions. */
 static void nodes_sample(struct mesh_levels *l)
 {
     struct mesh *fine = l->fine;
@@ -128,7 +131,7 @@ static void nodes_sample(struct mesh_levels *l)
 }
 
 /* Returns the mean of a nodal field of level 0 over the corners of all cells of level 0 inside a cell of `level`.
- * first: the lowest of these cells. */
+ * first: lowest of these cells. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
     const int dim = l->fine->grid.dim, parts = levels_fine_cells_per_cell(l, level);
@@ -139,8 +142,8 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
     return sum / (real)(parts << dim);
 }
 
-/* Distributes the part of the momentum of a merged cell, J with indices q, that its corners do not have by their
- * sampled velocities, to the corners in equal parts. */
+/* Corrects the momentum of the merged cell J of `level`, which has the indices q: distributes the part that its corners
+ * do not have by their sampled velocities to the corners in equal parts. */
 static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -159,7 +162,8 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
     }
 }
 
-/* Corrects the momenta of all cells that are coarser than before. before: previous levels of the cells of level 0. */
+/* Corrects the momenta of all cells that have been merged from finer ones. before: previous levels of the cells of
+ * level 0. */
 static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
 {
     for (int level = 1; level <= l->n; level++) {
@@ -173,7 +177,8 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
     }
 }
 
-/* Computes the velocities of the nodes of all levels from their momenta; sets momenta and forces to 0. */
+/* Computes the velocities of the nodes of all levels from their momenta; sets momenta and forces to 0, and computes the
+ * momenta that velocities imply. */
 static void velocities_make(struct mesh_levels *l)
 {
     for (int level = 0; level <= l->n; level++) {
@@ -187,9 +192,9 @@ static void velocities_make(struct mesh_levels *l)
     levels_compute_momenta(l);
 }
 
-/* Iterations of w <- w + v - B w for B w = v (kernels/mesh/mesh_inertia.h), to round-off: eigenvalues of B - 1 are
- * below 0.48, as match is at most 1/2 and those of consistent over lumped mass are at least 1/27; far smaller for long
- * waves. */
+/* Iterations of w <- w + v - B w that solve B w = v (kernels/mesh/mesh_inertia.h) to round-off: eigenvalues of B - 1
+ * are below 0.48, as match is at most 1/2 and the eigenvalues of consistent over lumped mass are at least 1/27; they
+ * are far smaller for long waves. */
 enum { MOMENTA_ROUNDS = 52 };
 #define MOMENTA_TOLERANCE 3e-16 /* tolerance of the residual [largest velocity] */
 

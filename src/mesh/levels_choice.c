@@ -19,8 +19,8 @@ enum { CARRIED_BY_ANY = 1 }; /* level that carries all loads but pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the shortest rise time of a boundary, as for a ramp [s]; of displacements, the rise time of the velocity,
- * which is a pulse or jumps. */
+/* Returns the shortest rise time of the boundary b, as for a ramp [s]; for prescribed displacements, the rise time of
+ * their velocity, which is a pulse or jumps. */
 static real rise_of(const struct boundary *b)
 {
     const struct time_function *f = &b->time;
@@ -36,8 +36,8 @@ static real rise_of(const struct boundary *b)
     return steepest > 0 ? most / steepest : INFINITY;
 }
 
-/* Returns the largest edge of cells that represent waves with a given rise in a body of thickness `across` [spacings].
- * edges: minimum number of cell edges across the body for a rise that is not a pulse. */
+/* Returns the largest edge of cells that represent waves with the rise r in a body of thickness `across` [spacings].
+ * edges: smallest number of cell edges across the body for a rise that is not a pulse. */
 static real edge_for(const struct load_rise *r, real across, real edges)
 {
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
@@ -50,7 +50,7 @@ static void rise_take(struct load_rise *least, const struct load_rise *one, real
     if (least->kind == RISE_NONE || next < now || (next == now && one->waves < least->waves)) *least = *one;
 }
 
-/* Returns the wave speed of the slowest material, whose waves the cells must carry, too [m/s]. */
+/* Returns the wave speed of the slowest material of the scene, whose waves the cells must represent, too [m/s]. */
 static real slowest_waves(const struct scene *s)
 {
     real slowest = INFINITY;
@@ -58,7 +58,8 @@ static real slowest_waves(const struct scene *s)
     return slowest;
 }
 
-/* Returns the load that requires the smallest cells. */
+/* Returns the load, initial state or moving body that requires the smallest cells in a body of thickness `across`
+ * [spacings]. */
 static struct load_rise sharpest_rise(const struct scene *s, real across)
 {
     const real c = slowest_waves(s), D = s->spacing;
@@ -84,7 +85,8 @@ static struct load_rise sharpest_rise(const struct scene *s, real across)
     return least;
 }
 
-/* Returns the smallest extent of the bodies in 1D and 2D, the middle one in 3D [spacings]. */
+/* Returns the smallest extent of the bodies in 1D and 2D, and the middle one in 3D [spacings]. hollow: cells whose
+ * particles were not created; then the extent follows from the shape. */
 static real spacings_across(const struct scene *s, const struct particles *p,
                             const struct cells_without_particles *hollow)
 {
@@ -102,9 +104,8 @@ static real spacings_across(const struct scene *s, const struct particles *p,
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Computes r->room, the highest refinement level that the thickness of the body allows in each cell, if scene s may
- * have coarse cells; otherwise r->room stays NULL. particles: number of particles of the body, including those not
- * made. */
+/* Computes r->room, the highest level that the thickness of the body allows in each cell, if scene s may have coarse
+ * cells; otherwise r->room remains NULL. particles: number of particles of the body, including those not created. */
 void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, int64_t particles)
 {
     if (!scene_is_dynamic(s) || r->mesh.points == 0 || s->levels == 0) return;
@@ -143,7 +144,7 @@ struct levels_choice frame_levels_choice(const struct reference_frame *r, const 
 
 /* ---- in words ---------------------------------------------------------------------------------------------------- */
 
-/* Writes a load and its rise time in words. */
+/* Writes the load r and its rise time in words to text[capacity], such as "boundary pull is sudden". */
 static void rise_text(const struct scene *s, const struct load_rise *r, char *text, size_t capacity)
 {
     char name[NAME_MAX_LENGTH + 32];
@@ -167,8 +168,8 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
                  r->waves);
 }
 
-/* Writes the pulse length, or the rise and body thickness, that cells of `edge` spacings require. edges: minimum number
- * of cell edges across the body. */
+/* Writes to text[capacity] what cells of `edge` spacings require: a pulse length, or a rise and a body thickness.
+ * edges: smallest number of cell edges across the body. */
 static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t capacity)
 {
     if (c->rise.pulse)
@@ -179,7 +180,7 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
                  RISES * edge, edges * edge, c->across);
 }
 
-/* Writes the reason for the number of levels that was chosen automatically. */
+/* Writes the reason for the number of levels that was chosen automatically to text[capacity]. */
 static void automatic_text(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
 {
     char load[256], want[160];
@@ -234,8 +235,8 @@ void frame_levels_describe(const struct levels_choice *c, const struct scene *s,
                  2 << c->levels, why);
 }
 
-/* Writes to text where the body is too thin for the coarse cells that the scene prescribes. Returns false, without
- * text, if it is thick enough everywhere. */
+/* Writes to text[capacity] where the body is too thin for the coarse cells that the scene prescribes. Returns false,
+ * without text, if it is thick enough everywhere. */
 static bool thin_text(const struct reference_frame *r, char *text, size_t capacity)
 {
     const struct grid *g = &r->mesh.grid;

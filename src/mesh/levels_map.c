@@ -17,8 +17,8 @@ static struct level_map level_map_make(int64_t n)
     return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
-/* Initialises the data of the cells of level 0. demand: 1 for cells that must be of level 0; limit: largest level of
- * each cell, NULL: no limits. */
+/* Initialises the data `to` of the cells of level 0. demand: 1 for cells that must be of level 0; limit: largest level
+ * of each cell; NULL: no limits. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {
@@ -32,8 +32,8 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
     }
 }
 
-/* Combines the data of the 2^dim cells of the next finer level that form cell I of `level`, with indices k: the cell is
- * admissible if all of them are, have one material, and may have this level. */
+/* Combines in map[level] the data of the 2^dim cells of the next finer level that form cell I of `level`, with indices
+ * k. The cell is admissible if all of them are, have one material, and may have this level. */
 static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
 {
     const struct grid *below = &level_mesh_read_only(l, level - 1)->grid;
@@ -52,9 +52,9 @@ static void gather_parts(struct level_map *map, const struct mesh_levels *l, int
     to->ok[I] &= to->limit[I] >= level;
 }
 
-/* Returns true if all or none of the cells of level 0 contain points that touch a block of 2^dim cells in a direction.
- * Otherwise a node at the end of an edge of a coarse cell would have no finer node. first: lower corner of the block;
- * beside: direction, -1, 0 or 1 along each axis. */
+/* Returns true if all or none of the cells of level 0 that touch a block of 2^dim cells in a direction contain points.
+ * Otherwise a node at the end of an edge of a coarse cell would have no finer node. first: indices of the lower corner
+ * of the block; beside: direction, -1, 0 or 1 along each axis. */
 static bool touching_alike(const struct level_map *map, const struct grid *g, const int64_t *first, const int *beside)
 {
     int some = 0, all = 0;
@@ -71,7 +71,7 @@ static bool touching_alike(const struct level_map *map, const struct grid *g, co
     return some == 0 || some == all;
 }
 
-/* Returns true if a cell of level 1, with indices k, may be used beside its neighbours: every adjacent block of cells
+/* Returns true if a cell of level 1, with indices k, is admissible beside its neighbours: every adjacent block of cells
  * of level 0 touches it with cells that all contain points or all contain none. */
 static bool ring_of_first(const struct level_map *map, const struct mesh_levels *l, const int64_t *k)
 {
@@ -88,8 +88,8 @@ static bool ring_of_first(const struct level_map *map, const struct mesh_levels 
     return allows;
 }
 
-/* Returns true if a cell of `level` > 1, with indices k, may be used beside its neighbours: all non-empty cells of the
- * next finer level in it and around it must be admissible, so that adjacent cells differ by one level at most. */
+/* Returns true if a cell of `level` > 1, with indices k, is admissible beside its neighbours: all non-empty cells of
+ * the next finer level in it and around it are admissible, so that adjacent cells differ by one level at most. */
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
     const int on = level - 1;
@@ -104,7 +104,7 @@ static bool ring_allows(const struct level_map *map, const struct mesh_levels *l
     return true;
 }
 
-/* Determines the admissible cells of `level` from the data of the next finer level. */
+/* Determines the admissible cells of `level` in map[level] from the data of the next finer level. */
 static void level_map_find(struct level_map *map, const struct mesh_levels *l, int level)
 {
     const struct grid *g = &level_mesh_read_only(l, level)->grid;
@@ -156,7 +156,8 @@ bool levels_are_consistent(const struct mesh_levels *l)
     return sound && covered == coarse;
 }
 
-/* Marks cells within `reach` of a mark along a line of n cells, `stride` apart. */
+/* Marks the cells within `reach` cells of a marked one along a line of n cells, `stride` apart in mark. Bit 0 of mark
+ * is the original mark, bit 1 the extended one. */
 static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
 {
     int64_t last = -reach - 1;

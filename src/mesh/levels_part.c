@@ -5,24 +5,27 @@
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-/* Ranges of cells of level 0 beyond those that conversion requires, empirical: around peridynamic particles as a margin
- * for crack growth between two changes, wider for merging than for splitting; around stressed cells; around rings of
- * sif probes [spacings], as tips move between two checks. */
+/* Ranges around cells that must be of level 0, beyond those that conversion requires; empirical [cells of level 0].
+ * ZONE_MORE: around peridynamic particles, a margin for crack growth between two changes; ZONE_LATE: additional range
+ * for merging. AROUND_STRESS: around stressed cells. AROUND_RING: around rings of sif probes [spacings], as tips move
+ * between two checks. */
 enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 };
-/* Additional range of level 0 between slits and coarse cells. Empirical: with coarse cells nearer, two slits 5 to 18
- * spacings apart with faces in contact gained energy without bound, a single slit did not; the cause is not known. */
+/* Additional range of level 0 between slits and coarse cells [cells]. It is empirical: with coarse cells nearer, two
+ * slits 5 to 18 spacings apart with faces in contact gained energy without bound, a single slit did not; the cause is
+ * not known. */
 enum { FLANK_MORE = 2 };
 #define SPLITS 0.5 /* stress at which cells split, over that at which points convert */
 #define MERGES 0.25
-/* limit of the energy of motion that a coarser cell would lose, over the mean energy per mass */
+/* Largest energy of motion that a coarser cell may lose, over the mean energy per mass of the body [1]. */
 #define ROUGH 0.01
-/* steps between checks for merging; consecutive checks after which a cell may merge */
+/* Steps between checks for merging of cells; consecutive checks after which a cell may merge. */
 enum { CHECK_STEPS = 256, CALM_CHECKS = 2 };
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the edge of a lumped cell with the same dispersion of waves along an axis as bonds of the lattice [m]: h^2 =
- * sum xi^6/r^3 over sum xi^4/r^3; without bonds, the edge of cells of level 0. */
+/* Returns the edge h of a lumped cell whose waves along an axis have the same dispersion as bonds of the lattice [m]:
+ * h^2 = (sum xi^6/r^3)/(sum xi^4/r^3) over the bonds, with xi their component along the axis. Without bonds, returns
+ * the edge of cells of level 0. */
 static real dispersion_edge(const struct scene *s)
 {
     const int reach = (int)s->horizon, planes = s->dim > 1 ? reach : 0, layers = s->dim > 2 ? reach : 0;
@@ -39,8 +42,8 @@ static real dispersion_edge(const struct scene *s)
     return s->spacing * sqrt(above / below);
 }
 
-/* Returns the cell of the box of level 0 that contains particle i in the reference configuration. (mesh->place may
- * refer to an extra cell of a slit, behind the box.) */
+/* Returns the cell of level 0 that contains particle i in the reference configuration. It is a cell of the grid,
+ * whereas mesh->place may refer to an extra cell of a slit, behind the grid. */
 static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     int64_t I = 0;
@@ -49,7 +52,7 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
     return I;
 }
 
-/* Sets demand[I], i.e. requires level 0, for cells beside mirrors that are not on nodes of all levels. */
+/* Sets demand[I], which requires level 0, for cells beside planes of symmetry that are not on nodes of all levels. */
 static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -67,16 +70,16 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
     }
 }
 
-/* Sets demand[I], i.e. requires level 0, for cells beside slits, for whose extra nodes coarse cells have no
- * counterpart. */
+/* Sets demand[I], which requires level 0, for cells beside slits, because coarse cells have no counterpart of their
+ * extra nodes. */
 static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 {
     for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Marks the cells of level 0 inside and around the ring of a sif probe in `demand`, if that is not NULL. Returns true
- * if one of these cells is part of a coarse cell at present. */
+/* Sets demand[I], which requires level 0, for cells inside and around the ring of a sif probe; demand NULL: sets
+ * nothing. Returns true if one of these cells is part of a coarse cell at present. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -100,8 +103,9 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* Marks the cells inside and around the rings of all sif probes, as ring_cells does: these probes need accelerations in
- * every step, which coarse cells have in some steps only. Returns true if one is part of a coarse cell. */
+/* Sets demand[I], which requires level 0, for cells inside and around the rings of all sif probes, as ring_cells does:
+ * these probes need accelerations in every step, which coarse cells have in some steps only. demand NULL: sets nothing.
+ * Returns true if one of the cells is part of a coarse cell at present. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
@@ -109,15 +113,15 @@ static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
     return coarse;
 }
 
-/* Sets mark[I] for all cells I of level 0 marked in `more`; does nothing if `more` is NULL. */
+/* Sets mark[I] for all cells I of level 0 that are marked in `more`; does nothing if `more` is NULL. */
 static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
 {
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Returns the cells that must be of level 0 [fine->grid.n], which the caller frees: within l->roomy_cells + more of
- * peridynamic particles and of cells that request it; as far plus FLANK_MORE from several slits, within one cell of a
- * single slit; within one cell of loaded particles and of mirrors off the nodes. */
+/* Returns flags [fine->grid.n] of the cells that must be of level 0: within l->roomy_cells + more cells of peridynamic
+ * particles and of cells that request it; within FLANK_MORE further cells of several slits, within one cell of a single
+ * slit; within one cell of loaded particles and of planes of symmetry off the nodes. Release it with memory_free. */
 static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
                             int more)
 {
@@ -142,8 +146,8 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
     return demand;
 }
 
-/* Marks in `demand` all cells of level 0 that belong to the marked cells of `level`, and those within AROUND_STRESS
- * cells. */
+/* Sets demand[I] for all cells of level 0 that belong to the cells of `level` marked in `mark`, and for those within
+ * AROUND_STRESS cells of them. */
 static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
 {
     const struct grid *fine = &l->fine->grid, *g = &level_mesh_read_only(l, level)->grid;
@@ -161,8 +165,9 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
     memory_free(own);
 }
 
-/* Returns marks [fine->grid.n] of cells whose stress exceeds `share` of that at which points convert, with cells around
- * them, or NULL; the caller frees them. all: of all cells, else of coarse ones. */
+/* Returns flags [fine->grid.n] of the cells whose stress exceeds `share` of the stress at which points convert, and of
+ * cells around them; NULL if there are none. all: true to test all cells, false for coarse cells only. Release it with
+ * memory_free. */
 static uint8_t *stressed_cells(const struct reference_frame *frame, real share, bool all)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -180,7 +185,7 @@ static uint8_t *stressed_cells(const struct reference_frame *frame, real share, 
     return cells;
 }
 
-/* Returns true if a cell is coarser in `level` than at present. */
+/* Returns true if a cell of level 0 becomes part of a coarser cell by level[fine->grid.n] than at present. */
 static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 {
     bool any = false;
@@ -188,17 +193,17 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Reduces the upper bounds `limit` of the levels of cells to those that the thickness of the body allows, unless the
- * scene prescribes the levels. */
+/* Reduces the upper bounds limit[I] of the levels of cells to those that the thickness of the body allows, r->room,
+ * unless the scene prescribes the levels. */
 static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 {
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
-/* Computes the levels of all cells for the next steps, level [cells of level 0]. demand: cells that must be of level 0;
- * limit: upper bounds, reduced here for cells that, if coarser than at present, would lose too much energy of motion.
- * mass: of the body [kg]. */
+/* Computes the levels of all cells of level 0 for the next steps, level[I]. demand: cells that must be of level 0;
+ * limit: upper bounds, which are reduced for cells that, if coarser than at present, would lose too much energy of
+ * motion. mass: mass of the body [kg]. */
 static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -218,7 +223,8 @@ void frame_levels_update_node_lists(struct reference_frame *r, const struct part
     frame_find_exposed_points(r, p, bonds, loads);
 }
 
-/* Changes the levels of cells to `level`. The change of kinetic and strain energy is added to the damped energy. */
+/* Changes the levels of cells to level[I]. The kinetic and strain energy that the change loses is added to e->damped,
+ * so that the energy balance includes it. */
 static void change(struct run *e, const uint8_t *level)
 {
     struct reference_frame *r = e->frame;
@@ -278,8 +284,8 @@ status frame_levels_make(struct run *e, bool restored)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the last forces showed a coarse cell in which a point may exceed SPLITS times the stress at which
- * points convert. */
+/* Returns true if, in the last computation of forces, a point of a coarse cell may have exceeded SPLITS times the
+ * stress at which points convert. */
 static bool any_stressed(const struct mesh_levels *l)
 {
     bool any = false;
@@ -288,9 +294,9 @@ static bool any_stressed(const struct mesh_levels *l)
     return any;
 }
 
-/* Computes upper bounds of the levels of cells for the next change, limit [cells of level 0]. Cells may always become
- * finer. They may become coarser only in calls with `checks`, after CALM_CHECKS such calls in which nothing required
- * level 0 nearby. */
+/* Computes upper bounds of the levels of cells for the next change, limit[I]. Cells may always become finer. They may
+ * become coarser only in calls with `checks`, after CALM_CHECKS consecutive such calls in which nothing required level
+ * 0 nearby. */
 static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool checks,
                         uint8_t *limit)
 {
@@ -309,8 +315,9 @@ static void limits_find(struct reference_frame *r, const struct particles *p, co
     memory_free(stressed);
 }
 
-/* Marks points that have lost a bond for conversion again, after it was postponed because coarse cells were too near,
- * which have been split now. All material points of the recorded cells are marked. */
+/* Marks points that have lost a bond for conversion again, after their conversion was postponed because coarse cells
+ * were too near. These cells have been split by now. All material points of the cells recorded in l->wanted are
+ * marked. */
 static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 {
     if (!l->any_wanted) return;
@@ -354,8 +361,8 @@ void frame_levels_apply(struct run *e, const uint8_t *level)
     l->any_wanted = false;
 }
 
-/* Requests finer cells around a point that is marked for conversion if a coarse cell is near. If it is too near for the
- * bonds of the point, also removes the marks, so that the point converts later. */
+/* Requests finer cells around particle i if it is marked for conversion and a coarse cell is near. If the coarse cell
+ * is too near for the bonds of the particle, also removes the marks, so that the particle converts later. */
 static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
 {
     const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;
@@ -380,7 +387,7 @@ void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic energy of all nodes of the reference frame, of all refinement levels [J]. */
+/* Returns the kinetic energy of all nodes of the reference frame, over all levels [J]. */
 real frame_kinetic_energy(const struct reference_frame *reference)
 {
     return mesh_kinetic(&reference->mesh) + levels_kinetic_energy(&reference->levels);

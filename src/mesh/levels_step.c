@@ -10,8 +10,8 @@ int levels_highest_acting(const struct mesh_levels *l, int64_t step)
     return due;
 }
 
-/* Sets the displacements of the ghosts of a level, nodes of its mesh at positions of nodes of the next finer level, to
- * those of the finer nodes: cells at the interface need them to compute forces. */
+/* Sets the displacements of the ghosts of a level, which are nodes of its mesh at positions of nodes of the next finer
+ * level, to those of the finer nodes. Cells at the interface need them to compute forces. */
 static void ghosts_displace(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -31,7 +31,8 @@ void levels_update_ghosts(struct mesh_levels *l, int level)
             m->mesh.grid.velocity[d][m->ghost[k].coarse] = fine->grid.velocity[d][m->ghost[k].fine];
 }
 
-/* Returns the mean of a nodal field over the masters of a hanging node. */
+/* Returns the mean of a nodal field over the masters of a hanging node, the nodes at the ends of the coarse edge or
+ * face of which it is the middle. */
 static real mean_of(const struct mesh_hanging *h, const real *field)
 {
     real sum = 0;
@@ -51,7 +52,8 @@ void levels_update_hanging(struct mesh_levels *l, int level)
         }
 }
 
-/* Transfers the forces on hanging nodes to their masters. */
+/* Transfers the forces on the hanging nodes between `level` and the next finer level to their masters, in equal
+ * parts. */
 static void hanging_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -65,8 +67,8 @@ static void hanging_fold(struct mesh_levels *l, int level)
         }
 }
 
-/* Adds the forces of coarse cells on their ghosts to the finer nodes at the same positions, twice, as the steps of the
- * finer level are half as long. */
+/* Adds the forces of the cells of `level` on their ghosts to the finer nodes at the same positions, twice, because the
+ * steps of the finer level are half as long. Sets the forces on the ghosts to 0. */
 static void ghosts_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];

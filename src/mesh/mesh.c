@@ -16,7 +16,8 @@
 
 /* ---- positions of points ----------------------------------------------------------------------------------------- */
 
-/* Refuses a body for the reason `what`, with the position of particle i. */
+/* Returns REFUSED with the message that a body cannot be in the reference frame because particle i `what`, such as
+ * "shares its position in the grid cell with another particle". */
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
 {
     return status_set(REFUSED,
@@ -43,7 +44,8 @@ int64_t mesh_point_slot(const struct mesh *mesh, const struct particles *p, int6
     return (cell << p->dim) + q;
 }
 
-/* Finds cell and quarter point of all particles with FLAG_MESHED. REFUSED as mesh_make. */
+/* Finds cell and integration point of all particles with FLAG_MESHED: mesh->place, mesh->point. A cell has 2^dim
+ * integration points, one particle each. Returns REFUSED as mesh_make. */
 static status points_place(struct mesh *mesh, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -66,7 +68,8 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     return OK;
 }
 
-/* Returns the mass of node I from the points of the cells around it, summed in a fixed order [kg]. */
+/* Returns the mass of node I [kg] from the points of the cells around it, with linear shape functions, summed in a
+ * fixed order. */
 static real node_mass(const struct mesh *mesh, const struct particles *p, int64_t I)
 {
     const int dim = p->dim;
@@ -87,7 +90,7 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
     mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
 }
 
-/* Returns REFUSED if two bodies share a node: they would move as one. */
+/* Returns REFUSED if two bodies share a node of the mesh: they would move as one there. */
 static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 {
     uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t); /* 1 + body of the points around the node */
@@ -105,8 +108,8 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the kind of cell I. A whole cell has all points, of one material and without partial stresses, and all
- * corners are nodes of the grid. */
+/* Returns the kind of cell I. A whole cell has all its points, of one material and without partial stresses, and all
+ * its corners are nodes of the grid; a partial cell lacks one of these, an empty one has no points. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -124,7 +127,8 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
     return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_PARTIAL;
 }
 
-/* Appends whole cell I to the last row of consecutive cells of one material (run) of the band, or starts a new row. */
+/* Appends whole cell I to the last run of the band, a row of consecutive whole cells of one material, or begins a new
+ * run. */
 static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 {
     struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
@@ -136,10 +140,11 @@ static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
     mesh->run[mesh->runs++] = (struct mesh_run){(int32_t)I, 1, material, false};
 }
 
-/* Returns the number of layers of cells, along the last axis, in a band. Bands that are not adjacent share no node. */
+/* Returns the number of layers of cells, along the last axis, in a band: a set of cells that one thread processes.
+ * Bands that are not adjacent share no node. */
 static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
 
-/* Stores for each row of nodes the range from the first to behind the last node with mass (mesh->span). The range may
+/* Stores in mesh->span for each row of nodes the range from the first to behind the last node with mass. The range may
  * contain nodes without mass. */
 void mesh_spans_make(struct mesh *mesh)
 {
@@ -153,13 +158,15 @@ void mesh_spans_make(struct mesh *mesh)
     }
 }
 
-/* Returns the material of whole cell I. p: particles of the mesh, NULL: a mesh without points. */
+/* Returns the material of whole cell I. p: particles of the mesh; NULL for a mesh without points, such as that of
+ * coarse cells. */
 static uint8_t material_of(const struct mesh *mesh, const struct particles *p, int64_t I)
 {
     return p ? p->material[mesh->point[I << mesh->grid.dim]] : mesh->material[I];
 }
 
-/* Lists the rows of consecutive whole cells of one material (runs), band by band, and the partial cells. */
+/* Lists the runs of the mesh, rows of consecutive whole cells of one material, band by band, and its partial cells. p:
+ * particles; NULL for a mesh without points. */
 static void cells_list(struct mesh *mesh, const struct particles *p)
 {
     const struct grid *g = &mesh->grid;
@@ -179,8 +186,9 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-/* Determines the kinds of the cells marked in `dirty` (NULL: of all cells) from their points, and rebuilds the rows of
- * whole cells and the list of partial cells. s: elastic constants and partial stresses. */
+/* Determines the kinds of the cells marked in `dirty` (NULL: of all cells) from their points, and rebuilds the list of
+ * runs (rows of whole cells) and that of partial cells with their stiffness. s: elastic constants and partial
+ * stresses. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
@@ -224,7 +232,9 @@ void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struc
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates all arrays of a mesh that covers the box from..to [m], without points or cells. */
+/* Allocates all arrays of a mesh that covers the box from .. to [m], without points or cells. node_grid: dimension,
+ * edge and origin of the nodes. p: particles whose slits divide cells and nodes; NULL: no slits. Returns REFUSED if the
+ * mesh has too many nodes. */
 status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *from, const real *to,
                      const struct particles *p, const struct mesh_source *source)
 {
@@ -252,7 +262,7 @@ status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real
     return OK;
 }
 
-/* Returns true if a cell around node I has particles. */
+/* Returns true if a cell around node I of the mesh has particles. */
 static bool node_filled(const struct mesh *mesh, int64_t I)
 {
     bool filled = false;
@@ -261,7 +271,8 @@ static bool node_filled(const struct mesh *mesh, int64_t I)
     return filled;
 }
 
-/* Marks the cells without particles, and lists the others. */
+/* Marks the cells of the mesh whose particles were not created, h->absent, in mesh->absent, and lists the other cells
+ * and their nodes. */
 static void mesh_absent_make(struct mesh *mesh, const struct cells_without_particles *h)
 {
     mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);
@@ -278,7 +289,8 @@ static void mesh_absent_make(struct mesh *mesh, const struct cells_without_parti
     }
 }
 
-/* Makes the nodes of the mesh, and the positions of its points. */
+/* Makes the nodes of the mesh around all particles, aligned with those of the grid `like`, and arrays for the positions
+ * of its points. Returns REFUSED if there are too many nodes. */
 static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like,
                          const struct mesh_source *source)
 {
@@ -294,7 +306,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     return OK;
 }
 
-/* Projects displacement and velocity of the points to the nodes. */
+/* Projects displacement and velocity of the points to the nodes at the start of a run (mesh_fit_nodal_values). */
 static void mesh_nodes_start(struct mesh *mesh, const struct particles *p)
 {
     real *u[DIM_MAX];
@@ -351,7 +363,8 @@ void mesh_free(struct mesh *mesh)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Removes particle i from the mesh. Returns the kinetic energy of its share of the nodes minus its own [J]. */
+/* Removes particle i from the mesh. Returns the kinetic energy that its mass has by the velocities of the nodes, minus
+ * that by its own velocity [J]. */
 static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
 {
     const int64_t place = mesh->place[i];
@@ -369,7 +382,8 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
     return energy;
 }
 
-/* Recomputes the masses of the nodes of the cells marked in `left`; nodes without mass are set to rest. */
+/* Recomputes the masses of the nodes of the cells marked in left[grid.n]. Sets velocity and displacement of nodes that
+ * are left without mass to 0. */
 static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
 {
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);

@@ -8,7 +8,8 @@ struct exposure {
     uint8_t *point, *cell;
 };
 
-/* Sets the flags of point i and of its cell. Atomic, since several threads may set the same flag. */
+/* Sets the flags of point i and of the cell that contains it, as exposed points, whose motion is needed in every step.
+ * Atomic, since several threads may set the same flag. */
 static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
 {
 #pragma omp atomic write
@@ -18,8 +19,8 @@ static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
     e->cell[mesh->place[i] >> mesh->grid.dim] = 1;
 }
 
-/* Marks the particles whose images are among the neighbours nbr[LANES] of a column of bonds: images move with their
- * sources. Most columns contain no image. */
+/* Sets the flags of the particles whose images are among the neighbours nbr[LANES] of a column of bonds, because images
+ * move with their sources. Most columns contain no image. image: list of images. */
 static void images_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                           const struct image *image, const int32_t *nbr)
 {
@@ -29,15 +30,15 @@ static void images_expose(struct exposure *e, const struct mesh *mesh, const str
         if (nbr[l] >= p->n) point_expose(e, mesh, image_source_particle(p, image, nbr[l]));
 }
 
-/* Returns true if a bond in column k of row block g may lead to an image. */
+/* Returns true if a bond in column k of row block g may have an image as its neighbour. */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
     const int64_t first = column_first_if_consecutive(b, g, k);
     return first < 0 || first + LANES > p->n;
 }
 
-/* Appends cell I to the list of exposed cells, with its exposed points as one bit per quarter point. exposed: flags of
- * points. */
+/* Appends cell I to the list of exposed cells, with its exposed points as one bit per integration point.
+ * exposed[particles]: flags of points. */
 static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
@@ -50,8 +51,8 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
-/* Sets the flags of the points that have intact bonds in row block g, and of those whose images are neighbours
- * there. */
+/* Sets the flags of the points that have intact bonds in row block g, and of those whose images are neighbours there.
+ * l: loads, with the list of images. */
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {

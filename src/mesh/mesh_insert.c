@@ -12,7 +12,8 @@ struct nodes {
     int32_t *at;
 };
 
-/* Finds the nodes around n listed points. */
+/* Finds the nodes at the corners of the cells that contain the n listed particles, and stores them in t. The caller
+ * releases t->at with memory_free. */
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
                        int64_t n)
 {
@@ -28,7 +29,7 @@ static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct pa
     memory_free(mark);
 }
 
-/* Returns the kinetic energy of the listed nodes [J]. */
+/* Returns the kinetic energy of the nodes in t [J]. */
 static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
 {
     real sum = 0;
@@ -38,8 +39,8 @@ static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
     return sum;
 }
 
-/* Makes n listed particles points of the mesh, and recomputes mass and velocity of the nodes *t around them such that
- * momentum is conserved (grid.momentum is used for this alone). */
+/* Makes the n listed particles points of the mesh, and recomputes mass and velocity of the nodes t around them such
+ * that momentum is conserved. Uses grid.momentum of these nodes as working memory. */
 static void points_enter(struct mesh *mesh, struct particles *p, const struct nodes *t, const int32_t *list, int64_t n)
 {
     const int dim = p->dim;
@@ -66,8 +67,8 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
     }
 }
 
-/* Sets the displacement of nodes that had no mass, marked in `light`, to the mean of the inserted points, weighted by
- * mass. */
+/* Sets the displacement of nodes that had no mass before, light[I], to the mean displacement of the n listed inserted
+ * points around them, weighted by mass and shape function. */
 static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p, const uint8_t *light,
                                     const int32_t *list, int64_t n)
 {

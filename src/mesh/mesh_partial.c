@@ -25,7 +25,7 @@ struct mode_terms {
 
 /* ---- modes ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of symmetric component ij. */
+/* Returns the index of the component ij of a symmetric tensor in the order of struct particles. */
 static int component(int dim, int i, int j)
 {
     for (int k = 0; k < symmetric_component_count(dim); k++) {
@@ -36,8 +36,9 @@ static int component(int dim, int i, int j)
     return -1;
 }
 
-/* Lists the strain terms of the bending modes. Mode M (a bit set of axes) of displacement component i is the product of
- * the coordinates along the axes of M: its slope along each of these axes is the product of the other coordinates. */
+/* Lists in t the strain terms of the bending modes of a cell. Mode M (a bit set of two or more axes) of displacement
+ * component i is the product of the coordinates along the axes of M: its slope along each of these axes is the product
+ * of the other coordinates. */
 static void bends_terms(struct mode_terms *t, int dim)
 {
     for (int M = 3; M < 1 << dim; M++)
@@ -50,7 +51,8 @@ static void bends_terms(struct mode_terms *t, int dim)
             }
 }
 
-/* Makes the terms of all modes, t[MODES_MAX], in the order of kernels/mesh/mesh_partial.h. */
+/* Makes the strain terms of all deformation modes of a cell, t[MODES_MAX], in the order of
+ * kernels/mesh/mesh_partial.h. */
 static void modes_terms(struct mode_terms *t, int dim)
 {
     const int symmetric = symmetric_component_count(dim);
@@ -71,7 +73,8 @@ struct cell_maker {
     struct mode_terms in[MODES_MAX];
 };
 
-/* Computes the matrix C [n][n] of stress by strain [Pa]; shear strains are angles. */
+/* Computes the matrix C[n][n] of stress by strain of a material [Pa], n = symmetric_component_count(dim); shear strains
+ * are angles. */
 static void constants(const struct elastic *m, real *C, int dim)
 {
     const int n = symmetric_component_count(dim);
@@ -85,7 +88,8 @@ static void constants(const struct elastic *m, real *C, int dim)
     }
 }
 
-/* Computes D of point i: the constants of its material minus the part carried by bonds (partial stress) [Pa]. */
+/* Computes the matrix D of stress by strain at point i [Pa]: the constants of its material, minus the part that bonds
+ * carry if the point has a partial stress. */
 static void point_constants(const struct cell_maker *c, int32_t i, real *D)
 {
     const int n = c->columns;
@@ -101,9 +105,9 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
     }
 }
 
-/* Computes for each set of axes, a bit set, the sum over the points of cell I of D/corners times the signs of their
- * coordinates along these axes [Pa], by butterflies along one axis after the other. D: matrix of stress by strain of a
- * point. */
+/* Computes sum[S] [Pa] for each set S of axes (a bit set): the sum over the points of cell I of D times the signs of
+ * their coordinates along the axes of S, divided by the number of corners, where D is the matrix of stress by strain of
+ * a point. Uses butterflies along one axis after the other. */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -122,8 +126,8 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
             }
 }
 
-/* Returns an entry of the stiffness matrix of a cell: the force on mode `to` by a unit amplitude of mode `by` [Pa].
- * sum: from cell_sums. */
+/* Returns an entry of the stiffness matrix of a cell by modes [Pa]: the force on the mode `to` by a unit amplitude of
+ * the mode `by`. sum: from cell_sums. */
 static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
                                   const struct mode_terms *to, const struct mode_terms *by)
 {
@@ -138,8 +142,8 @@ static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_M
 /* Strain of the points of a cell by its modes: [point][symmetric component][mode] [1]; shear strains are angles. */
 typedef real point_strains[CORNERS_MAX][SYM_MAX][MODES_MAX];
 
-/* Computes the strains of the points of cell I by its modes if points of the cell have one dilatation, the mean over
- * the points of the same material (mesh_law.h). Returns false, without values, if none has. */
+/* Computes the strains B of the points of cell I by its modes, if the material of a point has one dilatation for all
+ * its points in the cell, their mean (mesh_law.h). Returns false, without values, if no material has. */
 static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strains B)
 {
     const int32_t *point = &c->mesh->point[I << c->dim];
@@ -163,8 +167,8 @@ static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strain
     return true;
 }
 
-/* Adds to K, [MODES_MAX][MODES_MAX], the stiffness B^T D B of a point whose strain by the modes is B, over the number
- * of points of a whole cell. D: its stress by strain [Pa]. */
+/* Adds to K[MODES_MAX][MODES_MAX] the stiffness B^T D B of a point, divided by the number of points of a whole cell
+ * [Pa]. B: strain of the point by the modes; D: its matrix of stress by strain [Pa]. */
 static void averaged_point_add(const struct cell_maker *c, real B[SYM_MAX][MODES_MAX], const real *D,
                                real K[MODES_MAX][MODES_MAX])
 {
@@ -177,8 +181,8 @@ static void averaged_point_add(const struct cell_maker *c, real B[SYM_MAX][MODES
     }
 }
 
-/* Computes the stiffness matrix K, [MODES_MAX][MODES_MAX], of partial cell I by modes [Pa], whose points have the
- * strains B, from averaged_strains. */
+/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] of partial cell I by modes [Pa] from the strains B of its
+ * points (averaged_strains). */
 static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_strains B, real K[MODES_MAX][MODES_MAX])
 {
     memset(K, 0, sizeof(real) * MODES_MAX * MODES_MAX);
@@ -191,7 +195,7 @@ static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_stra
     }
 }
 
-/* Computes the upper half of the stiffness matrix of partial cell I by modes. K: its first entry; further ones are
+/* Computes the upper half of the stiffness matrix of partial cell I by modes [Pa]. K: its first entry; further ones are
  * LANES apart, since the matrices of LANES cells are interleaved. K is used as symmetric: D is symmetric up to
  * round-off. */
 static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
@@ -212,7 +216,7 @@ static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *
 
 /* ---- points of PD-MPM bonds -------------------------------------------------------------------------------------- */
 
-/* Frees the lists of points with PD-MPM bonds in partial cells. */
+/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in partial cells. */
 static void ends_free(struct mesh *mesh)
 {
     memory_free(mesh->ends);
@@ -221,10 +225,10 @@ static void ends_free(struct mesh *mesh)
     mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
 }
 
-/* Computes by how much each mode of a cell contributes to the mean strain of the family of a PD-MPM point at quarter
- * point `place`, share [modes] [1]. local: part of the strain that the bonds of the point do not measure (L of struct
- * partial_stress); B: strains of the points by the modes from averaged_strains, NULL: points have their own
- * dilatation. */
+/* Computes by how much each mode of a cell contributes to the mean strain of the family of a point with PD-MPM bonds,
+ * share[modes] [1]. local: part of the strain that the bonds of the point do not measure (L of struct partial_stress);
+ * place: number of the point in the cell, 0 .. 2^dim - 1; B: strains of the points by the modes from averaged_strains;
+ * NULL: points have their own dilatation. */
 static void end_share(const struct cell_maker *c, const real *local, int place, point_strains B, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
@@ -239,14 +243,15 @@ static void end_share(const struct cell_maker *c, const real *local, int place, 
     }
 }
 
-/* Returns the partial-stress entry of point i if it has state-based PD-MPM bonds, else -1. */
+/* Returns the entry of point i in the partial stresses if the point has state-based PD-MPM bonds, else -1. i may be
+ * -1. */
 static int64_t end_entry(const struct cell_maker *c, int32_t i)
 {
     return i >= 0 && point_has_state_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
-/* Appends the points with state-based PD-MPM bonds in partial cell k to the list mesh->end, from index *n on, which is
- * advanced, with their shares in the modes of the cell. */
+/* Appends the points with state-based PD-MPM bonds in partial cell k to mesh->end, from index *n on, with the
+ * contributions of the modes to their mean strain. Advances *n. */
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -262,7 +267,8 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
-/* Lists the points of state-based PD-MPM bonds in all partial cells, group by group. */
+/* Lists the points with state-based PD-MPM bonds in all partial cells, in the order of the groups of LANES partial
+ * cells. */
 static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -283,8 +289,8 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
 
 /* ---- all partial cells ------------------------------------------------------------------------------------------- */
 
-/* Appends cell I to the list of partial cells of the mesh, cells with missing points, partial stresses, several
- * materials or doubled nodes; the stiffness is computed later (mesh_partial_make). */
+/* Appends cell I to the list of partial cells of the mesh: cells with missing points, partial stresses, several
+ * materials or doubled nodes. Their stiffness is computed later (mesh_partial_make). */
 void mesh_partial_add(struct mesh *mesh, int64_t I)
 {
     GROW("mesh.partial_cell", mesh->partial_cell, mesh->partial_cells + 1);
@@ -314,7 +320,8 @@ void mesh_partial_free(struct mesh *mesh)
     mesh->stiffness = NULL;
 }
 
-/* Returns the material of the points of cell I that has the lowest conversion stress. */
+/* Returns the material with the lowest conversion stress among the points of cell I. s: elastic constants with these
+ * stresses. */
 static uint8_t partial_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -327,7 +334,7 @@ static uint8_t partial_material(const struct mesh *mesh, const struct particles 
     return (uint8_t)least;
 }
 
-/* Returns the parameters of the computation of stiffness matrices. Release `whole` with memory_free. */
+/* Returns the parameters for computing stiffness matrices of partial cells. Release `whole` with memory_free. */
 static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -343,13 +350,14 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
     return c;
 }
 
-/* Returns the first number of a partial cell in an array with `each` numbers per cell; NULL for NULL. */
+/* Returns the address of the first number of a partial cell in an array with `each` numbers per cell, interleaved for
+ * LANES cells; NULL if `from` is NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
 }
 
-/* Copies `each` numbers of one partial cell to another one, LANES apart; from NULL: sets them to 0; to NULL:
+/* Copies `each` numbers of one partial cell, LANES apart, to another one. from NULL: sets them to 0; to NULL: does
  * nothing. */
 static void lane_copy(real *to, real *from, int each)
 {
@@ -365,8 +373,8 @@ static void groups_fill(struct mesh *mesh)
     mesh->partial_cells = partial_cells;
 }
 
-/* Returns for each partial cell its index in the previous list, or -1 if its stiffness must be computed: it is new or
- * marked in `dirty` (NULL: all are). The caller frees the result. */
+/* Returns for each partial cell its index in the previous list `old`; -1 if its stiffness must be computed because it
+ * is new or marked in `dirty` (NULL: all are). Release it with memory_free. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
     int64_t *from = NEW("mesh.from", mesh->partial_cells, int64_t);
@@ -380,7 +388,8 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
     return from;
 }
 
-/* Returns an array of `each` numbers for every partial cell, uninitialised except for the last group, which is 0. */
+/* Returns an array of `each` numbers for every partial cell, uninitialised except for the last group of LANES cells,
+ * which is 0. Release it with memory_free. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
     const int64_t groups = mesh_partial_group_count(mesh), size = each * LANES;
@@ -389,15 +398,16 @@ static real *numbers_make(const char *label, const struct mesh *mesh, int64_t ea
     return numbers;
 }
 
-/* Returns true if `each` numbers per cell are bitwise equal in groups g and h of partial cells. */
+/* Returns true if `each` numbers per cell are bitwise equal in the groups g and h of LANES partial cells. */
 static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 {
     const int64_t size = (int64_t)each * LANES;
     return arrays_equal(of + g * size, of + h * size, size, sizeof *of);
 }
 
-/* Stores for each group of LANES partial cells the first of the directly preceding groups with bitwise equal stiffness
- * (mesh->alike), itself if there is none. Cells that an edge of the body cuts in the same way follow each other. */
+/* Stores in mesh->alike[g] for each group g of LANES partial cells the first of the directly preceding groups with
+ * bitwise equal stiffness; g itself if there is none. Cells that an edge of the body cuts in the same way are
+ * consecutive. modes: number of modes of a cell. */
 static void alike_find(struct mesh *mesh, int modes)
 {
     const int64_t groups = mesh_partial_group_count(mesh);
@@ -440,8 +450,8 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
     memory_free(old->stiffness);
 }
 
-/* Makes the groups of partial cells marked in `changed`, and those that refer to them, use their own stiffness again
- * (mesh->alike), since it may differ now. */
+/* Makes the groups of partial cells marked in changed[groups], and those that use the stiffness of such a group, use
+ * their own stiffness again (mesh->alike), since it may differ now. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
     for (int64_t g = mesh_partial_group_count(mesh) - 1; g >= 0; g--)

@@ -7,8 +7,8 @@
 
 bool mesh_cell_has_body(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
 
-/* Makes a box of nodes around the particles, aligned with the nodes of `like`, without nodal arrays. Returns false if
- * the number of nodes is too large. */
+/* Makes a box of nodes around the particles, aligned with the nodes of the grid `like`, without nodal arrays. Returns
+ * false if it has too many nodes. */
 static bool box_make(struct mesh *box, const struct particles *p, const struct grid *like)
 {
     struct grid *g = &box->grid;
@@ -25,8 +25,8 @@ static bool box_make(struct mesh *box, const struct particles *p, const struct g
     return true;
 }
 
-/* Returns the root of the set of node I (union-find with path compression). above: 1 + parent of a node, for a root 1 +
- * the node itself, 0: no particles. */
+/* Returns the root of the set of nodes that contains node I (union-find with path compression). above: 1 + parent of
+ * each node, for a root 1 + the node itself; 0: a node without particles. */
 static int32_t mesh_pieces_root_of(int32_t *above, int32_t I)
 {
     while (above[I] != I + 1) {
@@ -36,7 +36,7 @@ static int32_t mesh_pieces_root_of(int32_t *above, int32_t I)
     return I;
 }
 
-/* Joins the sets of nodes I and J. */
+/* Joins the sets that contain the nodes I and J. above: as in mesh_pieces_root_of. */
 static void join(int32_t *above, int32_t I, int32_t J)
 {
     if (above[I] == 0) above[I] = I + 1;
@@ -45,7 +45,8 @@ static void join(int32_t *above, int32_t I, int32_t J)
     above[a > b ? a : b] = (a > b ? b : a) + 1;
 }
 
-/* Joins the nodes of each cell without particles. */
+/* Joins the nodes of each cell whose particles were not created. above: as in mesh_pieces_root_of; h: these cells, or
+ * NULL. */
 static void hollow_join(int32_t *above, const struct mesh *box, const struct cells_without_particles *h)
 {
     for (int64_t I = 0; h && h->absent && I < h->box.n; I++) {

@@ -22,7 +22,8 @@ struct projection {
     real *row; /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };
 
-/* Returns the sum of m_p N_I value_p over the points of a cell of which I is corner c. */
+/* Returns the sum of m_p N_I value_p over the points p of a cell, with m_p their masses and N_I the shape function of
+ * node I, which is corner c of the cell. dim: dimensions, a constant. */
 static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int c, const real *value, const int dim)
 {
     const int32_t *point = m->mesh->point + (cell << dim);
@@ -32,10 +33,10 @@ static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int
     return sum;
 }
 
-/* Returns the number of nodes in the cells around a node, itself included. */
+/* Returns the number of nodes in the cells around a node, including the node: 3^dim. */
 static int nodes_around(int dim) { return dim == 1 ? 3 : dim == 2 ? 9 : 27; }
 
-/* Returns the index of corner k of a cell among the 3^dim nodes around a node that is corner c of the cell. */
+/* Returns the index, among the 3^dim nodes around a node, of corner k of a cell of which the node is corner c. */
 static int node_around(int dim, int c, int k)
 {
     int at = 0;
@@ -43,8 +44,8 @@ static int node_around(int dim, int c, int k)
     return at;
 }
 
-/* Computes row I of the consistent mass matrix, row [3^dim]: the sums of m_p N_I N_J over the points around node I, for
- * the nodes J around it. */
+/* Computes row[3^dim] of the consistent mass matrix at node I [kg]: the sums of m_p N_I N_J over the points p around
+ * node I, for the nodes J around it. */
 static void row_make(const struct projection *m, int64_t I, real *row)
 {
     const int dim = m->p->dim;
@@ -57,8 +58,8 @@ static void row_make(const struct projection *m, int64_t I, real *row)
     }
 }
 
-/* Returns the product of a row of the mass matrix with nodal values. from: address of the value at the node of the row;
- * across, layer: distances between rows and layers of nodes in the array. */
+/* Returns the product of a row of the mass matrix, row[3^dim], with nodal values. from: address of the value at the
+ * node of the row; across, layer: distances between rows and layers of nodes in the array. */
 static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t across, int64_t layer, const int dim)
 {
     real sum = 0;
@@ -68,9 +69,9 @@ static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t
     return sum;
 }
 
-/* Returns the product of a row of the mass matrix with nodal values if all points around the node exist and have mass
- * 1, for one direction: with two points in a cell sum_q N_I N_J is 5/8 in each of the two cells, and 3/8 for either
- * neighbour. */
+/* Returns the product of a row of the mass matrix with nodal values along one axis, if all points around the node exist
+ * and have mass 1: with two points in a cell, sum_q N_I N_I is 5/8 in each of the two cells, and sum_q N_I N_J is 3/8
+ * for either neighbour J. from: address of the value at the node. */
 static ALWAYS_INLINE real line_product(const real *from) { return 0.375 * (from[-1] + from[1]) + 1.25 * from[0]; }
 
 static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
@@ -79,7 +80,7 @@ static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
 }
 
 /* Returns the product of a row of the mass matrix with nodal values if all points around the node exist and have mass
- * 1. */
+ * 1. from: address of the value at the node; row, layer: distances between rows and layers of nodes. */
 static ALWAYS_INLINE real inner_product(const real *from, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_product(from);
@@ -93,7 +94,7 @@ static bool is_unknown(const struct projection *m, int64_t I)
     return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]);
 }
 
-/* Returns the sum of m_p N_I value_p over the points around node I, cell by cell; 0 if the value at the node is not
+/* Returns the sum of m_p N_I value_p over the points p around node I, cell by cell; 0 if the value at the node is not
  * computed. */
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
@@ -104,7 +105,7 @@ static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const
     return sum;
 }
 
-/* Returns true if a slit divides a cell around node I, or gives it extra nodes. */
+/* Returns true if a slit divides a cell around node I, or gives such a cell extra nodes. */
 static bool beside_slit(const struct mesh *mesh, int64_t I)
 {
     bool beside = false;
@@ -115,7 +116,8 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
     return beside;
 }
 
-/* Returns the product of a row of the mass matrix with nodal values beside a slit, point by point. */
+/* Returns the product of row I of the mass matrix with the nodal values `from` at a node beside a slit, point by point;
+ * 0 if the value at the node is not computed. */
 static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, const real *from, const int dim)
 {
     real sum = 0;
@@ -131,8 +133,9 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
     return sum;
 }
 
-/* Computes for all unknown nodes the right side from values at points (`value` not NULL), or the product of the mass
- * matrix with nodal values `from`; 0 at other nodes. Each node is written by one thread. */
+/* Computes to[I] for all nodes: if `value` is not NULL, the right side from the values at points, else the product of
+ * the mass matrix with the nodal values `from`. Sets 0 at nodes whose values are not computed. Each node is written by
+ * one thread. */
 static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to,
                                        const int dim)
 {
@@ -154,7 +157,7 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
     }
 }
 
-/* Calls nodes_gather in the dimension of the particles. */
+/* Calls nodes_gather with the number of dimensions of the particles as a constant. */
 static void gather(const struct projection *m, const real *value, const real *from, real *to)
 {
 #define CASE(D)                                                                                                        \
@@ -166,8 +169,8 @@ static void gather(const struct projection *m, const real *value, const real *fr
     }
 }
 
-/* Returns the common mass of the points around node I [kg], or 0 if a point is missing, masses differ, a slit is near,
- * or the value at the node is not computed. */
+/* Returns the common mass of the points around node I [kg]; 0 if a point is missing, masses differ, a slit is near, or
+ * the value at the node is not computed. */
 static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
@@ -189,8 +192,8 @@ static void masses_find(struct projection *m)
     for (int64_t I = 0; I < m->mesh->grid.n; I++) m->mass[I] = mass_around(m, I);
 }
 
-/* Computes the rows of the mass matrix for all computed nodes with missing or unequal points around them, for which
- * inner_product is not valid. Nodes beside slits get no row. */
+/* Computes the rows of the mass matrix for all computed nodes around which points are missing or have unequal masses,
+ * so that inner_product is not valid. Nodes beside slits get no row. */
 static void mesh_project_rows_make(struct projection *m)
 {
     const int64_t n = m->mesh->grid.n, far = m->mesh->corner[(1 << m->p->dim) - 1];
@@ -221,7 +224,8 @@ static void product_block(const void *context, int64_t first, int64_t end, real 
     for (int64_t I = first; I < end && !q->weight; I++) sum[0] += q->a[I] * q->b[I];
 }
 
-/* Returns the sum of a b weight over n nodes; weight NULL: 1. */
+/* Returns the sum of a[k] b[k] weight[k] over n nodes; weight NULL: all weights are 1. The sum does not depend on the
+ * number of threads. */
 static real product(const real *a, const real *b, const real *weight, int64_t n)
 {
     real sum;
@@ -236,8 +240,9 @@ static real mesh_project_largest_of(const real *a, int64_t n)
     return most;
 }
 
-/* Solves for x [nodes] by conjugate gradients on the consistent mass matrix, with the lumped one as preconditioner;
- * starts from the lumped projection if all nodes are unknown, else from x. */
+/* Solves for the nodal values x[nodes] that fit the values at points, by conjugate gradients on the consistent mass
+ * matrix with the lumped one as preconditioner. Starts from the lumped projection if all nodes are unknown, else from
+ * x. */
 static void project(const struct projection *m, const real *value, real *x)
 {
     const int64_t n = m->mesh->grid.n;
@@ -264,7 +269,8 @@ static void project(const struct projection *m, const real *value, real *x)
     memory_free(q);
 }
 
-/* Projects the values at points, by component, to the nodes. m: its arrays are allocated and freed here. */
+/* Projects the values at points, value[dim], to the nodes, node[dim]. m: parameters of the projection, whose arrays are
+ * allocated and freed here. */
 static void project_all(struct projection m, real *const *value, real *const *node)
 {
     masses_find(&m);

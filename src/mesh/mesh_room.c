@@ -6,7 +6,8 @@
 #include "mesh_parts.h"
 #include "mesh/levels.h"
 
-/* Returns true if the middle of cell I is beyond a plane of symmetry, where the body continues as its image. */
+/* Returns true if the middle of cell I is beyond one of the planes of symmetry mirror[mirrors], where the body
+ * continues as its image. */
 static bool beyond_mirror(const struct grid *g, int64_t I, const struct mirror_plane *mirror, int mirrors)
 {
     bool beyond = false;
@@ -18,7 +19,8 @@ static bool beyond_mirror(const struct grid *g, int64_t I, const struct mirror_p
     return beyond;
 }
 
-/* Marks the cells outside the body, and cells at slits, which are faces of the body. */
+/* Sets mark[I] to 1 for the cells outside the body and for cells at slits, which are faces of the body, else to 0.
+ * Cells beyond a plane of symmetry, mirror[mirrors], are inside. */
 static void outside_mark(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *mark)
 {
     const int64_t cells = mesh->slits.split ? mesh->slits.first : mesh->grid.n;

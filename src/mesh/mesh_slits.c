@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* largest number of pieces around a node: of 2^dim cells as many each */
+/* Largest number of pieces around a node: 2^dim cells have at most as many pieces each. */
 enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };
 
 /* An extra node or cell under construction, at the position of node or cell `base` of the grid. Of a node: the pieces
@@ -47,7 +47,7 @@ static void extra_add(struct extras *to, struct extra one)
 
 /* ---- pieces of cells --------------------------------------------------------------------------------------------- */
 
-/* Returns true if a slit, or a void near particle i, separates two positions of its body. */
+/* Returns true if a slit, or a void near particle i, separates the positions a and b of its body. */
 static bool positions_parted(const struct slit_maker *m, int32_t i, const real *a, const real *b)
 {
     const struct voids *v = m->source->voids;
@@ -66,7 +66,7 @@ static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
     return positions_parted(m, i, a, b);
 }
 
-/* Marks the cells at most two cells away from cell I. */
+/* Sets mark[I] for the cells at most two cells from cell I along each axis. */
 static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
 {
     enum { FAR = 2 };
@@ -79,7 +79,7 @@ static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
             }
 }
 
-/* Returns true if a slit, or a particle near a void, is within two cells of node I. */
+/* Returns true if a slit, or a particle near a void, is within about two cells of node I. */
 static bool slit_near(const struct slit_maker *m, int64_t I)
 {
     const struct grid *g = &m->mesh->grid;
@@ -91,8 +91,8 @@ static bool slit_near(const struct slit_maker *m, int64_t I)
     return false;
 }
 
-/* Divides the points of cell I into pieces that slits separate from each other; adds an extra cell for each piece but
- * the first. */
+/* Divides the points of cell I into pieces that slits separate from each other (m->piece, m->pieces). Adds an extra
+ * cell for each piece but the first. */
 static void cell_divide(struct slit_maker *m, int64_t I)
 {
     const int corners = 1 << m->p->dim;
@@ -115,31 +115,33 @@ static void cell_divide(struct slit_maker *m, int64_t I)
 
 /* ---- groups of pieces around a node ------------------------------------------------------------------------------ */
 
-/* Returns the cell that contains piece number `bit` around node I. */
+/* Returns the cell that contains piece number `bit` around node I; the number is 8 c + g for piece g of the cell of
+ * which the node is corner c. */
 static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
 {
     return I - m->mesh->corner[bit / CORNERS_MAX];
 }
 
-/* Returns true if quarter point q of one cell and quarter point r of another one are opposite each other across the
- * face or edge that the cells share. c, k: numbers of the corner of both cells at which a common node is. */
+/* Returns true if point q of one cell and point r of another are opposite each other across the face or edge that the
+ * cells share. q, r: numbers 0 .. 2^dim - 1 of the points in their cells; c, k: numbers of the corner of both cells at
+ * which a common node is. */
 static bool quarter_points_face(int q, int r, int c, int k)
 {
     const int apart = c ^ k; /* directions in which the cells follow each other */
     return ((q ^ r) & ~apart) == 0 && (q & apart) == (c & apart) && (r & apart) == (k & apart);
 }
 
-/* Returns the particle at quarter point q of a cell around node I if it belongs to piece `bit` around the node, else
- * -1. */
+/* Returns the particle at point q (0 .. 2^dim - 1) of a cell around node I if it belongs to piece `bit` around the
+ * node; else -1. */
 static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q)
 {
     const int64_t place = (cell_of_bit(m, I, bit) << m->p->dim) + q;
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Returns true if two pieces around node I are connected, i.e. no slit passes between a point of one and a point of the
- * other. Tests points that are opposite each other across the boundary of the cells; only if there are none, all
- * points. */
+/* Returns true if the pieces `one` and `other` around node I are connected: no slit passes between a point of one and a
+ * point of the other. Tests the points that are opposite each other across the boundary of the cells; all points only
+ * if there are no such pairs. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
     const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
@@ -156,7 +158,7 @@ static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int ot
     return false;
 }
 
-/* Returns the set of pieces around node I, one bit each, that are connected with the lowest piece in the set `open`,
+/* Returns the set of pieces around node I, one bit each, that are connected with the lowest piece of the set `open`,
  * directly or through other pieces of it. */
 static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
 {
@@ -172,7 +174,7 @@ static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
     return group;
 }
 
-/* Returns true if a slit or void separates point i from its mirror image in a plane. */
+/* Returns true if a slit or void separates point i from its mirror image at a plane of symmetry. */
 static bool image_parted(const struct slit_maker *m, int32_t i, const struct mirror_plane *plane)
 {
     real a[DIM_MAX], b[DIM_MAX];
@@ -182,8 +184,8 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     return positions_parted(m, i, a, b);
 }
 
-/* Returns true if a connected set of pieces around node I (`group`, one bit each) is connected with its mirror image in
- * a plane through the node. Tests points beside the plane; only if there are none, all points. */
+/* Returns true if a connected set of pieces around node I (`group`, one bit each) is connected with its mirror image at
+ * a plane of symmetry through the node. Tests the points beside the plane; all points only if there are none there. */
 static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
 {
     bool faced = false;
@@ -200,8 +202,8 @@ static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, 
     return false;
 }
 
-/* Returns the axes of the mirror planes through node I, one bit each, at which slits separate a connected set of pieces
- * (`group`, one bit each) from its image. */
+/* Returns the axes, one bit each, of the planes of symmetry through node I at which slits separate a connected set of
+ * pieces (`group`, one bit each) from its image. */
 static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
 {
     const struct grid *g = &m->mesh->grid;
@@ -214,8 +216,8 @@ static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
     return open;
 }
 
-/* Divides the pieces around node I into connected sets; adds an extra node for each set but the first, which keeps node
- * I. */
+/* Divides the pieces around node I into connected sets. The first set keeps node I; an extra node is added for each
+ * other set. */
 static void node_divide(struct slit_maker *m, int64_t I)
 {
     uint64_t open = 0;
@@ -235,7 +237,8 @@ static void node_divide(struct slit_maker *m, int64_t I)
     m->split[I] = m->node.n > before;
 }
 
-/* Finds the quarter point of each particle, then divides the cells and nodes near slits and voids. */
+/* Finds the cell and the point in it (m->point) of each particle, then divides the cells and nodes near slits and
+ * voids. */
 static void slits_divide(struct slit_maker *m)
 {
     const int64_t n = m->mesh->grid.n;
@@ -255,19 +258,19 @@ static void slits_divide(struct slit_maker *m)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Returns how many extra nodes or cells are stored in a row of nodes: LANES fewer than it has, since whole vectors are
- * read and written beyond its ends. */
+/* Returns how many extra nodes or cells are stored in a row of nodes: LANES fewer than the row has, since whole vectors
+ * are read and written beyond its ends. */
 static int64_t row_room(const struct grid *g) { return g->count[0] - LANES; }
 
-/* Returns the index in the arrays of nodes and cells of the k-th extra node or cell. */
+/* Returns the index in the arrays of nodes and cells of extra node or cell number k. */
 static int64_t extra_index(const struct mesh *mesh, int64_t k)
 {
     const struct grid *g = &mesh->grid;
     return mesh->slits.first + k / row_room(g) * g->count[0] + k % row_room(g);
 }
 
-/* Returns the list of corners of cell I. A cell without a list of its own gets one, with the corners of grid cell
- * `at`. */
+/* Returns the list of the corners of cell I. A cell without a list of its own gets one, with the corners of cell `at`
+ * of the grid. */
 static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -280,15 +283,15 @@ static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
     return s->corner + (int64_t)s->cell[I] * corners;
 }
 
-/* Returns the cell that piece g of grid cell I has become. */
+/* Returns the cell that piece g of cell I of the grid has become: I itself for g = 0. */
 static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
 {
     while (g-- > 0) I = mesh->slits.next[I];
     return I;
 }
 
-/* Enters the extra cells in the tables: links them to the cells from which they were divided, with the corners of
- * these, and stores the cell of each point of a divided cell. */
+/* Enters the extra cells in the tables of the mesh: links them to the cells from which they were divided, gives them
+ * the corners of these cells, and stores the cell of each point of a divided cell. */
 static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -309,7 +312,7 @@ static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
     }
 }
 
-/* Enters the extra nodes in the tables: their positions, and the cells of which they are corners. */
+/* Enters the extra nodes in the tables of the mesh: their positions, and the cells of which they are corners. */
 static void tables_nodes(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -333,8 +336,8 @@ static int32_t *none_make(const char *label, int64_t n)
     return all;
 }
 
-/* Allocates and fills the tables of extra nodes and cells, which are numbered from s->first on, behind those of the
- * box. */
+/* Allocates and fills the tables mesh->slits of extra nodes and cells, which are numbered from s->first on, behind
+ * those of the grid. */
 static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -355,7 +358,8 @@ static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
     tables_nodes(mesh, m);
 }
 
-/* Extends the box from..to [m] of a grid along its last axis until n extra nodes or cells fit behind it. */
+/* Extends the box from .. to [m] of the grid g along its last axis until n extra nodes or cells fit behind it. Returns
+ * REFUSED if the grid becomes too large. */
 static status box_extend(struct grid *g, const real *from, const real *to, int64_t n)
 {
     const int last = g->dim - 1;
@@ -399,8 +403,8 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
 
 /* ---- blocks and groups ------------------------------------------------------------------------------------------- */
 
-/* Records that a block of nodes has extra nodes or cells positioned in another block. extra, base: a node or cell of
- * both. */
+/* Records that a block of nodes has extra nodes or cells that are positioned in another block. extra, base: a node or
+ * cell of either block. */
 static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
 {
     struct mesh_slits *s = &mesh->slits;

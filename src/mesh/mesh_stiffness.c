@@ -8,8 +8,8 @@
 #include "kernels/mesh/mesh_law.h"
 #include "kernels/mesh/mesh_point.h"
 
-/* Adds the contribution of a point at quarter point q to the stiffness K for displacements of the corners [N/m], column
- * by column. */
+/* Adds the contribution of the point with number q in a cell to the stiffness K for displacements of the corners [N/m],
+ * column by column. m: elastic constants; h: edge of the cell [m]; V: volume of the point [m^3]. */
 static void point_stiffness(real *K, const struct elastic *m, int dim, real h, real V, int q)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -30,9 +30,9 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     }
 }
 
-/* Replaces in the stiffness K [n][n] for displacements of the corners of cell I [N/m] the share of the dilatation of
- * each point of material `material` by that of their mean (mesh_law.h): subtracts V k t (x) t of every point and adds
- * their number times V k mean t (x) mean t. t: trace of the strain by the displacements; k: averaged_stiffness. */
+/* Replaces in the stiffness K[n][n] of cell I for displacements of its corners [N/m] the dilatation of each point of
+ * `material` by the mean over these points (mesh_law.h): K - sum V k t (x) t + N V k T (x) T. t: trace of the strain at
+ * a point by the displacements; T: mean of t over the N points; k: averaged_stiffness. */
 static void average_dilatation(const struct mesh *mesh, const struct elastic *m, const struct particles *p, int64_t I,
                                uint8_t material, real *K)
 {
@@ -53,7 +53,8 @@ static void average_dilatation(const struct mesh *mesh, const struct elastic *m,
         for (int a = 0; a < n; a++) K[b * n + a] += by * sum[a] * sum[b] / points;
 }
 
-/* Returns true if point q of cell I, of material `material`, is the first point of the cell of this material. */
+/* Returns true if point q (0 .. 2^dim - 1) of cell I, of `material`, is the first point of the cell of this
+ * material. */
 static bool first_of_material(const struct mesh *mesh, const struct particles *p, int64_t I, int q, uint8_t material)
 {
     for (int k = 0; k < q; k++) {
@@ -89,7 +90,8 @@ struct scaled_cell {
     int n;
 };
 
-/* Computes y = K x with K scaled by the masses, column by column in whole vectors. */
+/* Computes y = K x for largest_eigenvalue, with K scaled by the masses, column by column in whole vectors. context: a
+ * struct scaled_cell. */
 static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled_cell *c = context;
@@ -98,9 +100,10 @@ static void mesh_scaled_stiffness(void *context, const real *x, real *y)
         for (int a = 0; a < c->n; a++) y[a] += c->K[b * c->n + a] * x[b];
 }
 
-/* Returns the largest eigenvalue of m^-1/2 K m^-1/2 for one cell with points at the quarter points `places`, one bit
- * each [1/s^2]. No eigenvalue of the mesh exceeds that of its stiffest cell alone, with the masses of the points of the
- * cell. Cells whose points have one dilatation are softer; their bound is that of points with their own. */
+/* Returns the largest eigenvalue of m^-1/2 K m^-1/2 [1/s^2] for one cell with the points in the bit set `places`. m:
+ * elastic constants; h: edge of the cell [m]; V: volume of a point [m^3]. No eigenvalue of the mesh exceeds that of its
+ * stiffest cell alone, with the masses of its points. Cells whose points have one dilatation are softer; their bound is
+ * that of points with their own. */
 static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -115,7 +118,7 @@ static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, re
     return largest_eigenvalue(n, mesh_scaled_stiffness, &(struct scaled_cell){K, n});
 }
 
-/* Returns the quarter points of cell I with a point, one bit each. */
+/* Returns the points of cell I that exist, as one bit for each of its 2^dim integration points. */
 static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
 {
     const int dim = mesh->grid.dim;
@@ -124,7 +127,7 @@ static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
-/* Returns true if a point of cell I has a partial stress, i.e. leaves a part of its stress to bonds: the cell is then
+/* Returns true if a point of cell I has a partial stress: it leaves a part of its stress to bonds, so that the cell is
  * softer than without bonds. */
 static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
 {
