@@ -12,15 +12,16 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
-/* Returns true if particle i, or the particle of which i is an image, already had a row with bonds to its whole family,
- * as peridynamic particles have. */
+/* Returns true if particle i, or the particle of which i is an image, already had a row with bonds to its whole family
+ * in `old`, as peridynamic particles have. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_source_particle(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
-/* Returns true if the previous rows can be reused: no particle with a whole row has become a material point again. */
+/* Returns true if the previous rows can be reused: there are such rows, and no particle with a whole family in them has
+ * become a material point again. */
 static bool rows_reusable(const struct bonds *old, const struct particles *p)
 {
     if (!old) return false;
@@ -29,8 +30,9 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Marks all particles within the cutoff of peridynamic particle or image i, and i itself: wanted [groups of eight] for
- * the groups that get rows, fresh [particles] for a new search. found [capacity]: working memory. */
+/* Marks particle or image i and all particles within the cutoff of it: wanted[groups of eight] for the groups of
+ * consecutive particles that get rows, fresh[particles] for the particles to be searched again. found[capacity]:
+ * working memory. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -43,7 +45,8 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
 /* Marks in `wanted` the groups of eight consecutive particles that get rows: peridynamic particles, and material points
  * with a peridynamic neighbour. A row block keeps its eight particles for as long as it exists, is written as whole
  * vectors, and on a lattice its neighbours are consecutive. Rows of unmarked particles in a group have no bonds. Marks
- * in `fresh` [n] the particles to be searched again: those that have become peridynamic and all within their cutoff. */
+ * in fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. old:
+ * previous rows or NULL; capacity: largest number of neighbours of a particle. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -66,8 +69,8 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0. Release its array
- * `ratio` with memory_free. */
+/* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0; all 1 for state-based
+ * models. Release its array `ratio` with memory_free. */
 struct pair_table pair_table_make(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
@@ -82,7 +85,8 @@ struct pair_table pair_table_make(const struct bond_source *s)
     return t;
 }
 
-/* Returns an array [n] of -1, for the row of each particle; reuses the spare array of the previous rows. */
+/* Returns an array [n] of -1, for the index of each particle's row; takes the spare array of the previous rows if they
+ * have one. The caller owns it. */
 static int32_t *row_of_make(struct bonds *old, int64_t n)
 {
     int32_t *row_of = old ? old->no_rows : NULL;
@@ -95,7 +99,8 @@ static int32_t *row_of_make(struct bonds *old, int64_t n)
     return row_of;
 }
 
-/* Lists the particles of all marked groups of eight as rows. */
+/* Lists the particles of all groups of eight that are marked in wanted[groups] as rows of b: b->particle, b->row_of.
+ * The last row block is filled up with its last particle. old: previous rows or NULL. */
 static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
 {
     const int64_t eights = (p->n + LANES - 1) / LANES;
@@ -111,7 +116,7 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
 
-/* Allocates all arrays but the columns. */
+/* Allocates all arrays of the rows except those of the columns. */
 static void rows_arrays(struct bonds *b)
 {
     int64_t padded = b->row_blocks * LANES;
@@ -141,7 +146,8 @@ struct rows_pass {
     bool count;    /* first pass: columns are only counted */
 };
 
-/* Returns true if a particle of the rows was in a previous row block whose weights have changed since it was made. */
+/* Returns true if one of the particles particle[rows] was in a row block of the previous rows whose weights have
+ * changed since it was made. */
 static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
@@ -152,8 +158,9 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
     return changed;
 }
 
-/* Returns true if the bonds of row block g can be made from the site map, without a search: eight consecutive particles
- * on a regular part of the lattice, without changed weights. The bonds are then in room->regular. */
+/* Returns true if the bonds of row block g can be made from the map of lattice sites, without a search: eight
+ * consecutive particles on a regular part of the lattice, without changed weights. The bonds are then in
+ * room->regular. */
 static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;
@@ -163,14 +170,14 @@ static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *ro
            row_block_find_regular(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
-/* Replaces *reach by the absolute value of `distance` if that is larger. */
+/* Replaces *reach by |distance| if that is larger. */
 static void reach_widen(int32_t *reach, int32_t distance)
 {
     if (abs(distance) > *reach) *reach = abs(distance);
 }
 
 /* Raises room->reach to the largest difference of the indices of two bonded particles in row block g. Images do not
- * count, as they have no rows. regular: the bonds are in room->regular, else in room->row. */
+ * count, as they have no rows. regular: true if the bonds are in room->regular, false if they are in room->row. */
 static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -181,8 +188,8 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
 
-/* Counts the columns of row block g (first pass) or fills them (second pass). room: working memory of the thread.
- * Returns the number of bonds of the row block. */
+/* Counts the columns of row block g if pass->count, else fills them. room: working memory of the thread. Returns the
+ * number of bonds of the row block. */
 static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     struct bonds *b = pass->b;
@@ -214,9 +221,9 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Processes all row blocks: copies those that are kept and makes the others. Called twice, first to count columns, then
- * to fill them, so that a list of all bonds never exists twice. Updates b->reach. Returns the number of directed
- * bonds. */
+/* Processes all row blocks: copies those that are unchanged from the previous rows and makes the others. Called twice,
+ * first to count columns, then to fill them, so that a list of all bonds never exists twice. Updates b->reach. Returns
+ * the number of directed bonds. */
 static int64_t rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
@@ -246,8 +253,8 @@ static int64_t rows_pass(const struct rows_pass *pass)
     return made;
 }
 
-/* Makes all row blocks in two passes. If previous rows exist, few row blocks change, and the neighbours found in the
- * first pass are kept for the second one. */
+/* Makes all row blocks of b in two passes. If previous rows exist, few row blocks change, and the neighbours found in
+ * the first pass are stored for the second one. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = pair_table_make(maker.source);
@@ -267,7 +274,8 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
     memory_free(pairs.ratio);
 }
 
-/* Copies fracture energy, plastic work and number of broken bonds of each particle from its previous row. */
+/* Copies fracture energy, plastic work and number of broken bonds of each particle from its row in the previous rows,
+ * if it had one. */
 static void rows_inherit(struct bonds *b, const struct bonds *old)
 {
     for (int64_t r = 0; r < b->rows; r++) {

@@ -7,7 +7,7 @@
 
 /* Copies the weights of changed row blocks to w (saving), or from w into the row blocks; other row blocks have the
  * weights with which they are made. After restoring, bonds of weight 0 are marked as broken, and the row blocks store
- * their columns instead of using a stencil. */
+ * their columns instead of using a stencil. w: LANES numbers for each column of a changed row block. */
 static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {
@@ -24,7 +24,8 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
     }
 }
 
-/* Saves or restores the marks and weights of changed row blocks. */
+/* Saves the marks and weights of changed row blocks to the archive a, or restores them. Returns FAILED if the archive
+ * does not have them. */
 static status weights_archive(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;

@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 
-/* Computes sign[d], by which component d of the displacement of image j follows from that of the particle of which it
- * is an image (1 or -1). Returns true if one of its mirrors is clamped. */
+/* Computes sign[d], 1 or -1: component d of the displacement of image j is sign[d] times that of the particle of which
+ * it is an image. Returns true if one of the mirrors of the image is clamped. */
 static bool image_rotates(const struct bond_source *s, const struct particles *p, int64_t j, int8_t *sign)
 {
     bool clamp = false;
@@ -20,8 +20,8 @@ static bool image_rotates(const struct bond_source *s, const struct particles *p
     return clamp;
 }
 
-/* Returns an array with 1 for images in clamped planes, 0 for others; NULL if there are none. Release with
- * memory_free. */
+/* Returns an array [n_all - n] with 1 for images in clamped planes and 0 for others; NULL if there are none. Release it
+ * with memory_free. */
 static uint8_t *clamped_images(const struct bond_source *s, const struct particles *p)
 {
     bool any = false;
@@ -34,8 +34,8 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts the intact bonds of column k of row block g to images in clamped planes (is[image] = 1). If c->entry is
- * allocated, also stores them. */
+/* Counts in c->n the intact bonds of column k of row block g to images in clamped planes. If c->entry is allocated,
+ * also stores these bonds. is[image]: 1 for images in clamped planes. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -52,7 +52,7 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
 }
 
 /* Counts or stores the bonds of all row blocks to images in clamped planes (column_note). Images have indices behind
- * the body, so that most columns are excluded by one comparison. */
+ * those of the body, so that most columns are excluded by one comparison. is[image]: 1 for images in clamped planes. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;
@@ -65,8 +65,8 @@ static void bonds_note(struct clamped *c, struct bonds *b, const struct particle
         }
 }
 
-/* Lists n reactions in c->end, sorted by the particle on which they act; reactions on one particle stay in the order of
- * the bonds. end [n]: unsorted reactions; of [n]: particle of each; particles: number of particles of the body. */
+/* Lists n reactions in c->end, sorted by the particle on which they act; reactions on one particle remain in the order
+ * of the bonds. end[n]: unsorted reactions; of[n]: particle of each; particles: number of particles of the body. */
 static void ends_sort(struct clamped *c, const struct clamp_end *end, const int32_t *of, int64_t n, int64_t particles)
 {
     int64_t *next = NEW("clamped.next", particles + 1, int64_t);

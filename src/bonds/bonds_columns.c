@@ -20,7 +20,7 @@ static void hole_list(struct holes_by_size *s, int64_t k)
     s->first[size] = (int32_t)k;
 }
 
-/* Makes the lists of all holes by size. Release with holes_close. */
+/* Returns lists of all holes (ranges of unused columns) by size. Release them with holes_close. */
 static struct holes_by_size holes_sort(struct bond_holes *all)
 {
     struct holes_by_size s = {.all = all};
@@ -32,8 +32,8 @@ static struct holes_by_size holes_sort(struct bond_holes *all)
     return s;
 }
 
-/* Returns the first column of the smallest hole with at least `columns` columns, -1 if there is none. The rest of the
- * hole remains a hole. */
+/* Returns the first column of the smallest hole (range of unused columns) with at least `columns` columns; -1 if there
+ * is none. The rest of the hole remains a hole. */
 static int64_t hole_take(struct holes_by_size *s, int32_t columns)
 {
     int32_t size = columns;
@@ -48,7 +48,7 @@ static int64_t hole_take(struct holes_by_size *s, int32_t columns)
     return at;
 }
 
-/* Removes holes without columns left from the array of all holes, and frees the lists. */
+/* Removes holes that have no columns left from the array of all holes, and frees the lists. */
 static void holes_close(struct holes_by_size *s)
 {
     int64_t n = 0;
@@ -59,8 +59,8 @@ static void holes_close(struct holes_by_size *s)
     memory_free(s->next);
 }
 
-/* Adds the columns of previous row blocks that are not kept to the holes, for the next rebuilding: in this one they are
- * still read. kept [row blocks]: previous row block that becomes this one, -1: none. */
+/* Adds the columns of the previous row blocks that are rebuilt to the holes, unused columns for the next rebuilding: in
+ * this one they are still read. kept[row blocks]: row block of `old` that is taken over, -1: none. */
 static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
     struct bond_holes *holes = &b->holes;
@@ -77,8 +77,8 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Allocates the column arrays. sparse: reserves addresses that get memory when they are written, since on a lattice
- * most row blocks write no column. */
+/* Allocates the column arrays of b for b->room columns. sparse: reserves addresses that get memory when they are
+ * written, since on a lattice most row blocks write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
     void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_sparse : memory_new_uninitialised;
@@ -99,7 +99,7 @@ static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sp
     b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
 }
 
-/* Extends the column arrays to `room` columns. */
+/* Extends the column arrays to `room` columns, without initialising the new ones. */
 static void columns_extend(struct bonds *b, int64_t room)
 {
     const int64_t had = b->room, each = LANES;
@@ -118,8 +118,9 @@ static void columns_extend(struct bonds *b, int64_t room)
     b->room = room;
 }
 
-/* Assigns to each row block its first column in the arrays of the previous rows: that of the previous row block
- * kept[g], else a hole, else the end of the arrays, which are extended if necessary. */
+/* Assigns to each row block its first column in the arrays of the previous rows: that of row block kept[g] of `old`
+ * which it takes over, else a hole (range of unused columns), else the end of the arrays, which are extended if
+ * necessary. */
 static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     struct holes_by_size holes = holes_sort(&old->holes);
@@ -133,7 +134,7 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 }
 
 /* Makes b use the column arrays of the previous rows. Both use them until columns_forget_taken takes them from `old`.
- */
+ * kept[row blocks]: row block of `old` that is taken over, -1: none. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -146,8 +147,8 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
 }
 
 /* Assigns columns to all row blocks, in the arrays of the previous rows if possible, else in new ones. Rows with
- * plastic bonds always get new ones, because their plastic state is archived in the order of the row blocks
- * (bonds_archive.c). */
+ * plastic bonds always get new arrays, because their plastic state is archived in the order of the row blocks
+ * (bonds_archive.c). kept[row blocks]: previous row block that is taken over, -1: none; NULL: no previous rows. */
 void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *kept)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];

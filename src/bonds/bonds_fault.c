@@ -3,8 +3,8 @@
 
 #include "bonds_parts.h"
 
-/* Returns what is wrong with the order of rows and particles, or NULL: rows ascend by particle, and row_of is the
- * inverse of particle. */
+/* Returns a text about what is wrong with the order of rows and particles, or NULL: rows must ascend by particle,
+ * row_of must be the inverse of particle, and padding rows must repeat the last one. */
 static const char *rows_fault(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -16,7 +16,8 @@ static const char *rows_fault(const struct bonds *b)
     return NULL;
 }
 
-/* Returns what is wrong with a row block that stores no columns but uses a stencil, or NULL. */
+/* Returns a text about what is wrong with row block g, which stores no columns but uses a stencil; NULL if nothing
+ * is. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
     if (!b->stencil[g]) return "an implicit row block follows no stencil";
@@ -26,8 +27,8 @@ static const char *implicit_fault(const struct bonds *b, int64_t g)
     return NULL;
 }
 
-/* Returns what is wrong with a stored column, or NULL: the common properties of its eight bonds must agree with each
- * bond. */
+/* Returns a text about what is wrong with a stored column, or NULL: the common properties of its eight bonds must agree
+ * with each bond. */
 static const char *column_fault(const struct bonds *b, int64_t column)
 {
     const struct bond_column *common = &b->common[column];
@@ -43,7 +44,8 @@ static const char *column_fault(const struct bonds *b, int64_t column)
     return NULL;
 }
 
-/* Returns an error text if an intact bond of a row leads farther than b->reach row blocks away, or NULL. */
+/* Returns a text about an intact bond of a row that leads farther than b->reach row blocks away; NULL if there is
+ * none. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {

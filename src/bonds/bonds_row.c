@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Relative amount by which the stretch limit of the vector test for breaking is reduced, so that round-off hides no
- * broken bond; the scalar test that follows is exact. */
+/* Relative amount by which the stretch is reduced above which the vector test reports a bond, so that round-off hides
+ * no broken bond [1]. The scalar test that follows is exact. */
 #define TRIGGER_MARGIN 1e-9
 
 void row_buffer_make(struct row *row, int capacity)
@@ -30,8 +30,8 @@ void row_buffer_free(struct row *row)
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Lists the particles and images within the cutoff of particle i that belong to its body, in ascending order, in found
- * [capacity]. Returns their number; if it exceeds `capacity`, the list is incomplete. */
+/* Lists the particles and images within the cutoff of particle i that belong to its body in found[capacity], in
+ * ascending order. Returns their number; if it exceeds `capacity`, the list is incomplete. */
 static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found,
                          int capacity)
 {
@@ -44,8 +44,8 @@ static int family_search(const struct bond_source *s, const struct particles *p,
     return kept;
 }
 
-/* Removes those of n neighbours of particle i from found [n] to which the connecting line passes through a void.
- * Returns the number of remaining ones. */
+/* Removes from found[n] those neighbours of particle i for which the line to i passes through a void. Returns the
+ * number of remaining ones. */
 static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
 {
     int kept = 0;
@@ -95,7 +95,8 @@ bool cuts_near_particle(const struct bond_source *s, const struct particles *p, 
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the weight of the bond i-j with components xi [m] and length r [m] [1]. */
+/* Returns the weight of the bond i-j with the components xi [m] and the length r [m] [1]: partial volume, influence,
+ * volumes and materials of both particles, and the surface correction. Exchanging i and j changes no bit. */
 static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                         int32_t i, int32_t j, const real *xi, real r)
 {
@@ -109,8 +110,9 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     return weight;
 }
 
-/* Finds the neighbours with which particle i has bonds: of a peridynamic particle the whole family, of a material point
- * the peridynamic neighbours only. Stores the volume of the family. */
+/* Lists in row->nbr the neighbours with which particle i has bonds: of a peridynamic particle the whole family, of a
+ * material point the peridynamic neighbours only. Stores the volume of the family in row->family_volume. map: lattice
+ * sites; capacity: size of row->nbr. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
@@ -123,7 +125,7 @@ static void row_search(struct row *row, const struct site_map *map, const struct
     row->n = kept;
 }
 
-/* Returns the elastic strain C^-1 sigma of material point i along the unit vector e [1]. */
+/* Returns the elastic strain e . (C^-1 sigma) e of material point i along the unit vector e [1]. m: materials. */
 static real elastic_strain_along(const struct particles *p, const struct material *m, int64_t i, const real *e)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -139,9 +141,9 @@ static real elastic_strain_along(const struct particles *p, const struct materia
     return sum;
 }
 
-/* Returns the initial plastic state of a bond between material points that have yielded: as plastic stretch the part of
- * its stretch that their stress does not explain elastically, and the mean of their plastic strains. A bar then carries
- * the stress of its points to the last digit. r: reference length [m]. Symmetric in i and j. */
+/* Returns the initial plastic state of the bond i-j between material points that have yielded: as plastic stretch the
+ * part of its stretch that their stress does not explain elastically, and the mean of their plastic strains. A bar then
+ * carries the stress of its points to the last digit. r: reference length [m]. The value is symmetric in i and j. */
 static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
                                                    int32_t j, real r)
 {
@@ -157,15 +159,15 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Returns the stretch above which the vector test reports bond i-j: that at which it breaks or begins to soften,
- * slightly reduced (TRIGGER_MARGIN). */
+/* Returns the stretch above which the vector test reports bond i-j: the stretch at which the bond breaks or begins to
+ * soften, reduced by TRIGGER_MARGIN. */
 real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
 {
     return bond_range_of(p, &s->limit, i, j).onset * (1 - TRIGGER_MARGIN);
 }
 
-/* Computes lengths and weights of the bonds found by row_search. Bonds that a pre-crack cuts get weight 0 and a
- * negative inverse length. */
+/* Computes lengths and weights of the bonds of particle i, whose neighbours row_search has found. Bonds that a
+ * pre-crack cuts get weight 0 and a negative inverse length. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
@@ -185,14 +187,14 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
-/* Returns the plastic state of bond k of a row block, lane l. */
+/* Returns the plastic state of bond k of a lane in a row block. */
 static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     const int64_t q = (b->column[row_block] + k) * LANES + lane;
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
-/* Copies the state of broken and yielded bonds from the previous row of the particle. */
+/* Copies the state of broken and yielded bonds from the particle's row number old_row of the previous rows. */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t row_block = old_row / LANES;
@@ -210,7 +212,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     }
 }
 
-/* Copies the neighbours of an unchanged row. */
+/* Copies the neighbours of the unchanged row number old_row of the previous rows. */
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
@@ -222,7 +224,7 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
     }
 }
 
-/* Copies lengths, weights and plastic state of an unchanged row. */
+/* Copies lengths, weights and plastic state of the bonds of the unchanged row number old_row of the previous rows. */
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];

@@ -4,7 +4,8 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Returns true if the differences between the neighbours of a row and its particle are exactly offset[0 .. n - 1]. */
+/* Returns true if the differences between the indices of the neighbours of a row and its particle are exactly offset[0
+ * .. n - 1]. */
 static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
 {
     int32_t other = 0;
@@ -13,7 +14,8 @@ static bool offsets_are(const int32_t *offset, int n, const struct row *row, int
     return other == 0;
 }
 
-/* Lists the distinct index distances of the bonds of a row block, ascending, in g->offset. Returns their number. */
+/* Lists the distinct index distances (neighbour minus particle) of all bonds of a row block in g->offset, ascending.
+ * particle[rows]: its particles. Returns their number. */
 static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle, int rows)
 {
     int n = g->row[0].n;
@@ -30,9 +32,9 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
     return n;
 }
 
-/* Returns the number of columns of a row block, and stores in *by_offset how bonds are arranged: each column has bonds
- * of one index distance, or rows are packed without gaps. Rows of irregular particles are packed, since columns by
- * distance would be mostly padding. */
+/* Returns the number of columns of a row block, and stores in *by_offset how its bonds are arranged: true if each
+ * column has bonds of one index distance, false if rows are packed without gaps. Rows of irregular particles are
+ * packed, since columns by distance would be mostly padding. particle[rows]: its particles. */
 int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset)
 {
     int longest = 0;
@@ -43,13 +45,14 @@ int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle,
     return *by_offset ? offsets : longest;
 }
 
-/* Returns the index in the table b->yield of the pair of materials of particles i and j. */
+/* Returns the index of the pair of materials of particles i and j in the table b->yield. */
 static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] * b->yield.materials + p->material[j];
 }
 
-/* Stores the plastic state of the bond at entry q. */
+/* Stores the plastic state of the bond at entry q of the bond arrays. pair: index of its pair of materials in
+ * b->yield. */
 static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plastic, int32_t pair)
 {
     b->plastic_stretch[q] = plastic.stretch;
@@ -57,8 +60,8 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
     b->pair[q] = pair;
 }
 
-/* Stores for row block g whether its particles are consecutive, and for each row the smallest stretch at which a bond
- * may break, the volumes of its family and of the neighbours whose bonds are broken. */
+/* Stores for row block g whether its particles are consecutive, and for each of its rows the smallest stretch at which
+ * a bond may break, the volume of its family and that of the neighbours whose bonds are broken. */
 static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -74,7 +77,7 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
 }
 
 /* Returns true if the next bond of row l, number `used`, belongs to column k. With by_offset it must have the index
- * distance of the column; else rows are packed, and any bond belongs to it. */
+ * distance of the column; else rows are packed, and any bond belongs to it. particle: particles of the row block. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
@@ -82,8 +85,8 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
-/* Stores the softening of the bonds of row block g, in the columns in which row_block_fill has put them, if one has
- * begun. */
+/* Stores the softening of the bonds of row block g, if one of them has begun to soften, in the columns in which
+ * row_block_fill has put the bonds. */
 static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
 {
     bool begun = false;
@@ -206,7 +209,8 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
     }
 }
 
-/* Computes for each of the particles i .. i + 7 the smallest stretch at which one of its bonds may break. */
+/* Computes trigger[l] for each of the particles i .. i + 7: the smallest stretch at which one of its bonds may break or
+ * begin to soften [1]. */
 static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
                              int32_t i)
 {
@@ -227,8 +231,8 @@ static bool whole_families(const struct regular_bonds *bonds)
     return without == 0;
 }
 
-/* Fills row block g from the bonds in room->regular, which the site map gives, without making single rows. If a recent
- * row block had the same bonds and families are whole, its stencil and sums are used. */
+/* Fills row block g from the bonds in buffer->regular, which the map of lattice sites gives, without making single
+ * rows. If a recent row block had the same bonds, and families are whole, its stencil and sums are used. */
 void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, int64_t g, const struct row_maker *m)
 {
     const struct regular_bonds *bonds = &buffer->regular;
@@ -250,8 +254,8 @@ void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, in
     row_block_store(b, buffer, g, m->p);
 }
 
-/* Allocates working memory for row blocks whose rows have up to `capacity` bonds, for the worst case, of which little
- * is ever touched: the arrays are not cleared. */
+/* Allocates working memory for row blocks whose rows have up to `capacity` bonds, for the worst case. Little of it is
+ * ever touched, as the arrays are not cleared. map: map of lattice sites. Release it with row_block_buffer_free. */
 void row_block_buffer_make(struct row_block_buffer *g, int capacity, const struct site_map *map)
 {
     g->room = capacity;

@@ -9,18 +9,19 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Smallest difference between cutoff and the distance of a site [spacings]: particles may be LATTICE_NEAR from their
- * sites, so round-off decides nothing; horizons of whole spacings (tolerance 1e-7) still pass. */
+/* Smallest difference between the cutoff and the distance of a lattice site [spacings]. Particles may be LATTICE_NEAR
+ * from their sites, so that with this difference round-off decides nothing; horizons of whole spacings (tolerance 1e-7)
+ * still pass. */
 #define BAND (4 * LATTICE_NEAR)
 enum { HALF_MOST = 16 };
-/* Largest number of lattice sites per particle for which a map is made. If few particles of a body exist, few pages of
- * the map are written. */
+/* Largest number of lattice sites per particle for which a map is made. If few particles of a body exist, few memory
+ * pages of the map are written. */
 #define SPARSE_MOST 256.0
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
-/* Returns the index of the lattice site at which particle i is, -1 if its position is not a lattice site of the map
- * l. */
+/* Returns the index in the map l of the lattice site at which particle i is; -1 if its position is not a lattice
+ * site. */
 int64_t lattice_site_of(const struct site_map *l, const struct particles *p, int64_t i)
 {
     int64_t site = 0;
@@ -32,7 +33,8 @@ int64_t lattice_site_of(const struct site_map *l, const struct particles *p, int
     return site;
 }
 
-/* Computes the box of all sites, with a margin for the stencil. Returns the number of sites, 0 if it is too large. */
+/* Computes the box of all lattice sites of the body in l, with a margin of the reach of bonds. Returns the number of
+ * sites, 0 if it is too large. */
 static int64_t box_sites(struct site_map *l, const struct particles *p)
 {
     real site_map = 1;
@@ -46,8 +48,8 @@ static int64_t box_sites(struct site_map *l, const struct particles *p)
     return (int64_t)site_map;
 }
 
-/* Lists the segments of lattice rows within the cutoff of a site, ascending. Returns false if a site is so close to the
- * cutoff that round-off would decide whether it is inside. */
+/* Lists in l->row the segments of lattice rows within the cutoff of a site, ascending. Returns false if a site is so
+ * close to the cutoff that round-off would decide whether it is inside. */
 static bool site_offsets_make(struct site_map *l, const struct family *f, int dim)
 {
     const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
@@ -67,8 +69,8 @@ static bool site_offsets_make(struct site_map *l, const struct family *f, int di
     return true;
 }
 
-/* Enters all particles and images in the map. Returns false if the map cannot be used: a particle off the lattice, two
- * at one site, several bodies, or particles not in the order of their sites. */
+/* Enters all particles and images in the map. Returns false if the map cannot be used: a particle is off the lattice,
+ * two are at one site, there are several bodies, or particles are not in the order of their sites. */
 static bool sites_fill(struct site_map *l, const struct particles *p)
 {
     bool regular = true;
@@ -86,7 +88,7 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     return regular;
 }
 
-/* Returns true if the positions of the body along an axis, in units of the last place of the largest, are whole
+/* Returns true if the positions of the body along axis d, in units of the last place of the largest, are whole
  * multiples of one step: neighbours then have exactly equal distances everywhere. */
 static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
@@ -107,8 +109,8 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
 }
 
 /* Returns true if all particles of the body have the same volume, mass and material, and positions that are exact
- * multiples of a step: equal distances are then equal to the last bit. Images need not: regular_bonds leaves them
- * out. */
+ * multiples of a step: equal distances are then equal to the last bit. Images are not tested, as regular_bonds leaves
+ * them out. */
 static bool is_uniform(const struct site_map *l, const struct particles *p)
 {
     bool same = true;
@@ -174,9 +176,9 @@ int site_map_find_neighbours(const struct site_map *l, const struct particles *p
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Appends the bonds of particles i .. i + 7 to neighbours on one lattice row to *to. site: of particle i; row: the
- * lattice row relative to it, whose first site is neighbour `number` of a full family. Returns false if the indices of
- * the particles on the row are not consecutive. */
+/* Appends the bonds of particles i .. i + 7 to neighbours on one lattice row to *to. site: index of the site of
+ * particle i; row: the lattice row relative to it; number: number of the first site of the row among the neighbours of
+ * a full family. Returns false if the indices of the particles on the row are not consecutive. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
                       int64_t i, int number, struct regular_bonds *to)
 {
@@ -198,7 +200,7 @@ static bool row_bonds(const struct site_map *l, const struct particles *p, int64
     return true;
 }
 
-/* Returns true if all eight particles have a neighbour at every index distance of the list. */
+/* Returns true if all eight particles have a neighbour at every index distance of the list b. */
 static bool is_full(const struct regular_bonds *b)
 {
     unsigned other = 0;
@@ -255,7 +257,7 @@ void regular_bonds_free(struct regular_bonds *to)
 }
 
 /* Computes inverse length and weight of the bonds from particle i + l to j + l for eight lanes l, with the same bits as
- * row_weigh. */
+ * row_weigh. inverse[LANES] [1/m], w[LANES] [1]; dim: dimensions, a constant. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                                 int64_t i, int64_t j, real *inverse, real *w, const int dim)
 {

@@ -53,7 +53,8 @@ void row_soften(struct row *row, const struct row_maker *m, int32_t i)
     }
 }
 
-/* Copies the softening of the bond with index q of the rows `old` to the bond of row `row` that leads to nbr. */
+/* Copies the softening of the bond at entry q of the rows `old` to the bond of row `row` in b whose neighbour is nbr,
+ * if it exists. */
 static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struct bonds *old, int64_t q)
 {
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
@@ -72,7 +73,7 @@ void bonds_take_softness(struct bonds *b, const struct particles *p, const struc
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], old, it.bond.entry);
 }
 
-/* Copies the softening of row blocks that have begun to `packed` (saving), or from it. */
+/* Copies the softening of all bonds in row blocks where softening has begun to `packed` (saving), or from it. */
 static void pack_softness(struct bonds *b, struct bond_softness *packed, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
@@ -102,8 +103,8 @@ status softness_archive(struct bonds *b, struct archive *a)
     return s;
 }
 
-/* Returns half the energy that the bonds of row block g have dissipated by softening [J], for reproducible_sum.
- * context: the bonds. */
+/* Returns half the energy that the bonds of row block g have dissipated by softening [J], as a term of
+ * reproducible_sum. context: the bonds. */
 static real row_block_spent(const void *context, int64_t g)
 {
     const struct bonds *b = context;

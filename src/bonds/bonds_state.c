@@ -12,8 +12,9 @@ real state_intact_weighted_volume(const struct bonds *b, int64_t row)
     return Q;
 }
 
-/* Computes the weighted volume Q of the rows of row block g [m^2]: with b->state.local, for whole rows, from their
- * present bonds; else that of a full family on the lattice or, near faces, of the class of the particle. */
+/* Computes the weighted volume Q of each row of row block g [m^2]: with b->state.local, for rows with whole families, Q
+ * = sum w r^2 over their present bonds; else that of a full family on the lattice or, near faces, of the particle's
+ * class (surface.h). */
 static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)
 {
     const struct family *f = &s->family;
@@ -41,7 +42,7 @@ void state_update_weighted_volumes(struct bonds *b, const struct particles *p, c
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, s, g);
 }
 
-/* Computes the weighted volume Q of rebuilt row blocks, which is still 0 there; row blocks taken from the previous rows
+/* Computes the weighted volume Q of rebuilt row blocks, where it is still 0. Row blocks taken from the previous rows
  * keep theirs. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {

@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Number of row blocks in the cache: enough for the different ones in a few lattice rows, inside and at their ends;
- * empirical. */
+/* Number of row blocks in the cache of recent ones: enough for the different ones in a few lattice rows, inside and at
+ * their ends; empirical. */
 enum { REMEMBERED = 32 };
 
 struct stencil_cache {
@@ -36,15 +36,15 @@ void stencil_cache_free(struct stencil_cache *t)
     memory_free(t);
 }
 
-/* Returns true if two groups of eight have neighbours at equal index distances in equal lanes. */
+/* Returns true if two groups of eight particles have neighbours at equal index distances in equal lanes. */
 static bool same_sites(const struct regular_bonds *a, const struct regular_bonds *b)
 {
     return a->n == b->n && arrays_equal(a->offset, b->offset, a->n, sizeof *a->offset) &&
            arrays_equal(a->from, b->from, a->n, 1) && arrays_equal(a->to, b->to, a->n, 1);
 }
 
-/* Returns true if the array `around` [particles] has equal values at i .. i + 7 and j .. j + 7 and at all neighbours of
- * both, whose index distances b gives. Consecutive index distances are compared at once. */
+/* Returns true if the array around[particles] has equal values at i .. i + 7 and j .. j + 7, and at all neighbours of
+ * both at the index distances b->offset. Consecutive index distances are compared at once. */
 static bool same_around(const real *around, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (memcmp(around + i, around + j, LANES * sizeof *around) != 0) return false;
@@ -56,7 +56,7 @@ static bool same_around(const real *around, const struct regular_bonds *b, int64
     return true;
 }
 
-/* Stores the bonds of particles i .. i + 7 in the cache, in place of the oldest entry. */
+/* Stores the bonds b of particles i .. i + 7 in the cache, in place of the oldest entry. */
 static void remember(struct stencil_cache *t, const struct regular_bonds *b, int64_t i)
 {
     struct cached *to = &t->cached[t->next];
@@ -75,7 +75,7 @@ static void remember(struct stencil_cache *t, const struct regular_bonds *b, int
 }
 
 /* Returns true if all data from which the weights of bonds are computed are equal around particles i .. i + 7 and
- * around j .. j + 7. */
+ * around j .. j + 7. b: index distances of their neighbours. */
 static bool same_weights(const struct bond_source *s, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (s->neighbour_volume && !same_around(s->neighbour_volume, b, i, j)) return false;

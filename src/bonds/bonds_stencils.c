@@ -41,8 +41,8 @@ void stencil_free(struct stencil *p)
 
 /* ---- stencil of one row block ------------------------------------------------------------------------------------ */
 
-/* Stores the reference vector of the bonds from particles i .. i + 7 to j .. j + 7 in the stencil column. Returns false
- * if the intact ones do not all have the same vector to the last bit. */
+/* Stores the reference vector of the bonds from particles i .. i + 7 to j .. j + 7 in the stencil column `to`. Returns
+ * false if the intact bonds do not all have the same vector to the last bit. */
 static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct stencil_column *to)
 {
     int one = 0, same = 1;
@@ -92,7 +92,8 @@ static bool stencils_equal(const struct stencil *a, const struct stencil *b)
            arrays_equal(a->w, b->w, a->columns, sizeof *a->w);
 }
 
-/* Returns the hash of Fowler, Noll and Vo over neighbours and weights, which distinguish most stencils. */
+/* Returns the hash of Fowler, Noll and Vo over index distances and weights of a stencil, which distinguish most
+ * stencils; below HASHES. */
 static int hash_of(const struct stencil *p)
 {
     const uint64_t prime = UINT64_C(0x100000001b3);
@@ -107,8 +108,8 @@ static int hash_of(const struct stencil *p)
     return (int)((hash ^ hash >> 32) % HASHES);
 }
 
-/* Returns the stored stencil that equals `stencil`. If there is none, stores a copy and returns it, or NULL if the
- * table is full. */
+/* Returns the stencil in the table `all` that equals `stencil`. If there is none, stores a copy and returns it, or NULL
+ * if the table is full. */
 static const struct stencil *stencil_store(struct stencils *all, const struct stencil *stencil)
 {
     const int hash = hash_of(stencil);
@@ -191,7 +192,7 @@ void bond_column_write(const struct bonds *b, int64_t column, const struct colum
     bonds_update_column_common(b, column);
 }
 
-/* Writes the columns of a row block, which are defined by its stencil, to the column arrays. */
+/* Writes the columns of a row block, which its stencil defines, to the column arrays. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;

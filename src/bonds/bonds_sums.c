@@ -8,10 +8,12 @@
 
 #include "base/memory.h"
 
-/* relative difference of volumes that counts as round-off: sums of some hundred terms in different order */
+/* Relative difference of volumes that counts as round-off [1]: they are sums of some hundred terms in different
+ * order. */
 #define WHOLE 1e-12
 
-/* Returns the sum of the volumes of the neighbours of particle i times their weights in the family f [m^3]. */
+/* Returns the sum of the volumes of the neighbours of particle i times their weights in the family f [m^3]. map:
+ * lattice sites; found[capacity]: working memory. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int capacity)
 {
@@ -25,8 +27,8 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
     return volume;
 }
 
-/* Computes for each of the particles i .. i + 7 the sum of the volumes of its neighbours times the common `weight`
- * [m^3]. bonds: the neighbours, from the site map. */
+/* Computes volume[i .. i + 7]: for each of these particles the sum of the volumes of its neighbours times the common
+ * `weight` [m^3]. bonds: the neighbours, from the map of lattice sites. */
 static void volumes_near(real *volume, const struct particles *p, const struct regular_bonds *bonds, real weight,
                          int64_t i)
 {
@@ -37,8 +39,8 @@ static void volumes_near(real *volume, const struct particles *p, const struct r
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
 }
 
-/* Replaces volumes of families that equal the full volume up to round-off by the full volume exactly: weights inside a
- * body are then 1, and columns need none (kernels/pd/bond_column.h). */
+/* Replaces entries of volume[n], volumes of families [m^3], that equal the full volume up to round-off by `full`
+ * exactly: weights inside a body are then 1, and columns need none (kernels/pd/bond_column.h). */
 static void whole_volumes(real *volume, int64_t n, real full)
 {
 #pragma omp parallel for schedule(static)
@@ -80,7 +82,8 @@ void bonds_compute_neighbour_volume(real *volume, const struct particles *p, con
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
-/* Returns an upper bound of omega^2 m for one particle [N/m], from the springs of the bonds in its row. */
+/* Returns an upper bound of omega^2 m for particle i [N/m], from the springs of the bonds in its row. stiffness: of a
+ * bond of weight 1. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -112,7 +115,8 @@ struct eight_bounds {
     real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
 };
 
-/* Adds springs from particles i .. i + 7 to j .. j + 7; w = 0: no spring (adding zeros changes no bit). */
+/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound. inverse, w: inverse lengths [1/m] and
+ * weights of the bonds; w = 0: no spring (adding zeros changes no bit); stiffness: of a bond of weight 1. */
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                                      const real *inverse, const real *w, real stiffness, const int dim)
 {
@@ -126,7 +130,7 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
     for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
 }
 
-/* Adds springs as bounds_add does, in the dimension of the particles. */
+/* Adds springs as bounds_add does, with the number of dimensions of the particles as a constant. */
 static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                            const real *inverse, const real *w, real stiffness)
 {
@@ -143,7 +147,7 @@ static void bounds_add_any(struct eight_bounds *bound, const struct particles *p
     }
 }
 
-/* Returns an upper bound of the largest omega^2 of particles i .. i + 7 from the sums of their springs [1/s^2]. */
+/* Returns an upper bound of the largest omega^2 of particles i .. i + 7 [1/s^2] from the sums of their springs. */
 static real bounds_frequency(const struct eight_bounds *bounds, const struct particles *p, int64_t i)
 {
     real largest = 0;
@@ -156,8 +160,8 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
     return largest;
 }
 
-/* Returns an upper bound of the largest omega^2 of particles i .. i + 7 from the bonds that the site map gives, without
- * making their rows [1/s^2]. */
+/* Returns an upper bound of the largest omega^2 of particles i .. i + 7 [1/s^2] from the bonds that the map of lattice
+ * sites gives, without making their rows. pairs: stiffness ratios by materials; stiffness: of a bond of weight 1. */
 static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
@@ -172,7 +176,7 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Returns an upper bound of the largest omega^2 of the particles in row block g from its stored bonds [1/s^2]. */
+/* Returns an upper bound of the largest omega^2 of the particles in row block g [1/s^2] from its stored bonds. */
 static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int64_t columns = b->column_count[g];
@@ -201,7 +205,7 @@ real bonds_critical_step_of_existing(const struct bonds *b, const struct particl
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
-/* Returns the stiffnesses of bonds between two materials over that of material 0, for bounds of frequencies. For
+/* Returns the stiffnesses of bonds between two materials divided by that of material 0, for bounds of frequencies. For
  * state-based models it is the mean of both materials, because each row of a bond responds with its own modulus.
  * Release `ratio` with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
@@ -216,8 +220,9 @@ static struct pair_table pairs_of_bound(const struct bond_source *s)
     return pairs;
 }
 
-/* Marks the first particle of each class of equal surroundings: the others have rows of equal stiffness. Returns NULL
- * if there are no classes, or if particles of a class may have unequal bonds. Release with memory_free. */
+/* Returns marks [n] of the first particle of each class of equal surroundings (surface.h); the others have rows of
+ * equal stiffness. Returns NULL if there are no classes, or if particles of a class may have unequal bonds. Release it
+ * with memory_free. */
 static uint8_t *first_of_classes(const struct surface_weights *w, const struct site_map *map, int64_t n)
 {
     if (!w || !map->uniform) return NULL;

@@ -8,7 +8,8 @@
 
 #define DISTANCE_TOLERANCE 1e-7 /* relative: lattice points at exactly the horizon belong to the family */
 
-/* Returns the volume share of the linear ramp at distance r [1]. */
+/* Returns the volume share of a neighbour at distance r [m] by the linear ramp, which falls from 1 to 0 over one
+ * spacing about the horizon [1]. It is rounded to 1e-9, so that distances equal on paper have equal weights. */
 static real ramp(const struct family *f, real r)
 {
     /* rounded, so that distances equal on paper have equal weights */
@@ -17,10 +18,10 @@ static real ramp(const struct family *f, real r)
     return share > 1 ? 1 : share < 0 ? 0 : share;
 }
 
-/* Returns the volume share beta of a neighbour at distance r [1] (Seleson 2014). */
+/* Returns the volume share beta of a neighbour at distance r [m] [1] (Seleson 2014); 1 if whole volumes are used. */
 static real family_beta(const struct family *f, real r) { return f->volume == VOLUME_WHOLE ? 1 : ramp(f, r); }
 
-/* Returns the influence function omega at distance r [1]. */
+/* Returns the influence function omega at distance r [m] [1]. */
 static real influence(const struct family *f, real r)
 {
     switch (f->influence) {
@@ -37,8 +38,8 @@ static real influence(const struct family *f, real r)
     }
 }
 
-/* Returns r without the round-off of positions if it is a distance of the lattice: equal bonds then have equal weights
- * to the last bit. */
+/* Returns r [m] without the round-off of positions if it is a distance of the lattice, else r: equal bonds then have
+ * equal weights to the last bit. */
 static real true_length(const struct family *f, real r)
 {
     const real squares = square(r / f->spacing), whole = floor(squares + 0.5);
@@ -65,7 +66,7 @@ struct lattice_sums {
     real axial[2], mixed[2]; /* sums of r V beta n1^4 and of r V beta n1^2 n2^2, by class of direction */
 };
 
-/* Adds the lattice point xi [m] to the sums. */
+/* Adds the lattice point at xi[dim] [m] to the sums over a family, if it is within the cutoff. */
 static void sum_point(const struct family *f, const real *xi, int dim, struct lattice_sums *s)
 {
     real r = sqrt(dot(xi, xi, dim)), V = f->cell_volume;
@@ -80,7 +81,7 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     s->mixed[class] += dim > 1 ? r * V * beta * (1 - fourth) / (dim * (dim - 1)) : 0;
 }
 
-/* Returns the sums over a full family. */
+/* Returns the sums over all lattice points of a full family. */
 static struct lattice_sums lattice_sums(const struct family *f)
 {
     struct lattice_sums s = {0};
@@ -98,7 +99,7 @@ static struct lattice_sums lattice_sums(const struct family *f)
 
 /* Computes weights of bonds nearer the axes and of bonds nearer the diagonals such that the family is isotropic: sum r
  * n1^4 = 3 sum r n1^2 n2^2, i.e. C11 = C12 + 2 C44 with C12 = C44. Their scale keeps sum r V unchanged. Without a
- * solution the weights stay as they are. */
+ * solution the weights remain as they are. */
 static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;

@@ -15,20 +15,20 @@
 #include "bonds/bonds.h"
 #include "base/memory.h"
 
-/* A crossing bond: opening at which it breaks over s_c [m], and its contributions to Q and, at unit opening, to sum w r
- * e and sum w |eta|^2. */
+/* A bond across the plane of separation: the opening at which it breaks over s_c [m], and its contributions to the
+ * weighted volume Q and, at unit opening, to sum w r e and sum w |eta|^2. */
 struct crossing {
     real breaks, weighted, sum, energy;
 };
 
-/* Orders bonds by opening, the last to break first. */
+/* Orders bonds across a plane by the opening at which they break, the last to break first. */
 static int later(const void *a, const void *b)
 {
     const struct crossing *x = a, *y = b;
     return (x->breaks < y->breaks) - (x->breaks > y->breaks);
 }
 
-/* Lists the bonds of a particle at `height` [m] above the plane that cross the plane. Returns their number. */
+/* Lists in c the bonds that cross a plane from a particle at `height` [m] above it. Returns their number. */
 static int crossings(const struct family *f, real height, struct crossing *c)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), depth = dim > 2 ? reach : 0;
@@ -45,9 +45,9 @@ static int crossings(const struct family *f, real height, struct crossing *c)
     return n;
 }
 
-/* Returns the work of separation of one layer of particles for s_c = 1, the integral of dW over the opening, summed
- * from the last bond that breaks back to the first. height: of the layer above the plane [m]; local: Q is that of the
- * intact bonds. */
+/* Returns the work of separation of one layer of particles for s_c = 1: the integral of dW over the opening, summed
+ * from the last bond that breaks back to the first. height: of the layer above the plane [m]; local: true if Q is that
+ * of the intact bonds; c: working memory for the bonds that cross the plane. */
 static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
                        struct crossing *c)
 {
@@ -75,8 +75,8 @@ real family_separation_work(const struct family *f, const struct state_modulus *
     return 2 * f->spacing * work;
 }
 
-/* Returns the energy per area of all bonds across a plane at the critical stretch [J/m^2]. Each column of the lattice
- * has n parallel bonds across the plane if their normal component is n spacings. */
+/* Returns the energy per area of all bonds across a plane at the critical stretch of material m [J/m^2]. Each column of
+ * the lattice has n parallel bonds across the plane if their normal component is n spacings. */
 real family_crossing_energy(const struct family *f, const struct material *m)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);

@@ -11,7 +11,7 @@
 
 enum { RADIUS = 2 };
 
-/* Returns the hash of Fowler, Noll and Vo extended by a word. */
+/* Returns the hash of Fowler, Noll and Vo extended by a word of 64 bits. */
 static uint64_t mixed(uint64_t hash, uint64_t word)
 {
     hash = (hash ^ word) * UINT64_C(0x100000001b3);
@@ -37,7 +37,7 @@ static void kinds_free(struct kinds *s)
     memory_free(s->colour);
 }
 
-/* Initialises the kinds: all particles are of one kind. */
+/* Initialises the kinds of particles with equal surroundings: all particles near faces are of one kind. */
 static void kinds_start(struct kinds *s, const struct near_faces *b)
 {
     *s = (struct kinds){.n = 1, .of = NEW("surface.kind", b->n, int32_t)};
@@ -46,8 +46,8 @@ static void kinds_start(struct kinds *s, const struct near_faces *b)
     for (int m = 0; m < 1 << b->offset.dim; m++) s->colour[m] = HASH_START;
 }
 
-/* Returns the hash of the kinds of particle t and its neighbours: the sum of their products with random words, one for
- * each offset. */
+/* Returns the hash of the kinds of particle t (index among those near faces) and its neighbours: the sum of their
+ * products with the random words factor[offsets]. */
 static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, const uint64_t *factor, int64_t t)
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
@@ -74,7 +74,8 @@ static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, i
     return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
 
-/* Returns the colour of particle t in `mirrors` from colours one family less deep. */
+/* Returns the hash of the surroundings (colour) of particle t, reflected by the axes in `mirrors`, from the colours of
+ * its neighbours, which are one family less deep. */
 static uint64_t colour_around(const struct near_faces *b, const struct kinds *s, int64_t t, int mirrors)
 {
     const struct offsets *o = &b->offset;
@@ -84,8 +85,8 @@ static uint64_t colour_around(const struct near_faces *b, const struct kinds *s,
     return hash;
 }
 
-/* Assigns elements with equal hashes to kinds, numbered in the order of their first element: sets s->n, s->of and
- * s->first. hash: [n] */
+/* Assigns n elements with equal hashes hash[n] to kinds, numbered in the order of their first element: sets s->n, s->of
+ * and s->first. */
 static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 {
     int64_t room = 64;
@@ -103,8 +104,8 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
     memory_free(slot);
 }
 
-/* Divides the kinds by the kinds of their neighbours: surroundings are compared one family deeper. colours: true to
- * compute the colours of the new kinds. */
+/* Divides the kinds by the kinds of their neighbours, so that surroundings are compared one family deeper. colours:
+ * true to compute the colours, hashes of the surroundings, of the new kinds. */
 static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
 {
     const int dim = b->offset.dim;
@@ -126,7 +127,8 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 
 /* ---- classes ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the first set of mirrors >= `from` in which a kind has its smallest colour, -1 if there is none. */
+/* Returns the first set of mirrors >= `from`, one bit per axis, in which a kind has its smallest colour (hash of its
+ * surroundings); -1 if there is none. */
 static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
@@ -138,8 +140,8 @@ static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t
     return -1;
 }
 
-/* Assigns kinds to classes: kinds whose smallest colours are equal are mirror images of each other. of: receives the
- * number of the class of each kind, from 0 on [kinds]. */
+/* Assigns kinds of particles to classes: kinds whose smallest colours (hashes of surroundings) are equal are mirror
+ * images of each other. of[kinds]: receives the number of each kind's class, from 0. */
 static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
 {
     struct kinds least = {.of = of};
@@ -154,7 +156,8 @@ static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b,
     memory_free(least.first);
 }
 
-/* Numbers the classes in the order of their first particle, and finds the mirrors under which each is its own image. */
+/* Numbers the classes in the order of their first particle, from 1, and finds the sets of mirrors under which each
+ * class is its own image. */
 static void classes_make(struct bond_classes *a, const struct near_faces *b, const struct kinds *s)
 {
     int32_t *of = NEW("surface.class", s->n, int32_t);
@@ -185,7 +188,7 @@ static int64_t root_of(int64_t *parent, int64_t k)
     return k;
 }
 
-/* Joins the groups of two entries, one of which may have none yet. */
+/* Joins the groups of two entries in the union-find forest `parent`; an entry with parent -1 has no group yet. */
 static void groups_join(int64_t *parent, int64_t one, int64_t other)
 {
     if (parent[one] < 0) parent[one] = one;
@@ -204,8 +207,8 @@ static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* Joins the entries of both directions of every bond that may change. first: [n] first particles of kinds that
- * determine the kinds of all neighbours. */
+/* Joins the entries of both directions of every bond whose factor may change. first[n]: first particles of kinds that
+ * determine the kinds of all neighbours; parent: union-find forest of the entries. */
 static void bonds_join(const struct bond_classes *a, const struct near_faces *b, const int64_t *first, int32_t n,
                        int64_t *parent)
 {
@@ -220,7 +223,8 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
         }
 }
 
-/* Joins the entries of bonds of a class that are mirror images of each other. */
+/* Joins the entries of bonds of a class that are mirror images of each other. parent: union-find forest of the
+ * entries. */
 static void twins_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;

@@ -8,8 +8,8 @@
 
 /* ---- offsets of a full family ------------------------------------------------------------------------------------ */
 
-/* Adds the offset at[dim] [spacings] to the list if it is within the cutoff, with its length, direction and weight.
- * states: the weights are those of state-based models. */
+/* Appends the offset at[dim] [spacings] to the list o if it is within the cutoff of the family f, with its length,
+ * direction and weight. states: true if the weights are those of state-based models. */
 static void offset_add(struct offsets *o, const struct family *f, bool states, const int *at)
 {
     real xi[DIM_MAX], length2 = 0;
@@ -29,8 +29,8 @@ static void offset_add(struct offsets *o, const struct family *f, bool states, c
     o->weight[o->n] = o->share[o->n] * (states ? length : 1), o->n++;
 }
 
-/* Lists the offsets of all neighbours in a full family, with their lengths and weights. states: of state-based
- * models. */
+/* Lists in o the offsets of all neighbours in a full family f, with their lengths and weights, and their mirror images.
+ * states: true if the weights are those of state-based models. */
 static void offsets_make(struct offsets *o, const struct family *f, bool states)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), side = 2 * reach + 1;
@@ -67,7 +67,8 @@ static void offsets_free(struct offsets *o)
     memory_free(o->mirrored);
 }
 
-/* Returns the index of the offset from i to j, -1 if they are not on one lattice. */
+/* Returns the index in the list o of the offset from particle i to j; -1 if they are not on one lattice. spacing
+ * [m]. */
 static int offset_between(const struct offsets *o, const struct particles *p, real spacing, int64_t i, int64_t j)
 {
     int place = 0;
@@ -106,7 +107,7 @@ struct search {
     struct regular_bonds regular; /* regardless of pre-cracks */
 };
 
-/* Allocates the working memory of a search over the map of lattice sites. Release with search_free. */
+/* Allocates the working memory of a neighbour search over the map of lattice sites. Release it with search_free. */
 static void search_make(struct search *search, const struct near_faces *b, const struct site_map *map)
 {
     const int room = bonds_neighbour_count_bound(b->source);
@@ -114,22 +115,23 @@ static void search_make(struct search *search, const struct near_faces *b, const
     regular_bonds_make(&search->regular, map);
 }
 
-/* Releases the working memory of a search. */
+/* Releases the working memory of a neighbour search. */
 static void search_free(struct search *search)
 {
     regular_bonds_free(&search->regular);
     memory_free(search->found);
 }
 
-/* Turns to particles first .. first + 7, whose families are taken from the map where that is possible. */
+/* Prepares the neighbour search of the particles first .. first + 7, whose families are taken from the map where that
+ * is possible. */
 static void search_turn(struct search *search, const struct near_faces *b, int64_t first)
 {
     search->first = first;
     search->eight = regular_bonds_find_uncut(search->map, b->source, b->p, first, &search->regular);
 }
 
-/* Finds the neighbours of particle i, one of the eight, from their regular families, as neighbours_find does. near: a
- * pre-crack may hide some. */
+/* Finds the neighbours of particle i, one of the eight of the search, from their regular families, and stores them in
+ * to[offsets] unless it is NULL. near: true if a pre-crack may separate some. Returns their number. */
 static int regular_neighbours(const struct near_faces *b, const struct search *search, int64_t i, bool near,
                               int32_t *to)
 {
@@ -148,9 +150,9 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
     return kept;
 }
 
-/* Finds the neighbours of particle i, one of the eight of the last search_turn, that pre-cracks do not hide, and stores
- * them by offset in to [offsets], -1 where there is none; to NULL: they are only counted. Returns their number, or -1
- * if one is not on the lattice of the particle. */
+/* Finds the neighbours of particle i, one of the eight of the last search_turn, that no pre-crack separates from it,
+ * and stores them by offset in to[offsets], -1 where there is none; to NULL: they are only counted. Returns their
+ * number, or -1 if one is not on the lattice of the particle. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
@@ -170,7 +172,7 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     return kept;
 }
 
-/* Marks whole families. Returns false if a particle is not on the lattice. */
+/* Sets b->whole[i] for the particles with whole families. Returns false if a particle is not on the lattice. */
 static bool whole_mark(struct near_faces *b, const struct site_map *map)
 {
     bool lattice = true;
@@ -191,7 +193,7 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Marks a particle of the body; several threads may mark the same one. */
+/* Sets near[i] if i is a particle of the body, not an image. Several threads may set the same entry. */
 static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
 {
     if (i >= b->p->n) return;
@@ -199,8 +201,8 @@ static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
     near[i] = 1;
 }
 
-/* Marks the particles near faces: those without whole families, and the neighbours of these. Images count too: their
- * families reach into the body. */
+/* Sets near[i] for the particles near faces: those without whole families, and the neighbours of these. Images count
+ * too, because their families reach into the body. */
 static void near_mark(uint8_t *near, const struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
@@ -231,7 +233,8 @@ static void near_mark(uint8_t *near, const struct near_faces *b, const struct si
     }
 }
 
-/* Lists the neighbours of all particles near faces. Returns false if one is not on the lattice. */
+/* Lists the neighbours of all particles near faces in b->neighbour[n offsets]. Returns false if one is not on the
+ * lattice. */
 static bool neighbours_list(struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
@@ -258,7 +261,7 @@ static bool neighbours_list(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Lists the particles near faces. Returns false if one is not on the lattice. */
+/* Lists the particles near faces in b->particle, with their neighbours. Returns false if one is not on the lattice. */
 static bool near_list(struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
@@ -275,8 +278,8 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
     return neighbours_list(b, map);
 }
 
-/* Finds the first pair of neighbours that is not a whole number of spacings apart along each axis and not separated by
- * a pre-crack. apart: receives both, -1 if there is none. */
+/* Finds the first pair of neighbours that is not a whole number of spacings apart along each axis, and is not separated
+ * by a pre-crack. apart[2]: receives both particles, -1 if there is none. */
 static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;

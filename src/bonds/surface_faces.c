@@ -31,13 +31,13 @@ struct raw_faces {
     real (*area)[DIM_MAX];
 };
 
-/* Returns true if particle t has no neighbour up or down an axis. */
+/* Returns true if particle t has no neighbour up (1) or down (0) an axis, so that it has a face there. */
 static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
 {
     return near_face_neighbour_of(b, t, b->offset.axis[axis][up]) < 0;
 }
 
-/* Returns the face of particle or image j, of area 0 if it is near no face. */
+/* Returns the face of particle or image j, as seen through its mirrors; of area 0 if the particle is near no face. */
 static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
@@ -54,7 +54,8 @@ static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
     return f;
 }
 
-/* Returns the weight of a neighbour at offset k, falling linearly to 0 one spacing beyond the largest component [1]. */
+/* Returns the weight of a neighbour at offset k [1]. It falls linearly with the distance to 0 one spacing beyond the
+ * largest component of an offset. */
 static real nearness(const struct offsets *o, int k) { return fmax(1 - o->length[k] / (o->reach + 1), 0); }
 
 /* Mean over the faces whose normals are less than 90 degrees from that of a particle: normal, and variance of their
@@ -63,8 +64,8 @@ struct mean_face {
     real normal[DIM_MAX], variance;
 };
 
-/* Adds a face, times `weight`, to the sum of areas and to the sums of size, first and second moments of positions
- * relative to `from`. */
+/* Adds a face, times `weight`, to the sum of areas area[dim] and to sums[13]: size, first and second moments of
+ * positions relative to from[dim] [spacings]. */
 static void mean_add(const struct exposed_face *f, const real *from, real weight, int dim, real *area, real *sums)
 {
     real x[DIM_MAX];
@@ -76,8 +77,8 @@ static void mean_add(const struct exposed_face *f, const real *from, real weight
     }
 }
 
-/* Computes the mean normal of the faces around particle t that point in similar directions, and the variance of their
- * positions along it. */
+/* Returns the mean normal of the faces around particle t whose normals are less than 90 degrees from its own, and the
+ * variance of their positions along it [spacings^2]. */
 static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 {
     const struct near_faces *b = raw->body;
@@ -107,8 +108,8 @@ struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
 
-/* Computes the projection of face areas and the contribution to N (x) N of particle t; without a face, the identity and
- * 0. */
+/* Computes the projection of face areas and the contribution to N (x) N of particle t, where N is the mean normal of
+ * the faces nearby; without a face the identity and 0. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -145,7 +146,7 @@ struct smooth_faces {
     struct smooth *smooth; /* [n] */
 };
 
-/* Computes the smoothed faces of all particles with faces. */
+/* Computes the smoothed faces (struct smooth) of all particles with faces. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
     const struct near_faces *b = raw->body;
@@ -161,9 +162,9 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
         if (s->at[t] >= 0) smooth_make(&s->smooth[s->at[t]], raw, t);
 }
 
-/* Computes N (x) N of particle t as the mean over the faces of its family, weighted by nearness, and reduced where
- * fewer faces are near than at a plane face (`plane`: sum of weights there). rotates: of a model with rotations,
- * without this reduction. */
+/* Computes f->normal2[t], N (x) N of particle t, as the mean over the faces of its family weighted by nearness. It is
+ * reduced where fewer faces are near than at a plane face. plane: sum of weights at a plane face; rotates: true for a
+ * model with rotations, which has no such reduction. */
 static void normals_gather(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth_faces *s,
                            real plane, bool rotates, int64_t t)
 {
@@ -188,8 +189,8 @@ static void normals_gather(struct surface_fit_targets *f, const struct near_face
 
 /* Distributes the face of particle t at one end of an axis over the layers behind it, as area and as dipole. The area
  * is extrapolated from the middles of the layers to the face. The weights of the dipole have sum 0: without rotations
- * the difference 1, -1 of the first two layers; with rotations 2, -3, 1, a one-sided first derivative of second order
- * at the face. up: the end in positive direction. */
+ * the difference 1, -1 of the first two layers; with rotations (`rotates`) 2, -3, 1, a one-sided first derivative of
+ * second order at the face. up: 1 for the end in positive direction, else 0. */
 static void face_spread(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth *smooth,
                         int64_t t, int axis, int up, bool rotates)
 {
@@ -212,7 +213,7 @@ static void face_spread(struct surface_fit_targets *f, const struct near_faces *
         for (int k = 0; k < 2; k++) f->dipole[b->place[chain[k].particle]] += first[k];
 }
 
-/* Returns the number of layers of particles along an axis through particle t, from face to face, at most `most`. */
+/* Returns the number of layers of particles along an axis through particle t, from face to face; at most `most`. */
 static int layers(const struct near_faces *b, int64_t t, int axis, int most)
 {
     int n = 1;

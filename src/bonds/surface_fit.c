@@ -16,9 +16,9 @@
 
 #define STIFF 1000.0   /* weight of a strain that loads a face: 1/STIFF; empirical */
 #define ROTATIONS -0.2 /* alpha of models with rotations: fitted to bending */
-/* Weight of (f - 1)^2 relative to the mean square of a bond in its moments; empirical: with a twentieth of it,
- * frequencies of beams of 10 layers are closer by 0.1 %, and time steps shorter by a fifth. Wider limits LEAST and MOST
- * of the factors have the same effect. */
+/* Weight of (f - 1)^2, with the factor f of a bond, relative to the mean square of a bond in its moments; empirical:
+ * with a twentieth of it, frequencies of beams of 10 layers are closer by 0.1 %, and time steps shorter by a fifth.
+ * Wider limits LEAST and MOST of the factors have the same effect. */
 #define PRIOR 2e-2
 #define LEAST 0.2
 #define MOST 3.0
@@ -29,7 +29,7 @@ struct components {
     int n, rank, axis[FOURTHS][4];
 };
 
-/* Lists the components of symmetric tensors of rank `rank`: all ascending sequences of axes. */
+/* Lists in c the components of symmetric tensors of rank `rank` in dim dimensions: all ascending sequences of axes. */
 static void components_make(struct components *c, int rank, int dim)
 {
     int axis[4] = {0};
@@ -43,7 +43,7 @@ static void components_make(struct components *c, int rank, int dim)
     }
 }
 
-/* Returns the index of the tensor component with the axes any [rank], in any order. */
+/* Returns the index in c of the tensor component with the axes any[rank], in any order. */
 static int component_of(const struct components *c, const int *any)
 {
     int axis[4];
@@ -58,7 +58,7 @@ static int component_of(const struct components *c, const int *any)
     return -1;
 }
 
-/* Returns the component k of the product of unit vectors n. */
+/* Returns component k of the tensor product n (x) n .. of a unit vector n[dim]. */
 static real component_value(const struct components *c, int k, const real *n)
 {
     real value = 1;
@@ -78,7 +78,7 @@ struct moments {
     real third_by[DIM_MAX][STRAINS][THIRDS];   /* coefficients of n_p.T:B_l by component of T */
 };
 
-/* Returns component abcd of the fourth moment M of a full family, over M_1111. */
+/* Returns component abcd of the fourth moment M of a full family, divided by M_1111. */
 static real full_of(const struct moments *m, int a, int b, int c, int d)
 {
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
@@ -107,8 +107,8 @@ static void strains_make(struct moments *m)
                     }
 }
 
-/* Computes the third and fourth moments of the bonds of all offsets and of a full family, over M_1111 of the latter,
- * and the basis of strains. */
+/* Computes the third and fourth moments of the bonds of all offsets and the fourth moment M of a full family, divided
+ * by M_1111, and the basis of strains. */
 static void moments_make(struct moments *m, const struct offsets *o)
 {
     real sum[FOURTHS] = {0};
@@ -132,8 +132,8 @@ static void moments_make(struct moments *m, const struct offsets *o)
     strains_make(m);
 }
 
-/* Returns the coefficient alpha of the dipole in tau = alpha dipole, for bonds without rotation: the value for a plane
- * face along which the body is stretched; for shear along the face it is equal in an isotropic family. */
+/* Returns the coefficient alpha in tau = alpha dipole for bonds without rotation: the value for a plane face along
+ * which the body is stretched. In an isotropic family it is the same for shear along the face. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -168,8 +168,8 @@ static void invert(real *a, int n, int capacity)
     }
 }
 
-/* Computes the weights P of strains, the inverse of 1 + STIFF times the product of their tractions, from the mean N (x)
- * N of the faces nearby (normal2). */
+/* Computes the weights P of strains: the inverse of 1 + STIFF Q with Q_kl = (M:B_k) : N (x) N : (M:B_l), the product of
+ * their tractions. normal2: mean N (x) N of the faces nearby. */
 static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], real (*P)[STRAINS])
 {
     const int dim = m->dim;
@@ -184,8 +184,8 @@ static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], re
     invert(&P[0][0], m->strains, STRAINS);
 }
 
-/* Adds the matrix sum_k by_k^T P by_k to `to` [n][capacity]. by: `rows` matrices with rows for the strains and n
- * columns, `capacity` apart. */
+/* Adds the matrix sum_k by_k^T P by_k to `to` [n][capacity]. by: `rows` matrices with STRAINS rows, of which `strains`
+ * are used, and n columns, `capacity` apart. */
 static void quadratic(const real *by, int rows, int strains, int n, int capacity, real (*P)[STRAINS], real *to)
 {
     for (int k = 0; k < rows; k++)
@@ -205,7 +205,8 @@ struct class_goal {
     real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX];
 };
 
-/* Adds area, dipole and N (x) N of particle t, reflected by `mirrors`, with weight `share`. */
+/* Adds face area, dipole and N (x) N of particle t, reflected by the axes in `mirrors`, with the weight `share` to the
+ * goal of a class. */
 static void class_goal_add(struct class_goal *to, int dim, const struct surface_fit_targets *f, int64_t t, int mirrors,
                            real share)
 {
@@ -217,7 +218,7 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
     }
 }
 
-/* Computes the mean targets of all classes. */
+/* Computes goal[classes]: the means of face area, dipole and N (x) N over the members of each class. */
 static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b,
                         const struct surface_fit_targets *f, const struct bond_classes *a)
 {
@@ -230,8 +231,8 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
     }
 }
 
-/* Computes the quadratic form of a class and the target of its moments, less those of the bonds that do not change.
- * alpha: coefficient of the dipole. */
+/* Computes the quadratic form of a class and the target of its moments, less those of the bonds whose factors do not
+ * change. goal: means over the members of the class; alpha: coefficient of the dipole. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -256,7 +257,8 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
     }
 }
 
-/* Returns the sum of the quadratic form of a class over the moments of each of its bonds that may change. */
+/* Returns the sum, over the bonds of a class whose factors may change, of the class's quadratic form of the moments of
+ * the bond. */
 static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];
@@ -274,7 +276,8 @@ static real class_squares(const struct surface_fit_problem *q, const struct mome
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
-/* Sorts the entries by group, and counts the bonds of each group: half of the members of its entries. */
+/* Sorts the entries of the tables by class and offset by group, and counts in bonds[groups] the bonds of each group:
+ * half of the members of its entries. */
 static void group_entries(struct surface_fit_problem *q, real *bonds)
 {
     const struct bond_classes *a = q->alike;
@@ -340,7 +343,7 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     return false;
 }
 
-/* Returns the number of neighbours of particle t. */
+/* Returns the number of neighbours of particle t, an index among those near faces. */
 static int neighbours(const struct near_faces *b, int64_t t)
 {
     int n = 0;
@@ -356,8 +359,8 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors of the bonds of a class: to the factor of the volume method (Le & Bobaru 2018), or to 1 if `one`.
- */
+/* Fixes the factors of the bonds of a class by equal bounds: to the factor of the volume method (Le & Bobaru 2018), or
+ * to 1 if `one`. */
 static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;
@@ -372,9 +375,9 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
 }
 
 /* Fixes the factors of bonds at ends of cracks and in parts with too few layers: to those of the volume method, in
- * models with rotations to 1. If bonds may break, those at ends of cracks break next and get factor 1, for which G_c is
- * calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts come last, so that a bond between
- * both does not depend on the order of its particles. */
+ * models with rotations (`rotates`) to 1. If bonds may break, those at ends of cracks break next and get factor 1, for
+ * which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts come last, so that a
+ * bond between both does not depend on the order of its particles. */
 static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {
@@ -386,7 +389,8 @@ static void plain_parts(struct surface_fit_problem *q, const struct near_faces *
         if (f->thin[a->member[class]]) class_fix(q, b, class, rotates);
 }
 
-/* Sets the bounds of all factors. */
+/* Sets the bounds q->low, q->high of the factors of all groups: LEAST and MOST, or equal ones where plain_parts fixes
+ * the factor. rotates: true for a model with rotations. */
 static void bounds_make(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

@@ -58,8 +58,9 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes the products of the moments of the bonds of a class with the vector `by`. changes: skips pairs of opposite
- * bonds without a mark, unless NULL. */
+/* Computes value[offsets]: the products of the moments of the bonds of a class with the vector `by`. changes: marks of
+ * pairs of opposite bonds, of which those without a mark are skipped; NULL: none is. thirds, fourths: numbers of
+ * moments, constants. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
 {
@@ -76,8 +77,9 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
     }
 }
 
-/* Subtracts the sum of the moments of the bonds of a class, times x of their groups, from `to`. changes: skips pairs of
- * opposite bonds without a mark, for which x is 0, unless NULL. */
+/* Subtracts the sum of the moments of the bonds of a class, times x[group] of their groups, from `to`. changes: marks
+ * of pairs of opposite bonds, of which those without a mark are skipped, since their x is 0; NULL: none is. thirds,
+ * fourths: numbers of moments, constants. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -93,7 +95,8 @@ static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const u
     for (int m = 0; m < thirds + fourths; m++) to[m] -= sum[m];
 }
 
-/* Computes Q^-1 of a class times `of`. */
+/* Computes to = Q^-1 of for a class, with the inverse of its quadratic form Q in c. thirds, fourths: numbers of
+ * moments, constants. */
 static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of, real *to, const int thirds,
                                       const int fourths)
 {
@@ -104,13 +107,15 @@ static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of,
         for (int x = 0; x < fourths; x++) to[thirds + x] += c->fourth[y][x] * of[thirds + y];
 }
 
-/* Returns the marks of the pairs of bonds of a class, in the array `changes` of all classes; NULL if that is NULL. */
+/* Returns the marks of the pairs of opposite bonds of a class, in the array `changes` of all classes; NULL if that is
+ * NULL. */
 static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_t *changes, int32_t class)
 {
     return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
 }
 
-/* Computes `value` of the bonds from the vector x: of all, or, if `changes` is not NULL, of pairs with a mark. */
+/* Computes d->value of the bonds, the products of their moments with the vector x [classes width]. changes: marks of
+ * pairs of opposite bonds to which it is limited; NULL: all. */
 static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -127,8 +132,8 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
     }
 }
 
-/* Computes to = Q^-1 by - sum of moments times x of the groups, plus the goals if `goals`. changes: marks of pairs of
- * bonds, without which x is 0, or NULL. */
+/* Computes to = Q^-1 by - (sum of the moments of the bonds times x of their groups) for all classes, plus the goals if
+ * `goals`. changes: marks of pairs of opposite bonds, without which x is 0; NULL: all are marked. */
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {
@@ -150,7 +155,7 @@ static void all_sum(const struct descent *d, const uint8_t *changes, const real 
     }
 }
 
-/* Returns the sum of `value` over the entries of a group. */
+/* Returns the sum of d->value over the entries of a group of bonds. */
 static real group_sum(const struct descent *d, int64_t g)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -159,7 +164,8 @@ static real group_sum(const struct descent *d, int64_t g)
     return sum;
 }
 
-/* Computes the factors from multipliers x, and R from both. */
+/* Computes d->factor, the factors of the bonds, from the multipliers x, and the residual R of the least-squares problem
+ * from both. */
 static void residual_make(struct descent *d, const real *x, real *residual)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -171,7 +177,7 @@ static void residual_make(struct descent *d, const real *x, real *residual)
     d->products++;
 }
 
-/* Computes the image of `direction` under the matrix of the linear system. */
+/* Computes d->image, the product of the matrix of the linear system with d->direction. */
 static void image_make(struct descent *d)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -184,8 +190,8 @@ static void image_make(struct descent *d)
 
 /* ---- preconditioner ---------------------------------------------------------------------------------------------- */
 
-/* Replaces the lower triangle of a symmetric positive definite matrix, stored by columns, by its Cholesky factor, with
- * inverted diagonal. */
+/* Replaces the lower triangle of a symmetric positive definite matrix a of n rows, stored by columns, by its Cholesky
+ * factor with inverted diagonal. */
 static void cholesky(real *a, int n)
 {
     real *column = a;
@@ -198,7 +204,8 @@ static void cholesky(real *a, int n)
     }
 }
 
-/* Solves with the Cholesky factors a of TOGETHER matrices, in place: x = A^-1 x. */
+/* Solves A x = x in place for TOGETHER systems of n rows at once. a: lower triangles of their Cholesky factors, stored
+ * by columns, with inverted diagonals. */
 static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER])
 {
     const real(*column)[TOGETHER] = a;
@@ -219,7 +226,7 @@ static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER]
     }
 }
 
-/* Counts for each bond of a class the bonds of its group in this class: the bond and its mirror images. */
+/* Counts in d->images for each bond of a class the bonds of its group in this class: the bond and its mirror images. */
 static void images_count(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -229,7 +236,7 @@ static void images_count(const struct descent *d, int32_t class)
         for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
 }
 
-/* Returns the weight of a bond in the block of its class: 0 if its factor is at a bound. Each of n images has n times
+/* Returns the weight of bond k in the block of its class: 0 if its factor is at a bound. Each of n images has n times
  * the weight, which is exact for multipliers with the symmetry of the class. */
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
@@ -237,7 +244,8 @@ static real block_weight(const struct descent *d, int32_t class, int k)
     return group < 0 || !d->between[group] ? 0 : d->images[at] / d->fit->prior[group];
 }
 
-/* Computes the Cholesky factor of the block of a class. */
+/* Computes the Cholesky factor of the block of a class, its part of the matrix of the linear system, for the
+ * preconditioner. */
 static void block_make(const struct descent *d, int32_t class)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -265,7 +273,7 @@ static void block_make(const struct descent *d, int32_t class)
     for (int at = 0; at < width * (width + 1) / 2; at++) all[at][class % TOGETHER] = block[at];
 }
 
-/* Returns true if the factor of a bond of a class has met or left a bound since the last linear system. */
+/* Returns true if the factor of a bond of a class has reached or left a bound since the last linear system. */
 static bool class_turned(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -275,7 +283,7 @@ static bool class_turned(const struct descent *d, int32_t class)
     return false;
 }
 
-/* Marks the pairs of opposite bonds of a class of which a factor is between its bounds. */
+/* Marks in d->changes the pairs of opposite bonds of a class of which a factor is between its bounds. */
 static void class_mark(struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -286,8 +294,8 @@ static void class_mark(struct descent *d, int32_t class)
     }
 }
 
-/* Sets the matrix of the linear system for the present factors: which are between their bounds, and the blocks of the
- * classes where that has changed since the last linear system. */
+/* Sets the matrix of the linear system for the present factors: marks those between their bounds, and computes the
+ * blocks of the classes where that has changed since the last linear system. */
 static void system_make(struct descent *d)
 {
 #pragma omp parallel for schedule(static)
@@ -305,7 +313,7 @@ static void system_make(struct descent *d)
     d->systems++;
 }
 
-/* Computes weighed = blocks^-1 left. */
+/* Computes d->weighed = B^-1 d->left, where B has the blocks of the classes on its diagonal (preconditioner). */
 static void left_weigh(struct descent *d)
 {
     const int32_t classes = d->fit->alike->classes;
@@ -325,7 +333,8 @@ static void left_weigh(struct descent *d)
 
 /* ---- Newton's method --------------------------------------------------------------------------------------------- */
 
-/* Solves for the step of Newton's method until the residual of the linear system is `share` of R. */
+/* Solves the linear system of Newton's method for d->step by preconditioned conjugate gradients, until its residual is
+ * `share` of the residual R of the problem. */
 static void step_solve(struct descent *d, real share)
 {
     real before = 0;
@@ -345,7 +354,8 @@ static void step_solve(struct descent *d, real share)
     }
 }
 
-/* Moves the multipliers along the step until the function hardly falls any more, and updates factors and residual. */
+/* Moves the multipliers along d->step until the slope of the function whose gradient is R is at most STEEP of that at
+ * the start, and updates factors and residual. */
 static void step_take(struct descent *d)
 {
     const real slope = inner(d->n, d->residual, d->step);
@@ -361,7 +371,8 @@ static void step_take(struct descent *d)
     array_copy(d->residual, d->next_residual, d->n, sizeof(real));
 }
 
-/* Makes steps of Newton's method until R is small or the products are used up. Returns R over its first value [1]. */
+/* Makes steps of Newton's method until the residual R is small or the allowed products are used up. Returns |R| over
+ * its first value [1]. */
 static real descend(struct descent *d)
 {
     residual_make(d, d->multiplier, d->residual);
