@@ -106,7 +106,7 @@ static double part_in_mode(const struct mode *m, const struct run *e)
 
 /* Runs the scene of point p in pieces of 1/300 of its duration until the motion in the eigenmode is zero for the second
  * time, which happens at three quarters of a period. This time is interpolated linearly between pieces. Stores the
- * angular frequency of the mode in `measured`, NAN if the zero is not reached. */
+ * angular frequency of the mode in `measured`, NAN if the zero is not reached. FAILED if a step fails. */
 static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
 {
     const struct mode *m = mode_of(p);

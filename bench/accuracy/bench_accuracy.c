@@ -59,7 +59,7 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
 
 /* Runs a point of the cost-accuracy table on one thread and, unless it is 1D, on two threads, as often as its duration
  * allows, and appends the result to the file of results. The error is measured once, since it does not depend on the
- * number of threads. */
+ * number of threads. Returns the first status that is not OK; a run that fails is a result, too. */
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
@@ -154,7 +154,8 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
     return OK;
 }
 
-/* Writes tables, charts and overview page of the cost-accuracy table from the results that are known, without runs. */
+/* Writes tables, charts and overview page of the cost-accuracy table from the results that are known, without runs.
+ * Returns the first status that is not OK. */
 static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));

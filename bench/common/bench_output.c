@@ -127,7 +127,8 @@ status bench_folder_make(void)
     return OK;
 }
 
-/* Composes the first bytes of the file NAME.json, by which the files of a bench are recognised, in text[room]. */
+/* Composes in text[room] the first bytes of the file NAME.json with NAME = name, by which the files of a bench are
+ * recognised. */
 static void json_begin(char *text, size_t room, const char *name)
 {
     snprintf(text, room, "{\n  \"name\": \"%s\",\n  \"version\"", name);
@@ -153,8 +154,8 @@ status bench_guard(const char *name)
     return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave bench; move or remove it", path);
 }
 
-/* Writes a file of results: the JSON of all tables table[tables] if `json`, the name of the bench, is not NULL, else
- * the CSV of one table. FAILED if it cannot be written. */
+/* Writes the file of results `path`: the JSON of all tables table[tables] if `json`, the name of the bench, is not
+ * NULL, else the CSV of one table. FAILED if it cannot be written. */
 static status write_file(const char *path, const char *json, const struct bench_table *table, int tables)
 {
     char *text = NULL;
@@ -196,8 +197,8 @@ status bench_write(const char *name, const struct bench_table *table, int tables
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
-/* Draws results/bench/NAME.png and NAME.svg with the commands that draw(to, context) sends to gnuplot. width, height:
- * size [pixel]. FAILED if gnuplot fails. */
+/* Draws results/bench/NAME.png and NAME.svg, with NAME = name, with the commands that draw(to, context) sends to
+ * gnuplot. width, height: size [pixel]. FAILED if gnuplot fails. */
 status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context)
 {

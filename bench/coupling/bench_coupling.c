@@ -67,7 +67,7 @@ static status measure_pulses(struct bar_table *t, bool quick)
 enum { PLACES = 4 };
 
 /* Runs the bar with partial stress and handshake for several positions of the interface in its grid cell of two
- * spacings, and adds the results to the table. quick: fewer widths of the pulse. */
+ * spacings, and adds the results to the table. quick: fewer widths of the pulse. FAILED if a run fails. */
 static status measure_places(struct bar_table *t, bool quick)
 {
     for (int variant = 0; variant <= VARIANT_HANDSHAKE; variant++)
@@ -83,7 +83,7 @@ static status measure_places(struct bar_table *t, bool quick)
 
 /* Runs the bar with partial stress and handshake with one particle per cell, and with the transfer APIC, and adds the
  * results to the table. The coupling without damping is left out with APIC, since only FLIP damps the interface. quick:
- * fewer combinations. */
+ * fewer combinations. FAILED if a run fails. */
 static status measure_variants(struct bar_table *t, bool quick)
 {
     static const struct {
@@ -105,7 +105,7 @@ static status measure_variants(struct bar_table *t, bool quick)
 
 enum { REFLECTED, TRANSMITTED, ENERGY, SHARES };
 
-/* Returns one of the three values of a result by its index REFLECTED, TRANSMITTED or ENERGY. */
+/* Returns one of the three values of a result. share: its index REFLECTED, TRANSMITTED or ENERGY. */
 static double share_of(const struct pulse_result *r, int share)
 {
     return share == REFLECTED ? r->reflected : share == TRANSMITTED ? r->transmitted : r->energy_change;

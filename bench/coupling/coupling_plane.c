@@ -36,7 +36,7 @@ static struct strip strip_of(int interface, double width)
 }
 
 /* Creates the run e of the strip s with the settings of a row of results. A negative row->variant means material points
- * only, without interface. */
+ * only, without interface. FAILED or REFUSED if the scene cannot be read. */
 static status strip_make(struct run *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
 {
     struct bench_overrides o = {0};
@@ -152,7 +152,8 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
 }
 
 /* Runs the strip with all couplings and weights of bonds, after one run without interface, and adds the results to the
- * table. width: of the pulse [spacings]; transfer: flip or apic. */
+ * table. interface: index of the interface's direction; width: of the pulse [spacings]; transfer: flip or apic. FAILED
+ * if a run fails. */
 static status group_measure(struct plane_table *t, int interface, double width, const char *transfer)
 {
     static const char *const weights[WEIGHTS] = {"uniform", "isotropic"};

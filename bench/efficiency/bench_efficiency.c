@@ -64,7 +64,8 @@ static status make(struct run *e, struct scene *s, const struct result *x, int v
 /* Returns the share of peridynamic particles in a run [1]. */
 static double pd_share(const struct run *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
 
-/* Runs a scene in SAMPLES pieces and stores in r the time and the share of peridynamic particles after each of them. */
+/* Runs a scene in SAMPLES pieces and stores in r the time and the share of peridynamic particles after each of them.
+ * FAILED if a step fails. */
 static status run_pieces(struct run_times *r, struct run *e)
 {
     r->share[0] = pd_share(e);
@@ -114,8 +115,8 @@ static status run_shares(struct result *x, int variant)
 /* ---- results of a scene ------------------------------------------------------------------------------------------ */
 
 /* Compares the end of the longest crack of full peridynamics with the corresponding crack of an adaptive run. variant:
- * index of the adaptive run. Stores in x the differences of start time, position and angle; the latter two are NAN
- * without a crack. */
+ * index of the adaptive run; dim: dimension of the scene. Stores in x the differences of start time, position and
+ * angle; the latter two are NAN without a crack. */
 static void compare_tips(struct result *x, int variant, int dim)
 {
     const struct crack_ends *pd = &x->run[0].ends, *adaptive = &x->run[variant].ends;

@@ -43,7 +43,7 @@ struct all_scatters {
     struct scatter *at;
 };
 
-/* Returns false for 3D scenes at a finer spacing than their own, which take minutes per run. */
+/* Returns false for scenes in 3D (dim = 3) at a finer spacing than their own, which take minutes per run. */
 static bool is_short(const struct scene_case *c, int dim) { return !(c->spacing && dim == 3); }
 
 static double factor_of(int run, int runs) { return 1 + STEP_RANGE * (2.0 * run / (runs - 1) - 1); }
@@ -193,7 +193,7 @@ static void sensitivity_draw(FILE *to, const void *context)
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 /* Runs a scene with all time steps and both methods, and computes the scatter of its crack ends. quick: fewer time
- * steps. */
+ * steps. FAILED if a run fails. */
 static status sensitivity_measure(struct scatter *x, bool quick)
 {
     double dt;

@@ -31,9 +31,9 @@ static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Creates a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks, and runs one step. method,
- * model, mpm: values of these scene keys; more: further keys of the scene; yields: the material has a yield stress.
- * FAILED if the step fails. Release with bench_engine_free. */
+/* Creates a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks, and runs one step. dim: its
+ * dimension; method, model, mpm: values of these scene keys; more: further keys of the scene; yields: the material has
+ * a yield stress. FAILED if the step fails. Release with bench_engine_free. */
 static status kernels_body_make(struct run *e, struct scene *s, int dim, const char *method, const char *model,
                                 const char *mpm, const char *more, bool yields)
 {

@@ -58,8 +58,8 @@ static bool machine_holds(const struct bench_block *block, double particles)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Runs a block that writes a frame every FRAME_EVERY steps. Stores in *r the time for which a frame stops the loop [s]
- * and the size of a frame per particle [byte]. FAILED if the run fails. */
+/* Runs a block of about `particles` particles that writes a frame every FRAME_EVERY steps. Stores in *r the time for
+ * which a frame stops the loop [s] and the size of a frame per particle [byte]. FAILED if the run fails. */
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;

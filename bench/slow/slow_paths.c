@@ -66,7 +66,8 @@ static status kink_take(void *row, const char *folder)
     return OK;
 }
 
-/* Adds a row to the table, and sets *worst to the deviation of r if it is larger or NAN. */
+/* Adds a row called `name` with the figures of r to the table, and sets *worst to the deviation of r if it is larger or
+ * NAN. */
 static void path_put(struct bench_table *t, const char *name, const struct path_row *r, double *worst)
 {
     bench_text(t, name);

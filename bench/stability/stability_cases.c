@@ -22,8 +22,8 @@ static const char *const transfer[] = {"flip", "apic"};
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Passes on the peridynamic cases with all horizons, by dimension and model. Returns the first status that is not
- * OK. */
+/* Passes on the peridynamic cases with all horizons, by dimension and model, to t->take. Returns the first status that
+ * is not OK. */
 static status horizons(const struct taker *t)
 {
     static const double horizon[] = {3.015, 1, 2.015, 1.5, 4.015, 5.015, 6.015};

@@ -47,8 +47,9 @@ static double motion(const struct run *e, double drift)
            0.5 * e->mass * e->part.dim * drift * drift;
 }
 
-/* Creates the run of a case with the time step dt [s], or with the automatic one if dt is 0. With dt > 0 it is so long
- * that only its first step is a sample. Release with bench_engine_free. */
+/* Creates the run of a case with the time step dt [s], or with the automatic one if dt is 0. With dt > 0 it is so
+ * long that only its first step is a sample. FAILED or REFUSED if the scene cannot be read. Release with
+ * bench_engine_free. */
 static status limit_block_make(struct run *e, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};

@@ -158,8 +158,8 @@ static void say_basis(const struct scene *scene, const struct cost *c)
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 
-/* Prints the run time of a static equilibrium in two forms: for 1000 steps with its bounds, and for the largest number
- * of steps. The number of steps that the solver will need is not known in advance. */
+/* Prints the run time of a static equilibrium on `threads` threads in two forms: for 1000 steps with its bounds, and
+ * for the largest number of steps. The number of steps that the solver will need is not known in advance. */
 static void say_cost_at_rest(const struct run *e, const struct cost *c, int threads)
 {
     const double thousand = 1e3 * c->step;

@@ -100,8 +100,8 @@ static double time_contact(struct run *e)
 /* ---- other scenes ------------------------------------------------------------------------------------------------ */
 
 /* Reads the scene of `a` again with the additional override key=value (none if key is NULL) and creates its run e.
- * rest: true if inactive parts of the body may be skipped, as the scene requests. The caller releases s and e, also on
- * failure. */
+ * rest: true if inactive parts of the body may be skipped, as the scene requests. Returns FAILED or REFUSED if the
+ * scene cannot be read or its run cannot be created. The caller releases s and e, also on failure. */
 static status make_other(struct scene *s, struct run *e, const struct run_arguments *a, const char *key,
                          const char *value, bool rest)
 {

@@ -94,9 +94,9 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
     return 1 / sqrt(1 + slope2);
 }
 
-/* Sums the area of particles of face f, and separately the area of those where the surface is inclined to the axis by
- * more than ELSEWHERE degrees. Includes particles whose inner end is at the coordinate `from` along the axis (outward
- * positive [m]) or further out; -INFINITY includes all. c: column heights (see cosine_at). */
+/* Returns the sums of the area of particles of face f, and separately of the area of those where the surface is
+ * inclined to the axis by more than ELSEWHERE degrees. Includes particles whose inner end is at the coordinate `from`
+ * along the axis (outward positive [m]) or further out; -INFINITY includes all. c: column heights (see cosine_at). */
 static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
                                        const struct boundary *b, const struct exposed_face *f, const struct ends *c,
                                        real from)

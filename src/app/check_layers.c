@@ -130,12 +130,13 @@ double count_thin_layers(const struct run *e, int body, double max_layers)
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
 
 /* Returns the relative error in bending of nearly incompressible peridynamic bodies, in plane strain and 3D [%]. The
- * values were measured with 10 layers, in static bending with the models ospd and mospd, and decrease as 1/layers. */
+ * values were measured with 10 layers, in static bending with the models ospd and mospd, and decrease as 1/layers.
+ * poisson: Poisson's ratio. */
 static double soft_families(double poisson, double layers) { return (poisson > 0.47 ? 30 : 15) * 10 / layers; }
 
 /* Returns the relative error in bending of linear cells of two spacings [%]. A beam of N layers is 1 + b/N^2 times too
- * stiff, with b = 0.65/(1 - 2 nu): an empirical fit to cantilevers of 8 and 16 layers with nu from 0.3 to 0.4995,
- * within a fifth of b. */
+ * stiff, with b = 0.65/(1 - 2 nu): an empirical fit to cantilevers of 8 and 16 layers with Poisson's ratios nu from 0.3
+ * to 0.4995, within a fifth of b. */
 static double soft_cells(double poisson, double layers)
 {
     const double more = 0.65 / (1 - 2 * poisson) / (layers * layers);

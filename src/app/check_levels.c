@@ -19,7 +19,7 @@ void print_levels(const struct run *e)
                (long long)levels_count_cells(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
-/* Writes a number as text, in full or, if `millions` is true, as in "52 million". Returns text. */
+/* Writes the number n into text[32], in full or, if `millions` is true, as in "52 million". Returns text. */
 static const char *many(double n, bool millions, char text[static 32])
 {
     if (millions)

@@ -48,8 +48,8 @@ enum { MOMENTS = 200, PLACES = 64 }; /* numbers of times, and of particles of a 
  * vector[dim]. */
 typedef void vector_fn(const struct load *l, const struct particles *p, int64_t k, real t, real *vector);
 
-/* Returns the sum of the squared vectors (forces or displacements) of a load at time t, over a sample of its
- * particles. */
+/* Returns the sum of the squared vectors of a load at time t, over a sample of its particles. vector: the function that
+ * computes the vector of one particle, a force or a displacement. */
 static real square_sum(const struct load *l, const struct particles *p, vector_fn *vector, real t)
 {
     real sum = 0, a[DIM_MAX];
@@ -57,8 +57,8 @@ static real square_sum(const struct load *l, const struct particles *p, vector_f
     return sum;
 }
 
-/* Returns the time [s] at which the vectors (forces or displacements) of a load are largest, among evenly spaced times
- * and the times of its table. Returns `duration`, the last time, unless they are larger at an earlier one. */
+/* Returns the time [s] at which the vectors of a load are largest, among evenly spaced times and the times of its
+ * table. Returns `duration`, the last time, unless they are larger at an earlier one. vector: see square_sum. */
 static real largest_at(const struct load *l, const struct particles *p, vector_fn *vector, real duration)
 {
     const struct time_function *f = &l->boundary->time;
@@ -73,7 +73,7 @@ static real largest_at(const struct load *l, const struct particles *p, vector_f
 }
 
 /* Returns the time at which the force of a load is reported, with a text that gives the reason: the time at which the
- * force is largest, or the end of the run. */
+ * force is largest, or `duration`, the end of the run. */
 static struct instant instant_of(const struct load *l, const struct particles *p, real duration)
 {
     const struct boundary *b = l->boundary;

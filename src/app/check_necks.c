@@ -65,8 +65,8 @@ static int64_t run_span(const struct necks *k, int64_t from)
     return n;
 }
 
-/* Returns true if a cell with a particle adjoins an end of a run of n cells along k->axis. from: the first cell of the
- * run. */
+/* Returns true if a cell with a particle adjoins an end of a run of n cells along k->axis (see run_goes_on). from: the
+ * first cell of the run. */
 static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
@@ -92,8 +92,9 @@ static void rows_count(struct necks *k)
     }
 }
 
-/* Searches the cells beside the run through `cell`: those next to it along the axis `across`, in the direction `way`
- * (-1 or 1). Returns the one of these cells whose own run has the most rows, or -1 if none of them is in a run. */
+/* Searches the cells beside the run through `cell` (see run_goes_on): those next to it along the axis `across`, in the
+ * direction `way` (-1 or 1). Returns the one of these cells whose own run has the most rows, or -1 if none of them is
+ * in a run. */
 static int64_t run_beside(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct cover *c = k->cover;
@@ -246,7 +247,8 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
     return exact / filled - 1;
 }
 
-/* Returns the index of the cell at the centre u->at of a neck, or -1 if this cell is outside the grid or in no run. */
+/* Returns the index of the cell at the centre u->at of a neck, or -1 if this cell is outside the grid or in no run (see
+ * run_goes_on). */
 static int64_t neck_cell(const struct necks *k, const struct uneven *u)
 {
     int64_t cell = 0;
@@ -354,9 +356,9 @@ static void neck_mark(struct necks *k, int64_t cell)
     }
 }
 
-/* Follows the runs of equal length along the axis `across`, starting at the run through `cell`. If the runs before and
- * after them are longer, or a plane of symmetry is there, they are a neck: it is measured and, if its error is large,
- * added to the list. */
+/* Follows the runs of equal length (see run_goes_on) along the axis `across`, starting at the run through `cell`. If
+ * the runs before and after them are longer, or a plane of symmetry is there, they are a neck: it is measured and, if
+ * its error is large, added to the list. */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);

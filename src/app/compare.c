@@ -122,8 +122,8 @@ static struct difference field_difference(float *const *a, float *const *b, int 
     return d;
 }
 
-/* Prints a row of the table of fields: the largest and root-mean-square difference, the scale of the field, and the
- * position of the largest difference. f: frame of run A with the reference positions. */
+/* Prints a row of the table of fields: the label with the unit, the largest and root-mean-square difference, the scale
+ * of the field, and the position of the largest difference. f: frame of run A with the reference positions. */
 static void print_field(const char *label, const char *unit, const struct output_frame *f, struct difference d)
 {
     char text[KEY_LENGTH];
@@ -233,7 +233,7 @@ static status compare_frames(struct pair *p)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of a column in the last row of a history; NAN if there is no such column or row. */
+/* Returns the value of the column called `name` in the last row of a history; NAN if there is no such column or row. */
 static double last_of(const struct history *h, const char *name)
 {
     return h->rows > 0 ? history_at(h, h->rows - 1, history_find_column(h, name)) : NAN;
@@ -281,8 +281,8 @@ static double compare_figure_of(const char *folder, const char *key)
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Reads the position place[DIM_MAX] of crack tip number k [m] from the summary of a run. Returns false if the run has
- * no such tip. */
+/* Reads the position place[DIM_MAX] of crack tip number k [m] from the summary of the run in `folder`. Returns false if
+ * the run has no such tip. */
 static bool tip_place(const char *folder, int k, double place[DIM_MAX])
 {
     bool found = false;

@@ -10,7 +10,7 @@
 
 static const char usage[] = "export " EXPORT_WORDS;
 
-/* Programs and formats to which scenes are exported. */
+/* Programs and formats to which scenes are exported. write: the function that writes the files. */
 static const struct target {
     const char *name;
     status (*write)(const struct export_request *);

@@ -66,7 +66,8 @@ static status help_topic(const char *word)
     return answer && !scene_has_key(word) ? OK : scene_print_help(stdout, word);
 }
 
-/* Prints the page of all scene keys, preceded by the line with which an editor finds the schema of scenes. */
+/* Prints the page of all scene keys, preceded by the line with which an editor finds the schema of scenes. Returns
+ * OK. */
 static status help_scene(void)
 {
     char schema[4096];
@@ -92,8 +93,8 @@ static status help_misspelt(const char *word)
     return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
 }
 
-/* Joins the words after `help` by underscores, as in names of keys: fracture energy becomes fracture_energy. Stores the
- * text in joined[capacity] and returns it, or NULL if there are no words. */
+/* Joins the words argv[1..argc-1] after `help` by underscores, as in names of keys: fracture energy becomes
+ * fracture_energy. Stores the text in joined[capacity] and returns it, or NULL if there are no words. */
 static const char *help_word(int argc, char **argv, char *joined, size_t capacity)
 {
     size_t used = 0;

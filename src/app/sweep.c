@@ -108,7 +108,8 @@ static void sweep_print(const struct study *s)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Reads the results of all finished runs of a study, writes its table sweep.csv and draws its pictures. */
+/* Reads the results of all finished runs of a study, writes its table sweep.csv and draws its pictures. Returns the
+ * first status that is not OK. */
 static status sweep_collect(const struct study *s, const struct sweep_arguments *a)
 {
     struct study_table table;

@@ -52,7 +52,8 @@ static struct contents contents_of(const struct plotted_particles *cloud, int cl
 }
 
 /* Draws, for each frame of a run, the maps of damage, kinds of particles and the chosen field. A map is omitted if the
- * selected frames do not contain its quantity. has: contents of the selected frames. */
+ * selected frames do not contain its quantity. has: contents of the selected frames. FAILED if a frame cannot be read
+ * or gnuplot fails. */
 static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view,
                          const struct contents *has)
 {
@@ -78,7 +79,8 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 
 /* Draws the maps of damage, of the chosen field, of the kinds of particles and of fragments. A map is omitted if the
  * frames do not contain its quantity. cloud[frames->shown]: drawn particles of the selected frames. If r->every is set,
- * the same maps of every frame of the run follow. */
+ * the same maps of every frame of the run follow. REFUSED if the request does not suit the field; FAILED if a frame
+ * cannot be read or gnuplot fails. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
@@ -104,7 +106,8 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
 }
 
 /* Draws an outside view of a three-dimensional run: the map of the chosen field, and the map of its cracks.
- * cloud[frames->shown]: drawn particles of the selected frames. */
+ * cloud[frames->shown]: drawn particles of the selected frames. REFUSED if the request does not suit the field; FAILED
+ * if gnuplot fails. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
                            const struct plotted_particles *cloud)
 {
@@ -142,7 +145,7 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
 /* Draws the profiles of a bar with the closed-form solution of the EXACT probe called `probe`. Leaves out the frame at
- * t = 0 if there are others. */
+ * t = 0 if there are others. FAILED if a profile cannot be read or gnuplot fails. */
 static status plot_draw_bar(const struct plot_request *r, const struct run_frames *frames, const char *probe)
 {
     char title[TITLE_LENGTH];
@@ -152,7 +155,8 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
                                        probe, frames->show + skipped, frames->shown - skipped);
 }
 
-/* Draws profiles of a bar: with the closed-form solution if the run has an EXACT probe, else from the particles. */
+/* Draws profiles of a bar: with the closed-form solution if the run has an EXACT probe, else from the particles. FAILED
+ * if a frame cannot be read or gnuplot fails. */
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
@@ -169,7 +173,8 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* Draws the maps of a run in two or three dimensions: those of a slice and, in 3D, of an outside view. last: the last
- * selected frame. */
+ * selected frame. REFUSED if no particle is in the requested slice, or the request does not suit the field; FAILED if a
+ * frame cannot be read or gnuplot fails. */
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;

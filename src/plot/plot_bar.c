@@ -187,7 +187,8 @@ static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int
     putc('\n', to);
 }
 
-/* Draws all panels of a bar with its closed-form solution. h[frames]: profiles of the frames show[frames]. */
+/* Draws all panels of a bar with its closed-form solution. h[frames]: profiles of the frames show[frames]. FAILED if
+ * gnuplot fails. */
 static status plot_bar_draw(struct sheet sheet, const char *title, const struct history *h,
                             const struct listed_frame *show, int frames)
 {

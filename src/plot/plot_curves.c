@@ -79,7 +79,7 @@ static bool column_varies(const struct history *h, int column)
 }
 
 /* Draws the crack length and the share of peridynamic particles over time, each only if it changes. The crack length of
- * a bar is never drawn. Prints a message if neither changes. */
+ * a bar is never drawn. Prints a message if neither changes. FAILED if gnuplot fails. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
@@ -175,7 +175,7 @@ static void plot_balance(FILE *to, const struct series *s, double largest)
 }
 
 /* Draws the energies of a run over time, and below them the balance error if the history has it. Prints a message if
- * all energies are 0. */
+ * all energies are 0. FAILED if gnuplot fails. */
 static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
 {
     struct energies e;
@@ -271,8 +271,8 @@ static void profile_range(FILE *to, const struct output_frame *frame, int frames
 }
 
 /* Sends the frame f as the data block $fK of the k-th curve: position, velocity, stress and damage of the particles
- * from left to right. An empty line interrupts the curve where the bar has separated. unit[3]: units of position,
- * velocity and stress. */
+ * from left to right. An empty line interrupts the curve where the bar has separated: neighbours are more than 1.5
+ * `spacing` [m] apart. unit[3]: units of position, velocity and stress. */
 static void send_profile(FILE *to, const struct output_frame *f, int k, double spacing, const struct unit *unit)
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
@@ -363,7 +363,8 @@ status bar_profiles_draw(struct sheet sheet, const char *title, const struct out
 }
 
 /* Sends the frame f as the data block $fK of the k-th curve: position and value[f->n] of a field from left to right. An
- * empty line interrupts the curve where the bar has separated. factor: units of position and value. */
+ * empty line interrupts the curve where the bar has separated: neighbours are more than 1.5 `spacing` [m] apart.
+ * factor: units of position and value. */
 static void send_field(FILE *to, const struct output_frame *f, int k, const float *value, double spacing,
                        const double factor[2])
 {

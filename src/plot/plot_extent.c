@@ -53,7 +53,7 @@ static bool same_side(const struct pairs *p, int64_t i, int64_t j)
            !(p->scene && cracks_separate_particles(p->scene->crack, p->scene->cracks, &p->part, i, j));
 }
 
-/* Returns true if two neighbours are on one side of all cracks and at least one of them has all its bonds. */
+/* Returns true if the neighbours i and j are on one side of all cracks and at least one of them has all its bonds. */
 static bool surely_connected(const struct pairs *p, int64_t i, int64_t j)
 {
     return same_side(p, i, j) && (p->f->damage[i] <= 0 || p->f->damage[j] <= 0);

@@ -54,7 +54,7 @@ static double level_at(const struct rigid_shown *r, int dim, const double *x, bo
     return level;
 }
 
-/* Returns the present coordinate along the direction `axis` [m] of corner k of the box of a rigid body. Bit d of k
+/* Returns the present coordinate along the direction axis[dim] [m] of corner k of the box of a rigid body. Bit d of k
  * selects the upper end of the box along axis d. */
 static double corner_along(const struct rigid_shown *r, int dim, int k, const double *axis)
 {

@@ -31,8 +31,8 @@ struct components {
     bool since;
 };
 
-/* Finds the columns of the components of a vector quantity of a probe or rigid body. The name of a column is `probe`,
- * `by` and `quantity` followed by the axis, for example NAME.force_x. */
+/* Returns the columns of the components of a vector quantity of a probe or rigid body; n = 0 if there are none. The
+ * name of a column is `probe`, `by` and `quantity` followed by the axis, for example NAME.force_x. */
 static struct components components_of(const struct history *h, const char *probe, const char *by, const char *quantity)
 {
     struct components c = {0};
@@ -220,8 +220,8 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
 
 /* ---- R-curve ----------------------------------------------------------------------------------------------------- */
 
-/* Reads the critical energy release rates of the materials in the scene of a run into value[] [J/m^2], each value once.
- * Returns their number; 0 if the scene cannot be read. */
+/* Reads the critical energy release rates of the materials in the scene of the run in `folder` into value[] [J/m^2],
+ * each value once. Returns their number; 0 if the scene cannot be read. */
 static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
 {
     struct scene s;

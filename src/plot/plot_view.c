@@ -14,7 +14,7 @@ static int plot_view_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Copies the finite ones of n values, at most SAMPLE_MOST of them evenly spaced by index, into sample[SAMPLE_MOST] in
+/* Copies the finite ones of value[n], at most SAMPLE_MOST of them evenly spaced by index, into sample[SAMPLE_MOST] in
  * ascending order. Returns their number. */
 static int64_t sample_sorted(float *sample, const float *value, int64_t n)
 {
@@ -129,7 +129,8 @@ void view_set_field(struct view *v, const struct plot_field *field, const struct
     if (!(v->high > v->low)) v->high = v->low + 1; /* all values are equal */
 }
 
-/* Reads an end of the colour scale of a field from a text with a unit of the field. REFUSED for other texts. */
+/* Reads an end of the colour scale of a field into *value from a text with a unit of the field. REFUSED for other
+ * texts. */
 static status range_end_read(real *value, const char *text, const struct plot_field *field)
 {
     char what[256];

@@ -15,7 +15,8 @@ static const float YIELDED = 1e-4f;
 
 /* ---- particle sets ----------------------------------------------------------------------------------------------- */
 
-/* Returns an allocated copy of n elements of `size` bytes. The caller releases it with memory_free. */
+/* Returns an allocated copy of n elements of `size` bytes that begin at `from`. The caller releases it with
+ * memory_free. */
 static void *copy_of(const void *from, int64_t n, size_t size)
 {
     void *to = memory_new("report.set", n, size);

@@ -28,8 +28,8 @@ struct units {
     const char *header;
 };
 
-/* Writes the unit of the figure of summary.json called `key`, if it has one. context: struct units. Called for each
- * figure. */
+/* Writes the unit of the figure of summary.json called `key`, if it has one; its value is not needed. context: struct
+ * units. Called for each figure. */
 static void write_unit(void *context, const char *key, double value)
 {
     const struct units *u = context;
@@ -53,9 +53,9 @@ static void write_figures(struct page *p, const char *folder, const char *header
 
 /* ---- history ----------------------------------------------------------------------------------------------------- */
 
-/* Writes the columns of history.csv in single precision. Of long histories it writes every n-th line, so that they fit
- * into HISTORY_BYTES, and the last line. header: first line of the file; "": there is no file. Returns FAILED if the
- * file cannot be read. */
+/* Writes the columns of history.csv in `folder` in single precision. Of long histories it writes every n-th line, so
+ * that they fit into HISTORY_BYTES, and the last line. header: first line of the file; "": there is no file. Returns
+ * FAILED if the file cannot be read. */
 static status write_history(struct page *p, const char *folder, const char *header)
 {
     struct history h;
@@ -145,7 +145,7 @@ static void write_scene(struct page *p, const char *folder, const struct scene *
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the frames of a run, if there are any, to the page. scene: of the run; NULL: not known. Stores the number of
+/* Writes the frames of the run in `folder`, if there are any, to the page. scene: of the run; NULL: not known. Stores the number of
  * particles of the first frame in *particles, 0 without frames. Returns FAILED if a frame cannot be read. */
 static status write_film(struct page *p, const char *folder, const struct scene *scene, int64_t *particles)
 {

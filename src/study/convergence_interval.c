@@ -42,8 +42,8 @@ static double range_scale(const struct convergence *c)
 }
 
 /* Fits the value v at spacing 0 and the slope a of m_k = v + a (h_k/h_0)^p to the means of the levels by least squares.
- * p: order; t: misfit, the standard deviation of the means over `scale`. Stores mean and standard deviation of the
- * posterior of v, as (v - m_0)/scale. Returns the logarithm of the likelihood of the means. */
+ * p: order; t: misfit, the standard deviation of the means over `scale`. Stores mean (*centre) and standard deviation
+ * (*deviation) of the posterior of v, as (v - m_0)/scale. Returns the logarithm of the likelihood of the means. */
 static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
 {
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;

@@ -193,7 +193,8 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
 }
 
 /* Makes the first run of a study at the coarsest level. While the scene is invalid at that spacing, refines all levels
- * and tries again, at most FINER_MOST times. Stores the largest refused spacing in s->refused. */
+ * and tries again, at most FINER_MOST times. Stores the largest refused spacing in s->refused. Returns the status of
+ * the last try. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;

@@ -136,7 +136,8 @@ static bool probe_has(const struct scene *s, const char *group, const char *leaf
 }
 
 /* Returns the kind of space that a figure needs and the scene does not have, as a phrase for a message; NULL if the
- * scene has it. It follows from axes at the end of the figure's name, such as velocity_y or stress_zx_max. */
+ * scene has it. It follows from axes at the end of `leaf`, the last part of the figure's name, such as velocity_y or
+ * stress_zx_max. */
 static const char *axes_lack(const struct scene *s, const char *leaf)
 {
     char axes[LEAF_ROOM];

@@ -9,9 +9,9 @@
 
 /* ---- the figure -------------------------------------------------------------------------------------------------- */
 
-/* Returns the figure (number in summary.json) by which pilot runs are judged if the scene names none: the first figure
- * of a probe that is larger than its uncertainty, else the start time of cracks, else the largest energy. Returns NULL
- * if there is none of these. */
+/* Returns the one of figure[figures] (numbers in summary.json) by which pilot runs are judged if the scene names none:
+ * the first figure of a probe that is larger than its uncertainty, else the start time of cracks, else the largest
+ * energy. Returns NULL if there is none of these. */
 static const struct scalar_result_study *figure_usual(const struct scalar_result_study *figure, int figures)
 {
     const struct scalar_result_study *start = NULL, *energy = NULL;

@@ -22,8 +22,8 @@ void study_folder_default(char *to, size_t capacity, const struct scene *scene, 
     snprintf(to, capacity, "results/%s_%s", scene->name, kind);
 }
 
-/* Reads the scene file `path` and writes the default folder of a study of it, results/NAME_KIND, into to[capacity].
- * Returns REFUSED or FAILED if the scene cannot be read. */
+/* Reads the scene file `path` and writes the default folder of a study of it, results/NAME_KIND with KIND = kind, into
+ * to[capacity]. Returns REFUSED or FAILED if the scene cannot be read. */
 static status place_read(char *to, size_t capacity, const char *path, const char *kind)
 {
     struct scene scene;
@@ -291,7 +291,8 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
 }
 
 /* Looks up the scene of run `number` in the hash table of scenes. If an earlier run has the same scene, sets the state
- * of this run to CASE_SAME; otherwise enters the scene into the table. text: the scene of the run. */
+ * of this run to CASE_SAME; otherwise enters the scene into the table. text: the scene of the run. REFUSED or FAILED if
+ * the scene of an earlier run cannot be read. */
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];

@@ -7,8 +7,9 @@
 
 enum { VALUE_SHOWN = LABEL_ROOM - 8, CUT_SHOWN = 20, LEFT_OUT_LEAST = 4 };
 
-/* Computes the numbers of characters that all values of a key have in common at their beginning and at their end, which
- * labels may omit. Both are cut at separators, so that no number is divided, and are 0 if less than LEFT_OUT_LEAST. */
+/* Computes the numbers of characters that all values of a key have in common at their beginning (*begin) and at their
+ * end (*end), which labels may omit. Both are cut at separators, so that no number is divided, and are 0 if less than
+ * LEFT_OUT_LEAST. */
 static void values_common(const struct varied_key *key, size_t *begin, size_t *end)
 {
     const char *first = key->value[0];

@@ -34,8 +34,8 @@ struct runner {
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
 /* Returns the words of the `cleave run` command for run c of a study, an array ended by NULL. Stores in *pairs the
- * texts key=value to which the words refer. The caller releases both with memory_free. threads: number as text, or
- * NULL; mode: --resume, --overwrite or NULL. */
+ * texts key=value to which the words refer. The caller releases both with memory_free. scene: path of the scene file;
+ * folder: for the results; threads: number as text, or NULL; mode: --resume, --overwrite or NULL. */
 static char **command_words(const char *scene, const struct study_case *c, char *threads, char *folder, char *mode,
                             char **pairs)
 {
