@@ -12,7 +12,7 @@
 /* Length of the strip between two mirrors [spacings]; a pulse starts in its middle. The wave reflected by the absorbing
  * face is the difference from a strip of twice the length. */
 enum { NORMAL_LENGTH = 384 };
-#define NORMAL_VELOCITY 1e-3
+#define NORMAL_VELOCITY 1e-3 /* peak velocity of the pulse */
 
 /* Writes the scene of a strip with a pulse and an absorbing face into text[room] and returns the length of the text.
  * dim: number of dimensions; width: of the pulse, length: of the strip [spacings]. Wave speed ABSORBING_SPEED^2 = C11

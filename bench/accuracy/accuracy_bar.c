@@ -6,6 +6,7 @@
 
 #include "accuracy.h"
 
+/* Cases of the problem: see step_text and pulse_text. */
 enum { STEP, PULSE };
 
 /* Step: a stress of 1 Pa on one end of a bar of 1 m with the other end fixed. At three quarters of the transit time the

@@ -19,7 +19,10 @@ static const struct {
     {ACCURACY_COUPLED | ACCURACY_ADAPTIVE, "adaptive: both, coupled or converting", "#009e73", "9"},
 };
 
+/* Charts in a row, and at most; size of a chart, height of the heading of the page and of the space below the charts
+ * [pixel]. */
 enum { COLUMNS = 3, CHARTS_MAX = 16, WIDTH = 480, HEIGHT = 380, HEADING = 64, FOOT = 16 };
+/* Margins of a chart [pixel]. */
 enum { LEFT = 84, RIGHT = 14, ABOVE = 40, BELOW = 58 };
 static const double asked[] = {0.05, 0.01}; /* errors at which methods are compared */
 

@@ -13,6 +13,7 @@
 
 #include "accuracy.h"
 
+/* Cases of the problem. */
 enum { EDGE, INCLINED };
 
 /* Exact K_I and K_II over sigma (pi a)^(1/2), and the crack lengths a [m]. Edge crack: a/W = 0.5, H = W, by boundary

@@ -234,6 +234,7 @@ static void plot_key(FILE *to, const struct panel *panel, int panels, double lef
 
 /* ---- a page of panels -------------------------------------------------------------------------------------------- */
 
+/* Panels in a row, and at most; width of the key, size of a panel [pixel]. */
 enum { COLUMNS = 2, PANELS_MAX = 16, KEY_PIXELS = 330, PANEL_WIDTH = 570, PANEL_HEIGHT = 380 };
 enum { PANEL_LEFT = 108, PANEL_RIGHT = 14, PANEL_ABOVE = 40, PANEL_BELOW = 56 }; /* margins of a panel [pixel] */
 

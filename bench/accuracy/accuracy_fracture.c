@@ -10,6 +10,7 @@
 #include "fracture/tips.h"
 #include "fracture/fracture_part.h"
 
+/* Cases of the problem: Kalthoff's plate, and a plate under tension. */
 enum { KALTHOFF, PULLED };
 
 /* Crack growth that is observed on the two plates [m]. start: growth at which a crack counts as started; until: growth
@@ -19,6 +20,7 @@ static const struct {
     double start, until, ring[FRACTURE_RINGS], width;
 } watched[2] = {[KALTHOFF] = {5e-3, 20e-3, {7.5e-3, 12.5e-3, 17.5e-3, 22.5e-3}, 2.5e-3},
                 [PULLED] = {1e-3, 3e-3, {1.5e-3, 2e-3, 2.5e-3, 3e-3}, 0.5e-3}};
+/* Number of samples of a run. */
 enum { SAMPLES = 200 };
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */

@@ -10,10 +10,12 @@
 #include "mesh/mesh_part.h"
 #include "mesh/levels.h"
 
+/* Cases of the problem: a stationary crack, and one that moves. */
 enum { REST, MOVING };
 
 /* Crack speed [m/s]; stress on the crack plane [Pa]; distance of the initial wave fronts from the crack [m]. */
 static const double speed = 1000, stress = 2e6, path_length = 20e-3;
+/* Times at which the stress-intensity factor is compared. */
 enum { INSTANTS = 6 };
 static const double instant[INSTANTS] = {5.5e-6, 6.2e-6, 6.9e-6, 7.6e-6, 8.3e-6, 9e-6}; /* [s] */
 

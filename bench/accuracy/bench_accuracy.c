@@ -21,7 +21,7 @@ double accuracy_figure(const struct run *e, const char *probe, const char *quant
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-enum { RUNS_MOST = 3 };
+enum { RUNS_MOST = 3 };  /* largest number of runs of a point */
 #define RUNS_SECONDS 0.3 /* total time within which short runs are repeated to measure their duration [s] */
 
 /* Returns the processor time of this thread [s]. It excludes the time taken by other programs. */
@@ -90,6 +90,8 @@ static double work_of(const struct accuracy_point *p)
 }
 
 enum { PROBLEMS_MAX = 16 };
+/* Time of the points of each problem: measured so far [s]; predicted (work_of) of the finished points, and of all
+ * that are to be run. */
 struct progress {
     double spent[PROBLEMS_MAX], done[PROBLEMS_MAX], asked[PROBLEMS_MAX];
 };

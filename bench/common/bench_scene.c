@@ -160,6 +160,7 @@ static status spawn(char **argv, pid_t *child)
     return status_set(FAILED, "bench: cannot start a process for a run: %s", strerror(fault));
 }
 
+/* Room for the words of a command; capacity of an override key=value [byte]. */
 enum { WORDS = 64, WORD_LENGTH = OVERRIDE_LENGTH + 64 };
 
 static status spawn_run(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,

@@ -103,6 +103,7 @@ static status measure_variants(struct bar_table *t, bool quick)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
+/* Indices of the values of a result (share_of). */
 enum { REFLECTED, TRANSMITTED, ENERGY, SHARES };
 
 /* Returns one of the three values of a result. share: its index REFLECTED, TRANSMITTED or ENERGY. */

@@ -21,6 +21,7 @@ struct strip {
 };
 
 static const char *const interface_name[] = {"flat", "45 degrees"};
+/* Directions of the interface; names in interface_name. */
 enum { FLAT, OBLIQUE, INTERFACES };
 
 /* Returns the geometry of the strip for a pulse of `width` spacings. interface FLAT: distances as in the bar, so that

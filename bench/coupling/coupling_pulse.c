@@ -6,6 +6,7 @@
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 
+/* Times and couplings that are drawn; factor on the differences; width of the pulse [mm]. */
 enum { TIMES = 3, COLUMNS = 2, MAGNIFIED = 20, WIDTH = 64 };
 static const int column_variant[COLUMNS] = {VARIANT_HANDSHAKE, VARIANT_DAMPED};
 static const double time_ms[TIMES] = {1.28, 2.56, 3.84}; /* pulse 128 mm before, at and 128 mm beyond the interface */

@@ -12,8 +12,9 @@
 #include "fracture/tips.h"
 #include "scene/scene_read.h"
 
+/* Numbers of time steps, without and with --quick; number of methods. */
 enum { STEPS = 9, STEPS_QUICK = 3, METHODS = 2 };
-#define STEP_RANGE 0.1
+#define STEP_RANGE 0.1 /* the time steps lie within this share of the scene's own */
 static const int variant_of[METHODS] = {VARIANT_PD, VARIANT_FRAME};
 
 /* State of the observed crack at the end of a run: time step dt and start time [s], angle [degree], position of the tip

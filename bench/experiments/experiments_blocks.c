@@ -96,10 +96,10 @@ status experiments_beam(struct experiments *x)
 
 /* ---- the disc ---------------------------------------------------------------------------------------------------- */
 
-#define DISC_DIAMETER 50e-3
-#define DISC_THICKNESS 10e-3
-#define DISC_YOUNG 50e9
-#define DISC_TOUGHNESS 20.0 /* energy release rate G_c [J/m^2] */
+#define DISC_DIAMETER 50e-3  /* [m] */
+#define DISC_THICKNESS 10e-3 /* [m] */
+#define DISC_YOUNG 50e9      /* [Pa] */
+#define DISC_TOUGHNESS 20.0  /* energy release rate G_c [J/m^2] */
 #define DISC_CLOSED "2 P/(pi D t)"
 
 /* Returns the horizontal stress in the middle of a compressed disc over 2 P/(pi D t), with load P, diameter D and

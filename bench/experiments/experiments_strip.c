@@ -12,9 +12,9 @@
 #include "fracture/sif_fields.h"
 #include "output/history.h"
 
-#define STRIP_YOUNG 4.55e9
+#define STRIP_YOUNG 4.55e9 /* [Pa] */
 #define STRIP_POISSON (1.0 / 3)
-#define STRIP_DENSITY 1230.0
+#define STRIP_DENSITY 1230.0 /* [kg/m^3] */
 #define STRIP_TOUGHNESS 40.0 /* energy release rate G_c [J/m^2] */
 #define STRIP_FREE 16.8e-3   /* height between the displaced faces [m] */
 #define STRIP_GROWN 10e-3    /* growth at the start of the measurement [m] */

@@ -14,6 +14,8 @@
 #include "output/output_files.h"
 #include "step/report.h"
 
+/* Numbers of sizes of a block and of dimensions; steps before the timed ones, pieces of timed steps; steps between
+ * frames, frames of a run. */
 enum { SIZES = 4, DIMS = 2, STEPS_WARM = 2, PIECES = 4, FRAME_EVERY = 100, FRAMES = 6 };
 static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
 

@@ -26,6 +26,7 @@ struct target_run {
 #define POINTS(SHAPE)                                                                                                  \
     COMMON, {"method", "mpm"}, {"mpm.shape", SHAPE}, { "mpm.transfer", "flip" }
 
+/* Runs whose time per step has a target. */
 enum { RUN_PD, RUN_POINTS, RUN_GIMP, RUN_ADAPTIVE, RUN_PD_SAMPLED, RUN_ADAPTIVE_SAMPLED, RUNS };
 static const struct target_run target_runs[RUNS] = {
     [RUN_PD] = {"pd", false, 3, {COMMON, {"method", "pd"}}},

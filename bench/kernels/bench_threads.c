@@ -9,6 +9,8 @@
 #include "base/memory.h"
 #include "step/report.h"
 
+/* Largest number of teams of threads that are measured; dimension of the blocks that are drawn; steps before the
+ * timed ones, pieces of timed steps; scalings (scaling_name). */
 enum { TEAMS_MAX = 24, DIM_SHOWN = 2, STEPS_WARM = 3, PIECES = 4, SCALINGS = 2 };
 static const char *const scaling_name[SCALINGS] = {"strong", "weak"};
 

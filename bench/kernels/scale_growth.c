@@ -18,6 +18,8 @@
 #include "output/summary_read.h"
 #include "plot/gnuplot.h"
 
+/* Spacings of a series, at most; sections of a step that are printed; series; quantities with required exponents;
+ * repetitions of a run. */
 enum { SPACINGS = 5, TIMERS_SHOWN = TIMER_OUTPUT, SERIES = 4, AIMS = 3, REPEATED = 3 };
 #define SHORT 3.0          /* loops shorter than this are repeated [s] */
 #define QUICK_DURATION 6.0 /* end of quick runs [us] */

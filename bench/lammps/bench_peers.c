@@ -22,6 +22,7 @@
 #include "step/report.h"
 #include "peers.h"
 
+/* Steps of a run; repetitions of a timed run; capacity of a scene [byte]. */
 enum { STEPS = 200, ROUNDS = 3, TEXT_ROOM = 2048 };
 #define FOLDER PEERS_FOLDER
 #define SPACING 5e-4

@@ -6,6 +6,7 @@
 #include "bench/common/bench.h"
 #include "base/team.h"
 
+/* Repetitions of a run; bars: one that yields, an elastic one. */
 enum { ROUNDS = 3, BARS = 2 };
 
 /* Time of MPM3D-F90 [ns per point and step]: this bar, linear shapes, MUSL, von Mises, one core of a machine with two

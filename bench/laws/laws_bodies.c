@@ -74,8 +74,8 @@ status laws_bar_johnson_cook(const struct laws_case *c, double *found)
 
 /* ---- bodies under static loads ----------------------------------------------------------------------------------- */
 
-#define YIELD 250e6
-#define YOUNG 200e9
+#define YIELD 250e6 /* [Pa] */
+#define YOUNG 200e9 /* [Pa] */
 #define POISSON 0.3
 
 /* Runs load steps of a body of ideally plastic steel in the reference frame to the full load, and updates the stresses

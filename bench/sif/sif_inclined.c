@@ -19,6 +19,7 @@ static const struct inclined_case {
     {75, {0.0896, 0.2939}, {0.088, 0.299}, {0.089, 0.296}},
 };
 
+/* Rules for the constants of bonds that are compared. */
 enum { LOCAL, BULK, VARIANTS };
 static const struct {
     const char *name, *normalisation, *horizon;

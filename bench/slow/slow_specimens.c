@@ -58,6 +58,7 @@ static const struct slow_case {
                   1e-3,
                   10,
                   12}};
+/* Number of cases; indices of the one in 3D and of those run with --quick; largest number of points of a curve. */
 enum { SLOW_CASES = COUNT_OF(slow_case), IN_SPACE = SLOW_CASES - 1, BEND = 2, CANTILEVER = 3, POINTS_MOST = 100 };
 static const char *const slow_model[] = {"bond", "ospd", "mospd"};
 enum { SLOW_MODELS = COUNT_OF(slow_model) };

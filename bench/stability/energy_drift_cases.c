@@ -18,7 +18,7 @@ struct taker {
     drift_take *take;
     void *context;
 };
-enum { QUICK_EACH = 4 };
+enum { QUICK_EACH = 4 }; /* stride of the cases of --quick */
 
 static status energy_drift_cases_give(struct taker *t, enum drift_group group, struct stability_case c)
 {

@@ -8,9 +8,9 @@
 
 /* Columns of the table that are drawn. */
 enum { GROUP = 0, LABEL = 1, STOPPED = 5, END = 6, LARGEST = 7, RATE = 10, VERDICT = 13, COLUMNS = 15 };
-#define LEAST_RATE 1e-12 /* smaller rates, from round-off and the fit, are drawn as zero */
-#define MOST_RATE 10.0
-enum { WIDTH = 1900, LINE_HEIGHT = 22 };
+#define LEAST_RATE 1e-12                 /* smaller rates, from round-off and the fit, are drawn as zero */
+#define MOST_RATE 10.0                   /* larger rates are drawn as this one */
+enum { WIDTH = 1900, LINE_HEIGHT = 22 }; /* of the picture, and of a line in it [pixel] */
 
 static const struct bench_cell *energy_drift_draw_cell_of(const struct bench_table *t, int64_t row, int k)
 {

@@ -1,7 +1,9 @@
 /* Named rows of the long map: scenes in which an earlier version gained energy or diverged. */
 #include "energy_drift.h"
 
-/* A strip with a column of bonds, loaded along its axis by a sine of body force for 60 us. */
+/* Text of a scene: a strip with a column of bonds, loaded by a body force across its axis, a sine along the axis, for
+ * 60 us. space, law, frame, coupling, nu: values of the keys space, model, mpm.frame, coupling and poisson; more:
+ * further keys; end: body, particles and load. */
 #define STRIP_PULLED(space, more, law, frame, coupling, nu, end)                                                       \
     "space: " space "\n" more "duration: 2 ms\nmethod: adaptive\nmodel: " law "\ncoupling: " coupling "\n"             \
     "mpm: {frame: " frame "}\nmaterial: {young: 200 GPa, poisson: " nu ", density: 7850}\n" end                        \
@@ -23,7 +25,8 @@
     STRIP_PULLED("plane strain", "thickness: 1 mm\n", law, frame, coupling, nu, PLATE_END)
 #define SOLID(law, frame, coupling, nu) STRIP_PULLED("solid", "", law, frame, coupling, nu, SOLID_END)
 
-/* A plate with a square of bonds in its middle, initially stretched and rotating. */
+/* Text of a scene: a plate with a square of bonds in its middle, initially stretched and rotating. The arguments are
+ * values of keys; more: further keys. */
 #define SQUARE_TURNED(transfer, shape, coupling, more)                                                                 \
     "space: plane stress\nthickness: 1 mm\nduration: 5 ms\nmethod: adaptive\ncoupling: " coupling "\n"                 \
     "mpm: {frame: current, transfer: " transfer ", shape: " shape "}\n"                                                \
@@ -32,7 +35,7 @@
     "initial: [{velocity_gradient: [[10, 3], [0, -7]], centre: [10 mm, 10 mm]}]\nconversion: {criteria: none}\n"       \
     "output: {frames: 0, samples: 1}\n" more
 
-/* A clamped beam under its weight, for 1.2 ms. */
+/* Text of a scene: a clamped beam under a body force for the first 1.2 ms. more: its particles and further keys. */
 #define BEAM(method, model, nu, more)                                                                                  \
     "space: plane stress\nthickness: 1 mm\nduration: 10 ms\nmethod: " method "\nmodel: " model "\n"                    \
     "material: {young: 200 GPa, poisson: " nu ", density: 7850}\n"                                                     \
@@ -40,7 +43,7 @@
     "boundary:\n  - {mirror: {axis: x, at: 0, tangential: held}}\n"                                                    \
     "  - {body_force: [0, 1e4], time: {step: {until: 1.2 ms}}}\noutput: {frames: 0, samples: 1}\n"
 
-/* A disc with a bore and a slot from its rim, one revolution. */
+/* Text of a scene: a disc with a bore and a slot from its rim that makes one revolution. */
 #define DISC_TURNED(frame, model)                                                                                      \
     "space: plane stress\nthickness: 1 mm\nduration: 2.5133 ms\nmethod: adaptive\nmodel: " model "\n"                  \
     "mpm: {frame: " frame                                                                                              \
@@ -49,7 +52,7 @@
     "particles: {spacing: 0.5 mm}\ncracks:\n  - {from: [20.5 mm, 0], to: [12 mm, 0]}\n"                                \
     "initial: [{velocity_gradient: [[0, -2500], [2500, 0]]}]\noutput: {frames: 0, samples: 1}\n"
 
-/* A disc with a core of bonds, four revolutions at 5000 rad/s. */
+/* Text of a scene: a disc with a core of bonds that makes four revolutions at 5000 rad/s. */
 #define CORE_TURNED(transfer, model, coupling)                                                                         \
     "space: plane stress\nthickness: 1 mm\nduration: 5.02655 ms\nmethod: adaptive\nmodel: " model                      \
     "\ncoupling: " coupling "\n"                                                                                       \
@@ -59,7 +62,7 @@
     "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -5000], [5000, 0]]}]\noutput: {frames: 0, "      \
     "samples: 1}\n"
 
-/* The strip with only material points, with nodes on its border. */
+/* Text of a scene: the strip of STRIP_PULLED with only material points, with nodes on its border. */
 #define STRIP_OF_POINTS(transfer)                                                                                      \
     "space: plane stress\nthickness: 1 mm\nduration: 2 ms\nmethod: mpm\n"                                              \
     "mpm: {frame: current, transfer: " transfer ", shape: gimp}\n"                                                     \

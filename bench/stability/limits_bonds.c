@@ -32,9 +32,9 @@ static status single(const struct limits_row *r, double *to)
 
 #define LAW(law, kind, ...) NAMED_LAW(law " " kind, law, kind, __VA_ARGS__)
 #define NAMED_LAW(name_, law, kind, ...) .method = name_, .set = {"model", law, "method", kind, __VA_ARGS__}
-/* A row for a law. At this speed a bond gains 1.7 times its critical stretch in a step. The energy of whole families
- * that lose most of their bonds in one step is then at best first order: errors of 0.066 at a safety factor of 0.2,
- * 0.031 at 0.1, 0.014 at 0.025. */
+/* A row for a peridynamic model (law) and a method (kind) with the particle that comes off (see single). At its speed a
+ * bond gains 1.7 times its critical stretch in a step. The energy of whole families that lose most of their bonds in
+ * one step is then at best first order: errors of 0.066 at a safety factor of 0.2, 0.031 at 0.1, 0.014 at 0.025. */
 #define SINGLE(law, kind)                                                                                              \
     {                                                                                                                  \
         LAW(law, kind, NULL), .known = { {0, 0}, {0, 1e-13}, {0, 0.05} }                                               \
@@ -86,9 +86,10 @@ static status inversion(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows for a law. A linear bond has a finite force at zero length. Below 0.7 of their length bonds have an additional
- * repulsion (kernels/pd/bond_core.h): at 0.5 c neighbours keep their order, which they would not without. Faster bodies
- * eject particles from their free ends faster than waves, and the run stops. */
+/* Rows for a peridynamic model (law) with the colliding halves (see inversion). A linear bond has a finite force at
+ * zero length. Below 0.7 of their length bonds have an additional repulsion (kernels/pd/bond_core.h): at 0.5 c
+ * neighbours keep their order, which they would not without. Faster bodies eject particles from their free ends faster
+ * than waves, and the run stops. */
 #define INVERSION(law)                                                                                                 \
     {LAW(law, "pd", NULL), .given = 0.2, .known = {{0, 0}, {0, 0.05}}},                                                \
     {                                                                                                                  \
@@ -154,8 +155,9 @@ static status closing(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows for a law. Peridynamic particles interact by contact, in adaptive runs too, and overlap by 6 v/c over the
- * contact stiffness of 5 bonds, 0.15 spacings here. Material points interact on the grids of their bodies. */
+/* Rows for a peridynamic model (law) with the cut plate (see closing). Peridynamic particles interact by contact, in
+ * adaptive runs too, and overlap by 6 v/c over the contact stiffness of 5 bonds, 0.15 spacings here. Material points
+ * interact on the grids of their bodies. */
 #define CRACK "cracks", "[{from: [12, -1], to: [12, 7]}]"
 #define BONDS_BESIDE "pd.region", "[{box: {from: [6, 0], to: [18, 6]}}]"
 #define CLOSING(law)                                                                                                   \

@@ -10,9 +10,9 @@
  * upper half, particles become peridynamic at half the peak stress of the wave, so that the front starts at x = 30,
  * moves along the interface y = 20, passes the corner, and continues with the wave to x = 65. The exact solution has no
  * transverse motion: all that occurs is caused by the corner. */
-#define START 30e-3
-#define WIDTH 32e-3
-#define SPEED 0.1
+#define START 30e-3 /* position of the front at the start [m] */
+#define WIDTH 32e-3 /* length of the wave [m] */
+#define SPEED 0.1   /* peak velocity of the wave [m/s] */
 
 /* Runs a plane wave past the corner of an interface between bonds and material points. r->given: end of the initial
  * bonds along y [mm]; at 40 the interface is flat. to[0]: largest transverse velocity over the velocity of the wave,

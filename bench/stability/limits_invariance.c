@@ -177,6 +177,7 @@ static const struct twin plate[] = {{.scale = 1},
                                     {.scale = 1e-6, .mirrored = true, .turned = true},
                                     {.scale = 1, .listed = 1},
                                     {.scale = 1, .listed = 2}};
+/* Indices of the transformations `plate`. */
 enum { ITSELF, LARGER, MIRRORED, TURNED, ALL_OF_IT, LISTED, SHUFFLED };
 
 /* Stores in *to the difference between the results of the plate and of a transformed plate. r->given: index of the
@@ -186,8 +187,9 @@ static status twins(const struct limits_row *r, double *to)
     return limits_invariance_compare(&plate[ITSELF], &plate[(int)r->given], r, to);
 }
 
-/* Rows. Sums in another order and lengths that are not binary fractions cause round-off over 200 steps; bond stretches
- * are stored as multiples of 2^-49, 1e-11 of those here. */
+/* A row for a method (kind) and a peridynamic model (law) with the transformation plate[which], called `name` (see
+ * twins). Sums in another order and lengths that are not binary fractions cause round-off over 200 steps; bond
+ * stretches are stored as multiples of 2^-49, 1e-11 of those here. */
 #define TWIN(kind, law, name, which)                                                                                   \
     {                                                                                                                  \
         .method = kind ", " name, .set = {"method", kind, "model", law}, .given = which, .known = { {0, 1e-10} }       \

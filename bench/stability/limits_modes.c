@@ -77,9 +77,9 @@ static real bound(const struct matrix *m)
     return most;
 }
 
-#define SIDE 12
+#define SIDE 12      /* particles along an edge of the square, 1 mm apart */
 #define NOTHING 1e-6 /* relative to the stiffest mode: differences leave 1e-7, the softest elastic mode has 1e-2 */
-enum { RIGID = 3 };
+enum { RIGID = 3 };  /* rigid motions in the plane */
 
 static status square_make(struct run *e, struct scene *s, const struct limits_row *r, double poisson)
 {
@@ -107,8 +107,10 @@ static status modes(const struct limits_row *r, double *to)
     return OK;
 }
 
-/* Rows. Springs between nearest neighbours of a square lattice have no shear stiffness: 2 n^2 coordinates and 2 n (n -
- * 1) independent springs in straight rows leave 2 n modes, three of them rigid. */
+/* Methods and expected numbers of zero-energy modes (see modes), on a lattice or with irregular positions. law:
+ * peridynamic model; reach: horizon [spacings]. Springs between nearest neighbours of a square lattice have no shear
+ * stiffness: 2 n^2 coordinates and 2 n (n - 1) independent springs in straight rows leave 2 n modes, three of them
+ * rigid. */
 #define LATTICE(law, reach) .method = law ", horizon " reach, .set = {"model", law, "particles.horizon", reach}
 #define CLOUD(law, reach)                                                                                              \
     .method = law ", horizon " reach ", irregular 0.5",                                                                \

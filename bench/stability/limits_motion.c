@@ -66,9 +66,11 @@ static status spin(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows, with measured values at 10 m/s and 100 m/s. FLIP with points in groups (data/turning.h): 0.2 MPa, 1e-7 and 2e-6
- * at 10 m/s; FLIP alone: 110 MPa, 1.5 and 1.4 %, and 1 GPa, 3.8 and 5 % at 100 m/s. APIC: 0.1 MPa, 1e-6 and 2e-5; 10
- * MPa, 3e-5 and 0.25 %. Bonds: 1e-15 and 2e-4. In the reference frame the body expands under its centrifugal stress. */
+/* Methods and expected results of the rotating square (see spin). given: speed of its corners. Measured shear stress
+ * and changes of angular momentum and energy at 10 m/s and 100 m/s: FLIP with points in groups (data/turning.h): 0.2
+ * MPa, 1e-7 and 2e-6 at 10 m/s; FLIP alone: 110 MPa, 1.5 and 1.4 %, and 1 GPa, 3.8 and 5 % at 100 m/s. APIC: 0.1 MPa,
+ * 1e-6 and 2e-5; 10 MPa, 3e-5 and 0.25 %. Bonds: 1e-15 and 2e-4. In the reference frame the body expands under its
+ * centrifugal stress. */
 #define POINTS(shape, transfer) .set = {"method", "mpm", "mpm.shape", shape, "mpm.transfer", transfer}
 #define REFERENCE .set = {"method", "mpm", "mpm.frame", "reference"}
 static const struct limits_row spins[] = {
@@ -188,10 +190,10 @@ static status shear(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows, for 32 spacings per edge. Near nu = 1/2 linear cells, and shapes with one strain per cell, would lock without
- * the mean dilatation of a cell (mpm/dilatation.h, mesh/mesh_law.h): 6 to 14 % too fast. On a lattice, bonds with
- * horizon 1 have C12 = 0 and C11 = E/(1 - nu): too fast by sqrt(2); with 1.5 and 2.015 the few bonds are anisotropic.
- */
+/* Methods and expected results of the square in Lame's mode (see shear), with 32 spacings per edge. given: Poisson's
+ * ratio nu. Near nu = 1/2 linear cells, and shapes with one strain per cell, would lock without the mean dilatation of
+ * a cell (mpm/dilatation.h, mesh/mesh_law.h): 6 to 14 % too fast. On a lattice, bonds with horizon 1 have C12 = 0 and
+ * C11 = E/(1 - nu): too fast by sqrt(2); with 1.5 and 2.015 the few bonds are anisotropic. / */
 #define STATE(model) .method = model, .set = {"method", "pd", "model", model}
 #define BOND(horizon, more, ...)                                                                                       \
     .method = "bonds, horizon " horizon more, .given = 1.0 / 3,                                                        \

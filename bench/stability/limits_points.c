@@ -52,8 +52,9 @@ static status crossing(const struct limits_row *r, double *to)
     return done;
 }
 
-/* Rows. The worst position may lie between those tried: tolerance 0.02. Spurious forces tear the body: numerical
- * fracture when the extension exceeds cell over spacing, 2. Shapes that extend with the points delay it until the
+/* Methods and expected results of the extended bar (see crossing). given: extension lambda of the bar. The ranges have
+ * a tolerance of 0.02, because the worst position may lie between those tried. Spurious forces tear the body, which is
+ * numerical fracture, when lambda exceeds cell over spacing, 2. Shapes that extend with the points delay it until the
  * points are two cells wide. */
 #define STRETCHED "cpgimp, frame: reference, or bonds"
 #define SHAPE(name) .method = name, .set = {"mpm.shape", name}
@@ -110,7 +111,8 @@ static status homologous(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows. Published errors: linear 1.8 and 2.4, uGIMP 0.06 and 0.54, quadratic 0.05 and 0.39. */
+/* Methods and expected results of the expanding bar (see homologous). given: strain. Published errors at strains of
+ * 0.05 and 0.2: linear 1.8 and 2.4, uGIMP 0.06 and 0.54, quadratic 0.05 and 0.39. */
 #define HOMOLOGOUS "cpgimp or frame: reference"
 static const struct limits_row stretches[] = {
     {SHAPE("linear"), .given = 0.05, .known = {{1, 2.5}}, .remedy = "gimp, cpgimp, quadratic, cubic"},
@@ -184,7 +186,8 @@ static status on_faces(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows; the limit is round-off. */
+/* Methods and expected results of the body in translation (see on_faces); the limit is round-off. A row for a shape and
+ * a transfer with the shift `at` of the grid. */
 #define FACES(shape, transfer, at)                                                                                     \
     {                                                                                                                  \
         .method = shape " " transfer, .set = {"mpm.shape", shape, "mpm.transfer", transfer}, .given = at, .known = {   \

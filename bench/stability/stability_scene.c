@@ -66,7 +66,7 @@ static void stability_scene_put_box(FILE *to, int dim, double from, double until
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-#define SPACING 1e-3
+#define SPACING 1e-3 /* of the particles [m] */
 
 /* Returns the edge of the block of a case [m]: its number of particles times the spacing. Without a given number the
  * block is large enough for the horizon and for the cells. */

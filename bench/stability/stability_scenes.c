@@ -55,9 +55,9 @@ status stability_scenes(struct bench_table *t)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-#define LEAST 1e-4 /* relative to the threshold; smaller values are drawn there */
-#define MOST 1e4
-enum { LINE_HEIGHT = 19, WIDTH = 1900 };
+#define LEAST 1e-4                       /* relative to the threshold; smaller values are drawn there */
+#define MOST 1e4                         /* larger values are drawn there */
+enum { LINE_HEIGHT = 19, WIDTH = 1900 }; /* of a line and of the picture [pixel] */
 
 static const struct bench_cell *stability_scenes_cell_of(const struct bench_table *t, int64_t row, int k)
 {

@@ -14,6 +14,7 @@
 #include "study/convergence_study.h"
 #include "uncertainty.h"
 
+/* Largest number of rows; runs at each spacing, without and with --quick; capacity of a scene [byte]. */
 enum { ROWS_MOST = 512, RUNS = 5, RUNS_QUICK = 3, TEXT_ROOM = 2048 };
 #define BUDGET 600.0 /* allowed duration of a study, never reached in practice [s] */
 

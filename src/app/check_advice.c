@@ -20,12 +20,12 @@
 #include "mesh/mesh_part.h"
 #include "step/shock.h"
 
-#define FEATURE 4   /* horizons */
-#define ENOUGH 0.99 /* share of FEATURE horizons that is tolerated: 12 spacings are 3.98 horizons */
-#define WAVE 16     /* spacings */
-#define REACHED 4   /* rho c v  */
-#define PASSAGES 4
-#define LITTLE 0.1
+#define FEATURE 4        /* horizons */
+#define ENOUGH 0.99      /* share of FEATURE horizons that is tolerated: 12 spacings are 3.98 horizons */
+#define WAVE 16          /* spacings */
+#define REACHED 4        /* rho c v  */
+#define PASSAGES 4       /* passages of waves through a body up to which its stress is estimated */
+#define LITTLE 0.1       /* strain below which the reference frame is suggested */
 #define BESIDE_FACE 1.5  /* largest distance at which a probe counts as at a face [spacings] */
 #define AROUND 3         /* distance around a probe within which its face is searched [spacings] */
 #define ALONG_AXIS 0.999 /* least component of a normal for which a face counts as aligned with the axes */

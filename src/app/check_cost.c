@@ -18,9 +18,10 @@
 #include "scene/scene_read.h"
 #include "step/checks.h"
 
+/* Measurements of the time per step: largest number, least number. */
 enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
-#define SECONDS_ENOUGH 0.15
-#define SECONDS_MOST 1.0
+#define SECONDS_ENOUGH 0.15        /* time of the measurements after which there are enough [s] */
+#define SECONDS_MOST 1.0           /* time after which the measurements end in any case [s] */
 #define SECONDS_WHOLE 1.5          /* time of a trial of a whole run [s] */
 #define PATIENCE 3.0               /* factor on SECONDS_WHOLE, for conversion or a busy machine */
 #define WALL_MOST 60.0             /* wall-clock time of such a trial [s] */

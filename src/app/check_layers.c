@@ -5,9 +5,8 @@
 #include "base/memory.h"
 #include "check_parts.h"
 
-#define CELLS_MOST 2e7 /* largest number of cells of the bounding box of a body; more take too long */
-/* Parts that are measured are called thin from half as many layers on: steps of curved faces take some. */
-#define SHARE_LEAST 0.5  /* of its particles; a smaller share are edges and steps of faces */
+#define CELLS_MOST 2e7   /* largest number of cells of the bounding box of a body; more take too long */
+#define SHARE_LEAST 0.5  /* least share of particles in thin parts; a smaller one are edges and steps of faces */
 enum { RUNS_MOST = 64 }; /* largest number of layers that are counted */
 
 /* Sites of a body's particles in their bounding box. */
@@ -124,6 +123,7 @@ double count_thin_layers(const struct run *e, int body, double max_layers)
     if (s->body[body].joined != body) return INFINITY;
     if (known) least = solid_smallest_edge(e, &s->body[body].shape.solid[0]) / s->spacing;
     if (isfinite(least)) return least < max_layers ? least : INFINITY;
+    /* steps of curved faces take some of the counted layers: only half of max_layers counts as thin */
     return body_layers(e, body, real_min(0.5 * max_layers, RUNS_MOST - 1));
 }
 
@@ -143,8 +143,8 @@ static double soft_cells(double poisson, double layers)
     return 100 * more / (1 + more);
 }
 #define SOFT_FAMILIES 0.4 /* Poisson's ratios up to which nothing is reported */
-#define SOFT_CELLS 0.45
-#define SOFT_MOST 2.0 /* least error that is reported [%] */
+#define SOFT_CELLS 0.45   /* the same for cells */
+#define SOFT_MOST 2.0     /* least error that is reported [%] */
 
 void print_incompressible_advice(const struct run *e, FILE *out)
 {

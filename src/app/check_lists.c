@@ -6,6 +6,7 @@
 
 #define THIN_SHARE 0.05 /* least share of a body's particles in a thin part that is reported */
 #define PROBE 0.9       /* [spacings] largest distance of a particle from a position inside the body */
+/* Approximate number of particles that are examined; largest number of layers that is counted. */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
 /* Returns true if a particle of the body is within PROBE spacings of X [m]. Also returns true if more particles are

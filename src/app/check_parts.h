@@ -81,8 +81,10 @@ void print_pieces(const struct run *e);
  * (check_advice.c). */
 real solid_smallest_edge(const struct run *e, const struct solid *a);
 
-/* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. Returns INFINITY
- * if less than half of it is thinner than `max_layers` layers, or if the body is joined to one of a lower number. */
+/* Returns the number of particle layers across the thin parts of a body and the bodies joined to it: of a single solid,
+ * its smallest edge over the spacing, INFINITY unless this is less than `max_layers`; of other shapes a count, INFINITY
+ * unless at least half of the particles have fewer layers than half of `max_layers`. Returns INFINITY if the body is
+ * joined to one of a lower number. */
 double count_thin_layers(const struct run *e, int body, double max_layers);
 
 /* Writes a line for each nearly incompressible body whose particles or cells are too stiff. */

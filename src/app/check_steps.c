@@ -16,6 +16,8 @@
 #define SLOWER 2.0         /* factor on the number of iterations of the first equilibrium for those with a long crack */
 #define LEAST_SHARE 0.1    /* least run time over the largest: early separation, fewer iterations */
 #define SPACINGS 2.0       /* length of a crack increment [spacings] */
+/* Estimated number of equilibria for a crack increment driven by stress-intensity factors; number of pairs of bonds
+ * that an equilibrium breaks in 2D. */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
 enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies rotate, and of grips [spacings] */
 

@@ -7,7 +7,7 @@
 
 #define FREE_OF_TRAPPING 2  /* kappa from which on the lattice hardly holds cracks back; measured */
 #define SPENDS_MORE_PLANE 8 /* kappa above which cracks spend about 5 % more than G_c; measured */
-#define SPENDS_MORE_SOLID 5
+#define SPENDS_MORE_SOLID 5 /* the same in 3D */
 
 /* Returns the horizon [m] at which the softening law of material m has the ratio kappa = (critical stretch/onset
  * stretch)^2 [1]. */

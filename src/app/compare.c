@@ -14,6 +14,7 @@
 #include "output/summary_read.h"
 #include "run/ledger.h"
 
+/* Capacity of the texts of labels and keys [byte]. */
 enum { KEY_LENGTH = 64 };
 
 /* Largest difference in time of two frames that are compared, as a share of the time between frames: runs with

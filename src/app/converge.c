@@ -11,6 +11,7 @@
 
 static const char usage[] = "converge " CONVERGE_WORDS;
 
+/* Defaults of the number of runs at each spacing and of the number of spacings. */
 enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
 #define BUDGET_USUAL 600.0 /* default of --budget [s] */
 

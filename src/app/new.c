@@ -20,6 +20,7 @@ static const char part[] =
     ;
 static const char part_file[] = "stl.stl";
 
+/* Longest path of a new scene file, without its ending [byte]. */
 enum { PATH_LONGEST = 1000 };
 
 static status kinds_print(void)

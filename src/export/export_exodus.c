@@ -13,6 +13,8 @@
 #include "output/output.h"
 #include "output/output_files.h"
 
+/* Sizes of names and of lines of text in the file, with the terminating zero [byte]; largest number of variables at
+ * nodes, and at elements. */
 enum { NAME_WIDTH = 33, LINE_WIDTH = 81, VARIABLES_MOST = 32 };
 #define EXODUS_SIGN ", exported by Cleave"
 

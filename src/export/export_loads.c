@@ -14,6 +14,7 @@ static bool is_force(const struct load *load)
 }
 
 static const char axis_name[] = "xyz";
+/* Largest number of rows of a table in time that is exported. */
 enum { TABLE_MOST = 500 };
 
 struct word {

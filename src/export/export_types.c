@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "export_parts.h"
 
+/* Largest number of classes of particles in an export. */
 enum { CLASSES_MOST = 1000 };
 
 /* Classes of particles with the same material and loads and, for bond styles, the same mass. any[n]: index of one

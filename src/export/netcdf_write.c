@@ -3,6 +3,8 @@
 
 #include "base/memory.h"
 
+/* Tags of the lists in the header, as the format defines them; number of values that are converted and written at a
+ * time. */
 enum { TAG_DIMENSIONS = 10, TAG_ARRAYS = 11, TAG_ATTRIBUTES = 12, CHUNK = 1024 };
 
 static int64_t type_size(enum netcdf_type type) { return type == NETCDF_CHAR ? 1 : type == NETCDF_DOUBLE ? 8 : 4; }

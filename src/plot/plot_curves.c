@@ -9,6 +9,7 @@
 #include "plot/plot.h"
 #include "run/ledger.h"
 
+/* Largest number of points of a curve, and of curves in a picture. */
 enum { POINTS_MAX = 4000, CURVES_MAX = 8 };
 
 double curves_largest_value(const struct history *h, int column)

@@ -8,6 +8,7 @@
 #include "plot/plot.h"
 #include "scene/words.h"
 
+/* Component of a field that denotes the magnitude of its vector. */
 enum { MAGNITUDE = -1 };
 
 static const struct plot_field fields[] = {

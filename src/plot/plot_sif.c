@@ -7,6 +7,7 @@
 #include "plot/plot.h"
 #include "output/summary_read.h"
 
+/* Largest numbers of probes and of crack paths that are drawn; least number of samples for a picture. */
 enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6, LEAST_ROWS = 3 };
 
 /* Finds the columns of the history whose names end in `quantity`, for example ".K_I". Stores the parts of the names

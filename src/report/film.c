@@ -7,7 +7,10 @@
 #include "base/arrays.h"
 #include "base/memory.h"
 
+/* Numbers of frames of a film: the largest, and two smaller ones for films that are too large; largest stride with
+ * which particles are left out before busy ones are, too. */
 enum { FILM_FRAMES_MOST = 61, FRAMES_FEWER = 21, FRAMES_FEWEST = 11, EVERY_MOST = 32 };
+/* Largest values of stored 16-bit numbers, unsigned and signed. */
 enum { U16_MOST = 65535, I16_MOST = 32767 };
 
 /* Plastic strain above which a particle counts as busy [1]. */

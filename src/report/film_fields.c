@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "film.h"
 
+/* Values of a frame that are sampled for the stored range; codes: largest value, no value, no fragment. */
 enum { SAMPLES_OF_FRAME = 4000, VALUE_MOST = 254, VALUE_NONE = 255, FRAGMENT_NONE = 65535 };
 
 /* Share of the values beyond either end of the stored range: a few hot particles do not use up the colours. */

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "film.h"
 
+/* Bits per axis in the key of a cell, and the largest number in them. */
 enum { KEY_BITS = 20, KEY_MOST = (1 << KEY_BITS) - 1 };
 
 /* A particle and the cell that it is in. */

@@ -14,6 +14,7 @@
 #include "report_parts.h"
 #include "study/study.h"
 
+/* Largest numbers of pictures and of warnings on the page; capacity of a warning [byte]. */
 enum { PICTURES_MOST = 12, WARNINGS_MOST = 20, MESSAGE_ROOM = 600 };
 
 static int name_compare(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }

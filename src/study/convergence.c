@@ -5,8 +5,8 @@
 
 #define SAFETY                                                                                                         \
     1.25 /* factor of the grid convergence index with three spacings and an order that is seen (Roache 1998) */
-#define ORDER_LEAST 0.5
-#define ORDER_MOST 2.0 /* formal order of the methods, which an observed order may exceed by chance */
+#define ORDER_LEAST 0.5 /* below, convergence is slow */
+#define ORDER_MOST 2.0  /* formal order of the methods, which an observed order may exceed by chance */
 
 const char *const verdict_name[VERDICTS] = {
     [VERDICT_CONVERGES] = "converges", [VERDICT_SCATTERS] = "scatters",          [VERDICT_OSCILLATES] = "oscillates",

@@ -12,6 +12,8 @@
 #include "plot/plot.h"
 #include "study/convergence_study.h"
 
+/* Largest number of figures that are drawn, and of panels side by side; largest number of crack tips that are
+ * followed. */
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16 };
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
 

@@ -10,6 +10,7 @@
 #include "study/convergence_study.h"
 #include "study/uncertainty.h"
 
+/* Largest number of figures that are printed. */
 enum { PRINTED_MOST = 24 };
 
 /* Factor from the change between two horizons to the remaining error. The summation error of irregular lattices does

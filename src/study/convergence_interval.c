@@ -14,6 +14,7 @@
 
 #include "study/convergence.h"
 
+/* Numbers of orders and of misfits in the mixture. */
 enum { ORDERS = 7, MISFITS = 10 };
 #define ORDER_FIRST 0.5   /* range of the order p, sampled in equal steps */
 #define ORDER_LAST 2.0    /* end of the range */

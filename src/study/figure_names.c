@@ -8,6 +8,7 @@
 #include "output/renamed_results.h"
 #include "study/study.h"
 
+/* Capacities of the last part of a figure's name, and of the whole name [byte]. */
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
 /* Returns true if the runs of a scene have figures on contact in summary.json. */

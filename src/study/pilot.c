@@ -15,9 +15,9 @@
 
 /* Largest ratio of the coarsest spacing to the chosen one; beyond, extrapolation by the order is unreliable. */
 #define FARTHEST 8.0
-#define FINER_LEAST 1.4 /* least refinement from one study of a method to the next */
-#define FINER_MOST 2.9  /* largest refinement: three levels */
-enum { REFUSED_MOST = 4 };
+#define FINER_LEAST 1.4    /* least refinement from one study of a method to the next */
+#define FINER_MOST 2.9     /* largest refinement: three levels */
+enum { REFUSED_MOST = 4 }; /* largest number of refinements after spacings at which the scene is invalid */
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 

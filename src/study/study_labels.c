@@ -5,6 +5,8 @@
 
 #include "study_internal.h"
 
+/* Longest value that a label shows in full; characters that remain of a value cut to fit; least number of common
+ * characters that labels omit. */
 enum { VALUE_SHOWN = LABEL_ROOM - 8, CUT_SHOWN = 20, LEFT_OUT_LEAST = 4 };
 
 /* Computes the numbers of characters that all values of a key have in common at their beginning (*begin) and at their

@@ -18,6 +18,7 @@
 #include "output/output_files.h"
 #include "study/study.h"
 
+/* Room for the words of a command without its overrides. */
 enum { WORDS_FIXED = 12 };
 
 #define PATIENCE 0.5 /* time after the budget at which runs that have not stopped are killed [s] */

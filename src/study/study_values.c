@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "study/study.h"
 
+/* Largest number of values of a key; longest value [characters]. */
 enum { VALUES_MOST = 10000, VALUE_LONGEST = 1000 };
 
 double value_read_number(const char *value, const char **unit)

@@ -8,6 +8,8 @@
 #include "output/summary_read.h"
 #include "study/study.h"
 
+/* Capacity of a warning [byte]; largest number of kinds that are counted; largest number of characters printed of
+ * one. */
 enum { WARNING_ROOM = 1024, KINDS_MOST = 64, SHOWN_LONGEST = 240 };
 
 /* A kind of warning: texts that differ only in their numbers, because runs with different spacings print different
