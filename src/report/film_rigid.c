@@ -19,7 +19,7 @@ static void particles_box(const struct film *f, real *low, real *high)
 }
 
 /* Writes n numbers as an array of the JSON. key: name of the array; NULL in a list. */
-static void write_numbers(struct page *p, const char *key, const real *value, int n)
+static void write_vector(struct page *p, const char *key, const real *value, int n)
 {
     json_open(&p->json, key, '[');
     for (int k = 0; k < n; k++) json_number(&p->json, NULL, value[k], JSON_TIMING);
@@ -55,7 +55,7 @@ void film_rigids_write(struct page *p, const struct film *f)
             rigid_surface_make(&surface, &body->shape, f->dim, low, high);
             json_open(&p->json, NULL, '{');
             json_text(&p->json, "name", body->name);
-            write_numbers(p, "centre", at[b].centre, f->dim);
+            write_vector(p, "centre", at[b].centre, f->dim);
             write_surface(p, &surface, f->dim);
             json_close(&p->json, '}');
             rigid_surface_free(&surface);
@@ -73,9 +73,9 @@ void film_rigids_write_frame(struct page *p, const struct film *f, int number)
         json_open(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
             json_open(&p->json, NULL, '{');
-            write_numbers(p, "x", at[b].x, f->dim);
+            write_vector(p, "x", at[b].x, f->dim);
             json_open(&p->json, "turn", '[');
-            for (int d = 0; d < f->dim; d++) write_numbers(p, NULL, at[b].turn[d], f->dim);
+            for (int d = 0; d < f->dim; d++) write_vector(p, NULL, at[b].turn[d], f->dim);
             json_close(&p->json, ']');
             json_close(&p->json, '}');
         }

@@ -79,9 +79,9 @@ static status check_variable_name(struct reader *r, const struct yaml_node *n)
     size_t length = 0;
     while (is_letter(n->key[length])) length++;
     if (length == 0 || length > NAME_LONGEST || n->key[length] || isdigit((unsigned char)*n->key))
-        return fault(
-            r, n, "is not a name that a variable can have; up to %d letters, digits and _ are expected, a letter first",
-            NAME_LONGEST);
+        return fault(r, n,
+                     "cannot be the name of a variable; up to %d letters, digits and _ are expected, a letter first",
+                     NAME_LONGEST);
     const char *meaning = reserved_word_meaning(n->key);
     return meaning ? fault(r, n, "is %s in expressions; another name is expected, as %.20s1", meaning, n->key) : OK;
 }

@@ -47,7 +47,9 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     scene_places_make(r, root);
     TRY(scene_from_tree(r, root));
     s->text = scene_to_yaml(s);
-    return s->text ? OK : status_set(FAILED, "%s: out of memory, the scene with all its defaults cannot be written", r->name);
+    return s->text
+               ? OK
+               : status_set(FAILED, "%s: out of memory, the scene with all its defaults cannot be written", r->name);
 }
 
 /* Reads a scene from a text of `length` bytes in the C locale into r->scene. With `method: auto` only the request for

@@ -162,7 +162,8 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
         GROW("time table", f->value, f->n + 1);
         TRY(time_entry(c, c->in.text, f));
     }
-    return f->n > 0 ? OK : status_set(REFUSED, "%s: there is no line with a time and a value below the header", c->in.path);
+    return f->n > 0 ? OK
+                    : status_set(REFUSED, "%s: there is no line with a time and a value below the header", c->in.path);
 }
 
 /* Reads the factor of time of boundary b from the CSV file that `file: name` gives, with `column: name` for the values.
