@@ -176,8 +176,9 @@ static void reach_widen(int32_t *reach, int32_t distance)
     if (abs(distance) > *reach) *reach = abs(distance);
 }
 
-/* Raises room->reach to the largest difference of the indices of two bonded particles in row block g. Images do not
- * count, as they have no rows. regular: true if the bonds are in room->regular, false if they are in room->row. */
+/* Raises room->reach to the largest difference of the indices of two bonded particles in row block g (rows of eight
+ * particles). Images do not count, as they have no rows. regular: true if the bonds are in room->regular, false if they
+ * are in room->row. */
 static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -188,8 +189,8 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
 
-/* Counts the columns of row block g if pass->count, else fills them. room: working memory of the thread. Returns the
- * number of bonds of the row block. */
+/* Counts the columns of row block g (rows of eight particles) if pass->count, else fills them. room: working memory of
+ * the thread. Returns the number of bonds of the row block. */
 static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     struct bonds *b = pass->b;
@@ -221,9 +222,9 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Processes all row blocks: copies those that are unchanged from the previous rows and makes the others. Called twice,
- * first to count columns, then to fill them, so that a list of all bonds never exists twice. Updates b->reach. Returns
- * the number of directed bonds. */
+/* Processes all row blocks (rows of eight particles each): copies those that are unchanged from the previous rows and
+ * makes the others. Called twice, first to count columns, then to fill them, so that a list of all bonds never exists
+ * twice. Updates b->reach. Returns the number of directed bonds. */
 static int64_t rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
@@ -253,8 +254,8 @@ static int64_t rows_pass(const struct rows_pass *pass)
     return made;
 }
 
-/* Makes all row blocks of b in two passes. If previous rows exist, few row blocks change, and the neighbours found in
- * the first pass are stored for the second one. */
+/* Makes all row blocks (rows of eight particles each) of b in two passes. If previous rows exist, few row blocks
+ * change, and the neighbours found in the first pass are stored for the second one. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = pair_table_make(maker.source);

@@ -34,8 +34,8 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts in c->n the intact bonds of column k of row block g to images in clamped planes. If c->entry is allocated,
- * also stores these bonds. is[image]: 1 for images in clamped planes. */
+/* Counts in c->n the intact bonds of column k of row block g (rows of eight particles) to images in clamped planes. If
+ * c->entry is allocated, also stores these bonds. is[image]: 1 for images in clamped planes. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -51,8 +51,9 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
     }
 }
 
-/* Counts or stores the bonds of all row blocks to images in clamped planes (column_note). Images have indices behind
- * those of the body, so that most columns are excluded by one comparison. is[image]: 1 for images in clamped planes. */
+/* Counts or stores the bonds of all row blocks (rows of eight particles each) to images in clamped planes
+ * (column_note). Images have indices behind those of the body, so that most columns are excluded by one comparison.
+ * is[image]: 1 for images in clamped planes. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;

@@ -59,8 +59,9 @@ static void holes_close(struct holes_by_size *s)
     memory_free(s->next);
 }
 
-/* Adds the columns of the previous row blocks that are rebuilt to the holes, unused columns for the next rebuilding: in
- * this one they are still read. kept[row blocks]: row block of `old` that is taken over, -1: none. */
+/* Adds the columns of the previous row blocks (rows of eight particles each) that are rebuilt to the holes, unused
+ * columns for the next rebuilding: in this one they are still read. kept[row blocks]: row block of `old` that is taken
+ * over, -1: none. */
 static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
     struct bond_holes *holes = &b->holes;
@@ -78,7 +79,7 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
 /* Allocates the column arrays of b for b->room columns. sparse: reserves addresses that get memory when they are
- * written, since on a lattice most row blocks write no column. */
+ * written, since on a lattice most row blocks (rows of eight particles each) write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
     void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_sparse : memory_new_uninitialised;
@@ -146,9 +147,10 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
     holes_add(b, old, kept);
 }
 
-/* Assigns columns to all row blocks, in the arrays of the previous rows if possible, else in new ones. Rows with
- * plastic bonds always get new arrays, because their plastic state is archived in the order of the row blocks
- * (bonds_archive.c). kept[row blocks]: previous row block that is taken over, -1: none; NULL: no previous rows. */
+/* Assigns columns to all row blocks (rows of eight particles each), in the arrays of the previous rows if possible,
+ * else in new ones. Rows with plastic bonds always get new arrays, because their plastic state is archived in the order
+ * of the row blocks (bonds_archive.c). kept[row blocks]: previous row block that is taken over, -1: none; NULL: no
+ * previous rows. */
 void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *kept)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];

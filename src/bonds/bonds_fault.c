@@ -16,8 +16,8 @@ static const char *rows_fault(const struct bonds *b)
     return NULL;
 }
 
-/* Returns a text about what is wrong with row block g, which stores no columns but uses a stencil; NULL if nothing
- * is. */
+/* Returns a text about what is wrong with row block g (rows of eight particles), which stores no columns but uses a
+ * stencil; NULL if nothing is. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
     if (!b->stencil[g]) return "an implicit row block follows no stencil";
@@ -44,8 +44,8 @@ static const char *column_fault(const struct bonds *b, int64_t column)
     return NULL;
 }
 
-/* Returns a text about an intact bond of a row that leads farther than b->reach row blocks away; NULL if there is
- * none. */
+/* Returns a text about an intact bond of a row that leads farther than b->reach row blocks (rows of eight particles
+ * each) away; NULL if there is none. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {

@@ -15,8 +15,8 @@ int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *
     return first / LANES;
 }
 
-/* Copies an array with `each` bytes per column from row block `of` of the previous rows `old` to row block g of b.
- * from, to: the arrays of all columns of both. */
+/* Copies an array with `each` bytes per column from row block `of` of the previous rows `old` to row block g (rows of
+ * eight particles) of b. from, to: the arrays of all columns of both. */
 static void columns_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old,
                          int64_t g, int64_t of)
 {
@@ -24,7 +24,8 @@ static void columns_copy(void *to, const void *from, size_t each, const struct b
                b->column_count[g], each);
 }
 
-/* Copies the entries of all column arrays from row block `from` of the previous rows to row block g of b. */
+/* Copies the entries of all column arrays from row block `from` of the previous rows to row block g (rows of eight
+ * particles) of b. */
 static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
     columns_copy(b->first, old->first, sizeof *b->first, b, old, g, from);

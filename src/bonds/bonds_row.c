@@ -187,14 +187,15 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
-/* Returns the plastic state of bond k of a lane in a row block. */
+/* Returns the plastic state of bond k of lane `lane` (0 to 7) in a row block. */
 static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     const int64_t q = (b->column[row_block] + k) * LANES + lane;
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
-/* Copies the state of broken and yielded bonds from the particle's row number old_row of the previous rows. */
+/* Copies the state of broken and yielded bonds of a particle to `row` from its row number old_row of the previous rows
+ * `old`, which may have other neighbours. */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t row_block = old_row / LANES;
@@ -212,7 +213,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     }
 }
 
-/* Copies the neighbours of the unchanged row number old_row of the previous rows. */
+/* Copies the neighbours of a particle to `row` from its unchanged row number old_row of the previous rows `old`. */
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
@@ -224,7 +225,8 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
     }
 }
 
-/* Copies lengths, weights and plastic state of the bonds of the unchanged row number old_row of the previous rows. */
+/* Copies lengths, weights and plastic state of the bonds of a particle to `row` from its unchanged row number old_row
+ * of the previous rows `old`. */
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];

@@ -14,8 +14,8 @@ static bool offsets_are(const int32_t *offset, int n, const struct row *row, int
     return other == 0;
 }
 
-/* Lists the distinct index distances (neighbour minus particle) of all bonds of a row block in g->offset, ascending.
- * particle[rows]: its particles. Returns their number. */
+/* Lists the distinct index distances (neighbour minus particle) of all bonds of a row block (rows of eight particles)
+ * in g->offset, ascending. particle[rows]: its particles. Returns their number. */
 static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle, int rows)
 {
     int n = g->row[0].n;
@@ -32,9 +32,9 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
     return n;
 }
 
-/* Returns the number of columns of a row block, and stores in *by_offset how its bonds are arranged: true if each
- * column has bonds of one index distance, false if rows are packed without gaps. Rows of irregular particles are
- * packed, since columns by distance would be mostly padding. particle[rows]: its particles. */
+/* Returns the number of columns of a row block (rows of eight particles), and stores in *by_offset how its bonds are
+ * arranged: true if each column has bonds of one index distance, false if rows are packed without gaps. Rows of
+ * irregular particles are packed, since columns by distance would be mostly padding. particle[rows]: its particles. */
 int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset)
 {
     int longest = 0;
@@ -51,7 +51,7 @@ static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t
     return p->material[i] * b->yield.materials + p->material[j];
 }
 
-/* Stores the plastic state of the bond at entry q of the bond arrays. pair: index of its pair of materials in
+/* Stores the plastic state of the bond with index q in the bond arrays. pair: index of its pair of materials in
  * b->yield. */
 static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plastic, int32_t pair)
 {
@@ -60,8 +60,9 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
     b->pair[q] = pair;
 }
 
-/* Stores for row block g whether its particles are consecutive, and for each of its rows the smallest stretch at which
- * a bond may break, the volume of its family and that of the neighbours whose bonds are broken. */
+/* Stores for row block g (rows of eight particles) whether its particles are consecutive, and for each of its rows the
+ * smallest stretch at which a bond may break, the volume of its family and that of the neighbours whose bonds are
+ * broken. */
 static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -85,8 +86,8 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
-/* Stores the softening of the bonds of row block g, if one of them has begun to soften, in the columns in which
- * row_block_fill has put the bonds. */
+/* Stores the softening of the bonds of row block g (rows of eight particles), if one of them has begun to soften, in
+ * the columns in which row_block_fill has put the bonds. */
 static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
 {
     bool begun = false;
@@ -130,8 +131,9 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
     row_block_store(b, buffer, g, p);
 }
 
-/* Makes the stencil of row block g from its columns in `room`. Returns false if the row block must store its columns:
- * its particles are not consecutive, bonds are plastic or changed, or a column has unequal bonds. */
+/* Makes the stencil of row block g (rows of eight particles) from its columns in `room`. Returns false if the row block
+ * must store its columns: its particles are not consecutive, bonds are plastic or changed, or a column has unequal
+ * bonds. */
 static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
@@ -152,7 +154,7 @@ void row_block_store(struct bonds *b, struct row_block_buffer *buffer, int64_t g
         bond_column_write(b, b->column[g] + k, &buffer->column[k]);
 }
 
-/* Returns which of the particles i .. i + 7 are peridynamic, one bit each. */
+/* Returns which of the particles i .. i + 7 are peridynamic, as bits 0 .. 7. */
 static uint8_t peridynamic(const struct particles *p, int64_t i)
 {
     unsigned bits = 0;
@@ -196,8 +198,8 @@ int regular_bonds_count(const struct regular_bonds *bonds)
     return sum;
 }
 
-/* Fills a column with the bonds of particles i .. i + 7 to particles j .. j + 7. bonds: which of the eight exist, one
- * bit each; the others become padding. */
+/* Fills a column with the bonds of particles i .. i + 7 to particles j .. j + 7, with their lengths and weights. bonds:
+ * bit l: the bond of particle i + l exists; the others become padding. */
 static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds)
 {
     const struct bond_source *s = m->source;
@@ -209,8 +211,8 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
     }
 }
 
-/* Computes trigger[l] for each of the particles i .. i + 7: the smallest stretch at which one of its bonds may break or
- * begin to soften [1]. */
+/* Computes trigger[l] for particle i + l, l = 0 .. 7: the smallest stretch at which one of its bonds may break or begin
+ * to soften [1]. bonds: the bonds of the eight particles; m: limits of bonds. */
 static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
                              int32_t i)
 {
@@ -223,7 +225,8 @@ static void regular_triggers(real trigger[LANES], const struct regular_bonds *bo
     }
 }
 
-/* Returns true if all eight particles have bonds to all particles within the cutoff, as peridynamic particles have. */
+/* Returns true if the eight particles of a row block have bonds to all particles within the cutoff, as peridynamic
+ * particles have. */
 static bool whole_families(const struct regular_bonds *bonds)
 {
     unsigned without = 0;
@@ -231,8 +234,9 @@ static bool whole_families(const struct regular_bonds *bonds)
     return without == 0;
 }
 
-/* Fills row block g from the bonds in buffer->regular, which the map of lattice sites gives, without making single
- * rows. If a recent row block had the same bonds, and families are whole, its stencil and sums are used. */
+/* Fills row block g (rows of eight particles) from the bonds in buffer->regular, which the map of lattice sites gives,
+ * without making single rows. If a recent row block had the same bonds, and families are whole, its stencil and sums
+ * are used. */
 void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, int64_t g, const struct row_maker *m)
 {
     const struct regular_bonds *bonds = &buffer->regular;
@@ -254,8 +258,9 @@ void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, in
     row_block_store(b, buffer, g, m->p);
 }
 
-/* Allocates working memory for row blocks whose rows have up to `capacity` bonds, for the worst case. Little of it is
- * ever touched, as the arrays are not cleared. map: map of lattice sites. Release it with row_block_buffer_free. */
+/* Allocates working memory for row blocks (rows of eight particles each) whose rows have up to `capacity` bonds, for
+ * the worst case. Little of it is ever touched, as the arrays are not cleared. map: map of lattice sites. Release it
+ * with row_block_buffer_free. */
 void row_block_buffer_make(struct row_block_buffer *g, int capacity, const struct site_map *map)
 {
     g->room = capacity;

@@ -73,7 +73,8 @@ void bonds_take_softness(struct bonds *b, const struct particles *p, const struc
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], old, it.bond.entry);
 }
 
-/* Copies the softening of all bonds in row blocks where softening has begun to `packed` (saving), or from it. */
+/* Copies the softening of all bonds in row blocks (rows of eight particles each) where softening has begun to `packed`
+ * (saving), or from it. */
 static void pack_softness(struct bonds *b, struct bond_softness *packed, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
@@ -103,8 +104,8 @@ status softness_archive(struct bonds *b, struct archive *a)
     return s;
 }
 
-/* Returns half the energy that the bonds of row block g have dissipated by softening [J], as a term of
- * reproducible_sum. context: the bonds. */
+/* Returns half the energy that the bonds of row block g (rows of eight particles) have dissipated by softening [J], as
+ * a term of reproducible_sum. context: the bonds. */
 static real row_block_spent(const void *context, int64_t g)
 {
     const struct bonds *b = context;

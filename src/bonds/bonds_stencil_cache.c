@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Number of row blocks in the cache of recent ones: enough for the different ones in a few lattice rows, inside and at
- * their ends; empirical. */
+/* Number of row blocks (rows of eight particles each) in the cache of recent ones: enough for the different ones in a
+ * few lattice rows, inside and at their ends; empirical. */
 enum { REMEMBERED = 32 };
 
 struct stencil_cache {

@@ -192,7 +192,7 @@ void bond_column_write(const struct bonds *b, int64_t column, const struct colum
     bonds_update_column_common(b, column);
 }
 
-/* Writes the columns of a row block, which its stencil defines, to the column arrays. */
+/* Writes the columns of a row block (rows of eight particles), which its stencil defines, to the column arrays. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;

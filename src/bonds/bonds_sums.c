@@ -82,8 +82,8 @@ void bonds_compute_neighbour_volume(real *volume, const struct particles *p, con
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
-/* Returns an upper bound of omega^2 m for particle i [N/m], from the springs of the bonds in its row. stiffness: of a
- * bond of weight 1. */
+/* Returns an upper bound of omega^2 m for particle i of mass m [N/m], with its largest angular frequency omega, from
+ * the springs of the bonds in its row. stiffness: of a bond of weight 1. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -115,8 +115,9 @@ struct eight_bounds {
     real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
 };
 
-/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound. inverse, w: inverse lengths [1/m] and
- * weights of the bonds; w = 0: no spring (adding zeros changes no bit); stiffness: of a bond of weight 1. */
+/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound of the eight particles. inverse, w: inverse
+ * lengths [1/m] and weights of the bonds; w = 0: no spring (adding zeros changes no bit); stiffness: of a bond of
+ * weight 1. */
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                                      const real *inverse, const real *w, real stiffness, const int dim)
 {
@@ -130,7 +131,9 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
     for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
 }
 
-/* Adds springs as bounds_add does, with the number of dimensions of the particles as a constant. */
+/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound, as bounds_add does, with the number of
+ * dimensions of the particles as a constant. inverse, w: inverse lengths [1/m] and weights of the bonds; stiffness: of
+ * a bond of weight 1. */
 static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                            const real *inverse, const real *w, real stiffness)
 {
@@ -147,7 +150,8 @@ static void bounds_add_any(struct eight_bounds *bound, const struct particles *p
     }
 }
 
-/* Returns an upper bound of the largest omega^2 of particles i .. i + 7 [1/s^2] from the sums of their springs. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2] from the sums
+ * of their springs. */
 static real bounds_frequency(const struct eight_bounds *bounds, const struct particles *p, int64_t i)
 {
     real largest = 0;
@@ -160,8 +164,9 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
     return largest;
 }
 
-/* Returns an upper bound of the largest omega^2 of particles i .. i + 7 [1/s^2] from the bonds that the map of lattice
- * sites gives, without making their rows. pairs: stiffness ratios by materials; stiffness: of a bond of weight 1. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2] from the
+ * bonds that the map of lattice sites gives, without making their rows. pairs: stiffness ratios by materials;
+ * stiffness: of a bond of weight 1. */
 static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
@@ -176,7 +181,8 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Returns an upper bound of the largest omega^2 of the particles in row block g [1/s^2] from its stored bonds. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of the particles in row block g (rows of
+ * eight particles) [1/s^2] from its stored bonds. */
 static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int64_t columns = b->column_count[g];
@@ -220,9 +226,9 @@ static struct pair_table pairs_of_bound(const struct bond_source *s)
     return pairs;
 }
 
-/* Returns marks [n] of the first particle of each class of equal surroundings (surface.h); the others have rows of
- * equal stiffness. Returns NULL if there are no classes, or if particles of a class may have unequal bonds. Release it
- * with memory_free. */
+/* Returns marks [n] of the first particle of each class of equal surroundings; the other particles of a class have rows
+ * of equal stiffness. Returns NULL if there are no classes, or if particles of a class may have unequal bonds. Release
+ * it with memory_free. */
 static uint8_t *first_of_classes(const struct surface_weights *w, const struct site_map *map, int64_t n)
 {
     if (!w || !map->uniform) return NULL;

@@ -28,7 +28,8 @@ static int later(const void *a, const void *b)
     return (x->breaks < y->breaks) - (x->breaks > y->breaks);
 }
 
-/* Lists in c the bonds that cross a plane from a particle at `height` [m] above it. Returns their number. */
+/* Lists in c the bonds that cross a plane from a particle of a full lattice at `height` [m] above the plane. Returns
+ * their number. */
 static int crossings(const struct family *f, real height, struct crossing *c)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), depth = dim > 2 ? reach : 0;
@@ -45,9 +46,10 @@ static int crossings(const struct family *f, real height, struct crossing *c)
     return n;
 }
 
-/* Returns the work of separation of one layer of particles for s_c = 1: the integral of dW over the opening, summed
- * from the last bond that breaks back to the first. height: of the layer above the plane [m]; local: true if Q is that
- * of the intact bonds; c: working memory for the bonds that cross the plane. */
+/* Returns the work per volume for s_c = 1 that separates the bonds of a layer of particles at `height` [m] above a
+ * plane: the integral of dW over the opening, with the energy density W of a particle, summed from the last bond that
+ * breaks back to the first. m: constants of the state-based law. local: true if the weighted volume Q is that of the
+ * intact bonds; c: working memory for the bonds that cross the plane. */
 static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
                        struct crossing *c)
 {

@@ -11,7 +11,7 @@
 
 enum { RADIUS = 2 };
 
-/* Returns the hash of Fowler, Noll and Vo extended by a word of 64 bits. */
+/* Returns the hash of Fowler, Noll and Vo, extended by a word of 64 bits. */
 static uint64_t mixed(uint64_t hash, uint64_t word)
 {
     hash = (hash ^ word) * UINT64_C(0x100000001b3);
@@ -46,8 +46,8 @@ static void kinds_start(struct kinds *s, const struct near_faces *b)
     for (int m = 0; m < 1 << b->offset.dim; m++) s->colour[m] = HASH_START;
 }
 
-/* Returns the hash of the kinds of particle t (index among those near faces) and its neighbours: the sum of their
- * products with the random words factor[offsets]. */
+/* Returns the hash of the kinds (particles with equal surroundings) of particle t (index among those near faces) and
+ * its neighbours: the sum of their products with the random words factor[offsets]. */
 static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, const uint64_t *factor, int64_t t)
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
@@ -64,8 +64,8 @@ static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, 
     return mixed(HASH_START, sum ^ sum >> 32);
 }
 
-/* Returns the hash of the surroundings (colour) of neighbour j, reflected by the axes in `mirrors`: 1 without a
- * particle (j < 0), 2 for a particle near no face. */
+/* Returns the hash of the surroundings (colour) of particle or image j, a neighbour, reflected by the axes in
+ * `mirrors`. Returns 1 if there is no particle (j < 0), 2 if it is near no face. */
 static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
@@ -85,8 +85,8 @@ static uint64_t colour_around(const struct near_faces *b, const struct kinds *s,
     return hash;
 }
 
-/* Assigns n elements with equal hashes hash[n] to kinds, numbered in the order of their first element: sets s->n, s->of
- * and s->first. */
+/* Assigns n elements to kinds by their hashes, hash[n]: those with equal hashes are of one kind. Kinds are numbered in
+ * the order of their first element. Sets s->n, s->of and s->first. */
 static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 {
     int64_t room = 64;
@@ -104,8 +104,8 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
     memory_free(slot);
 }
 
-/* Divides the kinds by the kinds of their neighbours, so that surroundings are compared one family deeper. colours:
- * true to compute the colours, hashes of the surroundings, of the new kinds. */
+/* Divides the kinds (particles with equal surroundings) by the kinds of their neighbours, so that surroundings are
+ * compared one family deeper. colours: true to compute the colours, hashes of the surroundings, of the new kinds. */
 static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
 {
     const int dim = b->offset.dim;
@@ -127,8 +127,8 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 
 /* ---- classes ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the first set of mirrors >= `from`, one bit per axis, in which a kind has its smallest colour (hash of its
- * surroundings); -1 if there is none. */
+/* Returns the first set of mirrors >= `from`, one bit per axis, in which the hash of the surroundings (colour) of the
+ * particles of a kind is smallest; -1 if there is none. */
 static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
@@ -156,8 +156,8 @@ static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b,
     memory_free(least.first);
 }
 
-/* Numbers the classes in the order of their first particle, from 1, and finds the sets of mirrors under which each
- * class is its own image. */
+/* Numbers the classes (particles with equal surroundings up to mirrors) in the order of their first particle, from 1,
+ * and finds the sets of mirrors under which each class is its own image. */
 static void classes_make(struct bond_classes *a, const struct near_faces *b, const struct kinds *s)
 {
     int32_t *of = NEW("surface.class", s->n, int32_t);
@@ -181,14 +181,14 @@ static void classes_make(struct bond_classes *a, const struct near_faces *b, con
 
 /* ---- groups of bonds --------------------------------------------------------------------------------------------- */
 
-/* Returns the root of k in a union-find forest, with path halving. */
+/* Returns the root of element k in the union-find forest `parent`, with path halving. */
 static int64_t root_of(int64_t *parent, int64_t k)
 {
     while (parent[k] != k) k = parent[k] = parent[parent[k]];
     return k;
 }
 
-/* Joins the groups of two entries in the union-find forest `parent`; an entry with parent -1 has no group yet. */
+/* Joins the groups of two elements in the union-find forest `parent`; an element with parent -1 has no group yet. */
 static void groups_join(int64_t *parent, int64_t one, int64_t other)
 {
     if (parent[one] < 0) parent[one] = one;
@@ -200,15 +200,16 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
         parent[x] = y;
 }
 
-/* Returns the entry of bond k of particle t in the tables by class and offset: the offset is reflected by the mirrors
- * that the particle has in its class. */
+/* Returns the index of bond k of particle t in the tables by class (particles with equal surroundings up to mirrors)
+ * and offset. The offset is reflected by the mirrors that map the particle to its class. */
 static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* Joins the entries of both directions of every bond whose factor may change. first[n]: first particles of kinds that
- * determine the kinds of all neighbours; parent: union-find forest of the entries. */
+/* Joins the table entries of both directions of every bond whose factor may change, so that they get one factor, in the
+ * union-find forest `parent`. first[n]: first particles of the kinds (particles with equal surroundings) that determine
+ * the kinds of all neighbours. */
 static void bonds_join(const struct bond_classes *a, const struct near_faces *b, const int64_t *first, int32_t n,
                        int64_t *parent)
 {
@@ -223,8 +224,8 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
         }
 }
 
-/* Joins the entries of bonds of a class that are mirror images of each other. parent: union-find forest of the
- * entries. */
+/* Joins the table entries of bonds of a class that are mirror images of each other, so that they get one factor. A
+ * class consists of particles with equal surroundings up to mirrors. parent: union-find forest of the entries. */
 static void twins_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;

@@ -129,8 +129,8 @@ static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t 
         }
 }
 
-/* Returns the sum of the weights (nearness) of all faces of an infinite plane, seen from a particle in its first
- * layer. */
+/* Returns the sum of the weights (nearness) of all faces of particles on an infinite plane face, seen from a particle
+ * in its first layer [1]. */
 static real plane_of_faces(const struct offsets *o)
 {
     real sum = 1;
@@ -146,7 +146,8 @@ struct smooth_faces {
     struct smooth *smooth; /* [n] */
 };
 
-/* Computes the smoothed faces (struct smooth) of all particles with faces. */
+/* Computes the smoothed faces (struct smooth) of all particles with faces, and s->at, the index of each particle near
+ * faces among them. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
     const struct near_faces *b = raw->body;
@@ -213,7 +214,8 @@ static void face_spread(struct surface_fit_targets *f, const struct near_faces *
         for (int k = 0; k < 2; k++) f->dipole[b->place[chain[k].particle]] += first[k];
 }
 
-/* Returns the number of layers of particles along an axis through particle t, from face to face; at most `most`. */
+/* Returns the number of layers of particles along an axis through particle t, from face to face of the body; at most
+ * `most`. */
 static int layers(const struct near_faces *b, int64_t t, int axis, int most)
 {
     int n = 1;

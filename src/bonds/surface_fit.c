@@ -84,8 +84,8 @@ static real full_of(const struct moments *m, int a, int b, int c, int d)
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
-/* Computes the basis of strains B_k, their stresses M:B_k, and the coefficients by which products with them follow from
- * the components of a moment. */
+/* Computes the basis of strains B_k, their stresses M:B_k with the fourth moment M of a full family, and the
+ * coefficients by which the products of B_k with a moment follow from the components of that moment. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -132,8 +132,9 @@ static void moments_make(struct moments *m, const struct offsets *o)
     strains_make(m);
 }
 
-/* Returns the coefficient alpha in tau = alpha dipole for bonds without rotation: the value for a plane face along
- * which the body is stretched. In an isotropic family it is the same for shear along the face. */
+/* Returns the coefficient alpha by which the dipole of a face raises the target of the fourth moments, (1 + alpha
+ * dipole) M, for bonds without rotation. It is the value for a plane face along which the body is stretched; in an
+ * isotropic family it is the same for shear along the face. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -149,8 +150,8 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
 
-/* Inverts a symmetric positive definite matrix of n rows in place by Gauss-Jordan elimination. capacity: numbers from
- * one row to the next. */
+/* Inverts the symmetric positive definite matrix a of n rows in place by Gauss-Jordan elimination. capacity: numbers
+ * from one row to the next. */
 static void invert(real *a, int n, int capacity)
 {
     for (int k = 0; k < n; k++) {
@@ -184,8 +185,8 @@ static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], re
     invert(&P[0][0], m->strains, STRAINS);
 }
 
-/* Adds the matrix sum_k by_k^T P by_k to `to` [n][capacity]. by: `rows` matrices with STRAINS rows, of which `strains`
- * are used, and n columns, `capacity` apart. */
+/* Adds the matrix sum_k by_k^T P by_k to `to` [n][capacity], with the symmetric matrix P of weights of strains. by:
+ * `rows` matrices by_k with STRAINS rows, of which `strains` are used, and n columns, `capacity` apart. */
 static void quadratic(const real *by, int rows, int strains, int n, int capacity, real (*P)[STRAINS], real *to)
 {
     for (int k = 0; k < rows; k++)
@@ -206,7 +207,7 @@ struct class_goal {
 };
 
 /* Adds face area, dipole and N (x) N of particle t, reflected by the axes in `mirrors`, with the weight `share` to the
- * goal of a class. */
+ * goal of a class (particles with equal surroundings). */
 static void class_goal_add(struct class_goal *to, int dim, const struct surface_fit_targets *f, int64_t t, int mirrors,
                            real share)
 {
@@ -218,7 +219,8 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
     }
 }
 
-/* Computes goal[classes]: the means of face area, dipole and N (x) N over the members of each class. */
+/* Computes goal[classes]: the means of face area, dipole and N (x) N over the members of each class (particles with
+ * equal surroundings). */
 static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b,
                         const struct surface_fit_targets *f, const struct bond_classes *a)
 {
@@ -231,8 +233,9 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
     }
 }
 
-/* Computes the quadratic form of a class and the target of its moments, less those of the bonds whose factors do not
- * change. goal: means over the members of the class; alpha: coefficient of the dipole. */
+/* Computes the quadratic form of a class (particles with equal surroundings) and the target of its moments, less those
+ * of the bonds whose factors do not change. goal: means over the members of the class; alpha: coefficient of the
+ * dipole. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -257,8 +260,8 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
     }
 }
 
-/* Returns the sum, over the bonds of a class whose factors may change, of the class's quadratic form of the moments of
- * the bond. */
+/* Returns the sum, over the bonds of a class (particles with equal surroundings) whose factors may change, of the
+ * class's quadratic form of the moments of the bond. */
 static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];
@@ -276,8 +279,8 @@ static real class_squares(const struct surface_fit_problem *q, const struct mome
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
-/* Sorts the entries of the tables by class and offset by group, and counts in bonds[groups] the bonds of each group:
- * half of the members of its entries. */
+/* Sorts the entries of the tables by class and offset, one per bond, into the groups of bonds that share one factor.
+ * bonds[groups]: receives the number of bonds of each group, half of the members of its entries. */
 static void group_entries(struct surface_fit_problem *q, real *bonds)
 {
     const struct bond_classes *a = q->alike;
@@ -297,7 +300,8 @@ static void group_entries(struct surface_fit_problem *q, real *bonds)
     memory_free(next);
 }
 
-/* Computes the weight of the prior of each group, and inverts the quadratic forms of the classes. */
+/* Computes the weight of the prior of each group (bonds with one factor), and inverts the quadratic forms of the
+ * classes (particles with equal surroundings). */
 static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 {
     const struct bond_classes *a = q->alike;
@@ -351,7 +355,7 @@ static int neighbours(const struct near_faces *b, int64_t t)
     return n;
 }
 
-/* Returns true if bonds of any pair of materials may break. */
+/* Returns true if the critical stretch of bonds between any two materials is finite, so that they may break. */
 static bool may_break(const struct bond_limit *limit)
 {
     bool breaks = false;
@@ -359,8 +363,8 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors of the bonds of a class by equal bounds: to the factor of the volume method (Le & Bobaru 2018), or
- * to 1 if `one`. */
+/* Fixes the factors of the bonds of a class (particles with equal surroundings) by equal bounds: to the factor of the
+ * volume method (Le & Bobaru 2018), or to 1 if `one`. */
 static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;
@@ -389,8 +393,8 @@ static void plain_parts(struct surface_fit_problem *q, const struct near_faces *
         if (f->thin[a->member[class]]) class_fix(q, b, class, rotates);
 }
 
-/* Sets the bounds q->low, q->high of the factors of all groups: LEAST and MOST, or equal ones where plain_parts fixes
- * the factor. rotates: true for a model with rotations. */
+/* Sets the bounds q->low, q->high of the factors of all groups (bonds with one factor): LEAST and MOST, or equal ones
+ * where plain_parts fixes the factor. rotates: true for a model with rotations. */
 static void bounds_make(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

@@ -19,7 +19,8 @@
 #define ROUGH 0.1   /* largest residual of a linear system, relative to R */
 #define STEEP 0.1   /* largest slope after a step, relative to that before it */
 #define WORK 2.5e10 /* largest number of multiplications: 10 s on two cores */
-/* TOGETHER: number of classes whose blocks are stored interleaved, and solved together by vector instructions */
+/* TOGETHER: number of classes of particles whose blocks of the matrix are stored interleaved, and solved together by
+ * vector instructions. */
 enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2, TOGETHER = 4 };
 
 /* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
@@ -58,9 +59,9 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes value[offsets]: the products of the moments of the bonds of a class with the vector `by`. changes: marks of
- * pairs of opposite bonds, of which those without a mark are skipped; NULL: none is. thirds, fourths: numbers of
- * moments, constants. */
+/* Computes value[offsets]: the products of the moments of the bonds of a class (particles with equal surroundings) with
+ * the vector `by`. changes: marks of pairs of opposite bonds, of which those without a mark are skipped; NULL: none is.
+ * thirds, fourths: numbers of moments, constants. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
 {
@@ -77,9 +78,10 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
     }
 }
 
-/* Subtracts the sum of the moments of the bonds of a class, times x[group] of their groups, from `to`. changes: marks
- * of pairs of opposite bonds, of which those without a mark are skipped, since their x is 0; NULL: none is. thirds,
- * fourths: numbers of moments, constants. */
+/* Subtracts from the vector `to` of a class (particles with equal surroundings) the sum over its bonds of their moments
+ * times x[group] of the bond. group[offsets]: group of each bond, -1: none. changes: marks of pairs of opposite bonds,
+ * of which those without a mark are skipped, since their x is 0; NULL: none is. thirds, fourths: numbers of moments,
+ * constants. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -95,8 +97,8 @@ static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const u
     for (int m = 0; m < thirds + fourths; m++) to[m] -= sum[m];
 }
 
-/* Computes to = Q^-1 of for a class, with the inverse of its quadratic form Q in c. thirds, fourths: numbers of
- * moments, constants. */
+/* Computes the vector to = Q^-1 `of` for a class (particles with equal surroundings), with the inverse of its quadratic
+ * form Q in c. thirds, fourths: numbers of moments, constants. */
 static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of, real *to, const int thirds,
                                       const int fourths)
 {
@@ -107,8 +109,8 @@ static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of,
         for (int x = 0; x < fourths; x++) to[thirds + x] += c->fourth[y][x] * of[thirds + y];
 }
 
-/* Returns the marks of the pairs of opposite bonds of a class, in the array `changes` of all classes; NULL if that is
- * NULL. */
+/* Returns the marks of the pairs of opposite bonds of a class (particles with equal surroundings), in the array
+ * `changes` of all classes; NULL if that is NULL. */
 static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_t *changes, int32_t class)
 {
     return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
@@ -132,8 +134,9 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
     }
 }
 
-/* Computes to = Q^-1 by - (sum of the moments of the bonds times x of their groups) for all classes, plus the goals if
- * `goals`. changes: marks of pairs of opposite bonds, without which x is 0; NULL: all are marked. */
+/* Computes the vector `to` of all classes (particles with equal surroundings): Q^-1 `by`, minus the sum over the bonds
+ * of each class of their moments times x[group], plus the goals if `goals`. changes: marks of pairs of opposite bonds,
+ * without which x is 0; NULL: all are marked. */
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {
@@ -155,7 +158,7 @@ static void all_sum(const struct descent *d, const uint8_t *changes, const real 
     }
 }
 
-/* Returns the sum of d->value over the entries of a group of bonds. */
+/* Returns the sum of d->value over the entries of group g of bonds, which share one factor. */
 static real group_sum(const struct descent *d, int64_t g)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -226,7 +229,8 @@ static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER]
     }
 }
 
-/* Counts in d->images for each bond of a class the bonds of its group in this class: the bond and its mirror images. */
+/* Counts in d->images for each bond of a class (particles with equal surroundings) the bonds of this class with the
+ * same factor: the bond and its mirror images. */
 static void images_count(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -236,16 +240,17 @@ static void images_count(const struct descent *d, int32_t class)
         for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
 }
 
-/* Returns the weight of bond k in the block of its class: 0 if its factor is at a bound. Each of n images has n times
- * the weight, which is exact for multipliers with the symmetry of the class. */
+/* Returns the weight of bond k in the preconditioner's block of its class (particles with equal surroundings); 0 if its
+ * factor is at a bound. Each of n mirror images of a bond has n times the weight, which is exact for multipliers with
+ * the symmetry of the class. */
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
     const int64_t at = (int64_t) class * d->fit->offsets + k, group = d->fit->alike->group_of[at];
     return group < 0 || !d->between[group] ? 0 : d->images[at] / d->fit->prior[group];
 }
 
-/* Computes the Cholesky factor of the block of a class, its part of the matrix of the linear system, for the
- * preconditioner. */
+/* Computes the Cholesky factor of the block of a class (particles with equal surroundings) in the matrix of the linear
+ * system, for the preconditioner. */
 static void block_make(const struct descent *d, int32_t class)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -273,7 +278,8 @@ static void block_make(const struct descent *d, int32_t class)
     for (int at = 0; at < width * (width + 1) / 2; at++) all[at][class % TOGETHER] = block[at];
 }
 
-/* Returns true if the factor of a bond of a class has reached or left a bound since the last linear system. */
+/* Returns true if the factor of a bond of a class (particles with equal surroundings) has reached or left a bound since
+ * the last linear system. */
 static bool class_turned(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -283,7 +289,8 @@ static bool class_turned(const struct descent *d, int32_t class)
     return false;
 }
 
-/* Marks in d->changes the pairs of opposite bonds of a class of which a factor is between its bounds. */
+/* Marks in d->changes the pairs of opposite bonds of a class (particles with equal surroundings) of which a factor is
+ * between its bounds. */
 static void class_mark(struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -294,8 +301,9 @@ static void class_mark(struct descent *d, int32_t class)
     }
 }
 
-/* Sets the matrix of the linear system for the present factors: marks those between their bounds, and computes the
- * blocks of the classes where that has changed since the last linear system. */
+/* Sets the matrix of the linear system for the present factors of bonds: marks the factors between their bounds, and
+ * computes the preconditioner's blocks of the classes (particles with equal surroundings) where that has changed since
+ * the last linear system. */
 static void system_make(struct descent *d)
 {
 #pragma omp parallel for schedule(static)
@@ -313,7 +321,8 @@ static void system_make(struct descent *d)
     d->systems++;
 }
 
-/* Computes d->weighed = B^-1 d->left, where B has the blocks of the classes on its diagonal (preconditioner). */
+/* Computes d->weighed = B^-1 d->left with the preconditioner B, which has the blocks of the classes (particles with
+ * equal surroundings) on its diagonal. */
 static void left_weigh(struct descent *d)
 {
     const int32_t classes = d->fit->alike->classes;
@@ -333,8 +342,8 @@ static void left_weigh(struct descent *d)
 
 /* ---- Newton's method --------------------------------------------------------------------------------------------- */
 
-/* Solves the linear system of Newton's method for d->step by preconditioned conjugate gradients, until its residual is
- * `share` of the residual R of the problem. */
+/* Solves the linear system of Newton's method for the step of the multipliers, d->step, by preconditioned conjugate
+ * gradients until its residual is `share` of the residual R of the problem. */
 static void step_solve(struct descent *d, real share)
 {
     real before = 0;
@@ -354,8 +363,8 @@ static void step_solve(struct descent *d, real share)
     }
 }
 
-/* Moves the multipliers along d->step until the slope of the function whose gradient is R is at most STEEP of that at
- * the start, and updates factors and residual. */
+/* Moves the multipliers along d->step, and updates factors and residual. Shortens the step while the convex function
+ * whose gradient is R rises at its end with more than STEEP of the slope with which it falls at the start. */
 static void step_take(struct descent *d)
 {
     const real slope = inner(d->n, d->residual, d->step);
@@ -371,8 +380,8 @@ static void step_take(struct descent *d)
     array_copy(d->residual, d->next_residual, d->n, sizeof(real));
 }
 
-/* Makes steps of Newton's method until the residual R is small or the allowed products are used up. Returns |R| over
- * its first value [1]. */
+/* Makes steps of Newton's method until the residual R of the least-squares problem is small, or the allowed matrix
+ * products are used up. Returns |R| over its first value [1]. */
 static real descend(struct descent *d)
 {
     residual_make(d, d->multiplier, d->residual);

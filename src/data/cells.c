@@ -155,7 +155,8 @@ static inline int near(struct search *s, const struct particles *p, const int di
     return s->n;
 }
 
-/* Calls `near` with the number of dimensions of the cells as a constant. Returns the number of particles found. */
+/* Searches all cells within the radius of s->X with the number of dimensions as a constant (near). Returns the number
+ * of particles found, which may exceed the room of the list. */
 static int search(struct search *s, const struct particles *p)
 {
     switch (s->c->dim) {

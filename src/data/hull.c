@@ -48,7 +48,8 @@ static bool face_degenerate(const struct hull *s, const int32_t *face)
 }
 
 /* Replaces several faces with the same corners by one, in the orientation that is more frequent, or by none if both are
- * equally frequent, as where two elements meet. Counts the removed faces in s->dropped. */
+ * equally frequent, as where two elements meet. Removes faces with equal corners. Counts in s->dropped the removed
+ * faces other than those that cancel. */
 static void faces_cancel(struct hull *s)
 {
     struct piece *piece = NEW("hull.pieces", s->faces, struct piece);

@@ -220,7 +220,7 @@ static void face_nearest(const struct hull *s, int64_t k, const real *X, real *n
     triangle_nearest(corner, area, X, nearest);
 }
 
-/* Returns the squared distance of X from the box of a node [m^2]. */
+/* Returns the squared distance of X[dim] from the bounding box of a node of the tree [m^2]; 0 inside. */
 static real box_apart2(const struct hull_node *n, const real *X, int dim)
 {
     real sum = 0;

@@ -48,8 +48,8 @@ bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[
 }
 
 /* Returns the volume of the region inside the box from .. to [m^dim], estimated by the share of sample points inside
- * the region. The points are a Kronecker sequence with increments of the powers g^-1, g^-2, .. of the root g of g^(dim
- * + 1) = g + 1 (Roberts 2018). */
+ * the region. The points are a Kronecker sequence with increments of the powers g^-1, g^-2, .. of the root g of
+ * g^(dim+1) = g+1 (Roberts 2018). */
 real region_volume(const struct region *r, int dim, const real *from, const real *to)
 {
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};

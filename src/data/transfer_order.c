@@ -8,7 +8,8 @@
 
 /* ---- blocks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the block that contains cell k along an axis on which blocks are `edge` cells long. */
+/* Returns the index of the block (a box of cells) that contains cell k along an axis on which blocks are `edge` cells
+ * long. */
 static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k >= 0 ? k : k - edge + 1) / edge; }
 
 /* The blocks that overlap the box of a grid. */
@@ -18,7 +19,7 @@ struct block_shape {
     int64_t cells_in_block, n;
 };
 
-/* Returns the blocks that overlap the box of the grid g. */
+/* Returns the blocks (boxes of cells) that overlap the box of the grid g. */
 static struct block_shape block_shape_of(const struct grid *g)
 {
     struct block_shape s = {.dim = g->dim, .cells_in_block = 1, .n = 1};
@@ -31,8 +32,8 @@ static struct block_shape block_shape_of(const struct grid *g)
     return s;
 }
 
-/* Returns the colour of a block, one bit per axis: whether its index along the axis is odd. Blocks of one colour are
- * not adjacent. */
+/* Returns the colour of a block (a box of cells), one bit per axis: whether its index along the axis is odd. Blocks of
+ * one colour are not adjacent. */
 static int block_colour(const struct block_shape *s, int64_t block)
 {
     int colour = 0;
@@ -43,8 +44,8 @@ static int block_colour(const struct block_shape *s, int64_t block)
     return colour;
 }
 
-/* Stores in rank[s->n] the rank of each block in the order by colour, then by number, and in o->blocks_of the first
- * rank of each colour. */
+/* Stores in rank[s->n] the rank of each block (a box of cells) in the order by colour, then by number, and in
+ * o->blocks_of the first rank of each colour. */
 static void rank_blocks(struct transfer_order *o, const struct block_shape *s, int32_t *rank)
 {
     int32_t next = 0;
@@ -102,8 +103,8 @@ struct sorting {
 /* Returns the index of the first entry of a chunk of the list, one of s->chunks equal parts. */
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
 
-/* Returns the rank of the block that contains point i. *inside: receives the index of its cell in the block. dim:
- * dimensions, a constant. */
+/* Returns the rank of the block (a box of cells) that contains point i. *inside: receives the index of its cell in the
+ * block. dim: dimensions, a constant. */
 static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint16_t *inside, const int dim)
 {
     int64_t block = 0, cell = 0;
@@ -118,8 +119,9 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint
     return s->rank[block];
 }
 
-/* Finds blocks (s->key) and cells (s->inside) of the points of a chunk of the list, and counts the points of each block
- * in s->fill. Consecutive points of one block are counted before they are added. dim: dimensions, a constant. */
+/* Finds blocks (s->key) and cells (s->inside) of the points of a chunk of the list (the part of one thread), and counts
+ * the points of each block in s->fill. Consecutive points of one block are counted before they are added. dim:
+ * dimensions, a constant. */
 static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
 {
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
@@ -134,7 +136,8 @@ static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const 
     count[key] += (int32_t)(chunk_start(s, chunk + 1) - from);
 }
 
-/* Calls find_blocks for a chunk of the list with the number of dimensions of the grid as a constant. */
+/* Finds blocks and cells of the points in a chunk of the list (the part of one thread), as find_blocks does, with the
+ * number of dimensions of the grid as a constant. */
 static void find_blocks_of(const struct sorting *s, int chunk)
 {
     switch (s->shape.dim) {
@@ -149,8 +152,9 @@ static void find_blocks_of(const struct sorting *s, int chunk)
     }
 }
 
-/* Replaces the number of points of each chunk in each block, s->fill, by the index of the first of them in a list
- * sorted by block, then by chunk. block_start[blocks + 1]: receives the first index of each block. */
+/* Replaces s->fill, the number of points of each chunk (part of the list of one thread) in each block of cells, by the
+ * index of the first of them in a list sorted by block, then by chunk. block_start[blocks + 1]: receives the first
+ * index of each block. */
 static void add_up(const struct sorting *s, int32_t *block_start)
 {
     int32_t next = 0;
@@ -164,8 +168,8 @@ static void add_up(const struct sorting *s, int32_t *block_start)
     block_start[s->shape.n] = next;
 }
 
-/* Copies the points of a chunk of the list to the indices of their blocks in s->bucket, and their cells to
- * s->sorted. */
+/* Copies the points of a chunk of the list (the part of one thread) to the indices of their blocks in s->bucket, and
+ * their cells to s->sorted. */
 static void put_in_blocks(const struct sorting *s, int chunk)
 {
     int32_t *fill = s->fill + chunk * s->shape.n, key = 0, at = fill[0];
@@ -201,9 +205,9 @@ static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int
     return cells;
 }
 
-/* Computes o->cell_start, the first entry of each cell in the sorted list. On entry o->block_cell[b + 1] is the number
- * of cells with points in block b; on return block_cell[b] is the first cell of block b. inside: cell of each entry in
- * its block. */
+/* Computes o->cell_start, the first entry of each cell in the sorted list of points. On entry o->block_cell[b + 1] is
+ * the number of cells with points in block b; on return block_cell[b] is the first cell of block b. inside: cell of
+ * each entry in its block. */
 static void find_cells(struct transfer_order *o, const uint16_t *inside)
 {
     o->block_cell[0] = 0;
@@ -219,8 +223,8 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
     o->cell_start[o->cells] = (int32_t)o->n;
 }
 
-/* Allocates the working memory of a sort. The arrays are not cleared, since all entries are written before they are
- * read. A grid without nodes has no blocks and needs no chunks. */
+/* Allocates the working memory of a sort of points by block (a box of cells) and cell. The arrays are not cleared,
+ * since all entries are written before they are read. A grid without nodes has no blocks and needs no chunks. */
 static void sorting_make(struct sorting *s)
 {
     s->chunks = s->shape.n > 0 ? omp_get_max_threads() : 0;

@@ -20,7 +20,8 @@ struct member {
     int32_t body, particle, off;
 };
 
-/* Compares the integer positions a and b of two groups of points, first their bodies. Returns -1, 0 or 1. */
+/* Compares the integer positions a and b of two groups of points, first their bodies body_a and body_b. Returns -1, 0
+ * or 1. */
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
     if (body_a != body_b) return body_a < body_b ? -1 : 1;
@@ -40,7 +41,8 @@ static int by_member(const void *a, const void *b)
     return order ? order : (p->particle > q->particle) - (p->particle < q->particle);
 }
 
-/* Compares two groups of points by body, then by position, for sorting and searching. */
+/* Compares two groups of points that rotate together by body, then by position, for array_sort and bsearch. Returns -1,
+ * 0 or 1. */
 static int by_group(const void *a, const void *b)
 {
     const struct turning_group *p = a, *q = b;
@@ -135,8 +137,8 @@ static bool on_grid(const struct particles *p, int32_t i)
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
 }
 
-/* Loop over the members i of group g that are material points of the grid. all: true if all members are known to be,
- * which saves the test. */
+/* Loop over the members i of group g of points that are material points of the grid. all: true if all members are known
+ * to be, which saves the test. */
 #define FOR_POINTS(t, g, p, i, all)                                                                                    \
     for (int64_t m = (g)->first, last = (g)->end; m < last; m++)                                                       \
         for (int32_t i = (t)->member[m], once = (all) || on_grid(p, i); once; once = 0)
@@ -216,8 +218,9 @@ static ALWAYS_INLINE void sum_inertia(const struct rotation_groups *t, struct tu
     memcpy(g->inertia, inertia, sizeof inertia);
 }
 
-/* Adds the rotation root->spin of the root of group g, the group that it has joined, to the velocities of the points of
- * group g. Sums their angular momentum about the root's centre of mass into g->sum. dim: dimensions, a constant. */
+/* Adds the rotation root->spin of the root of group g of points, the group that it has joined, to the velocities of the
+ * points of group g. Sums their angular momentum about the root's centre of mass into g->sum. dim: dimensions, a
+ * constant. */
 static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
                                      const int dim)
 {
@@ -236,8 +239,8 @@ static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct tur
     memcpy(g->sum, sum, sizeof sum);
 }
 
-/* Stores the angular velocity of the root of group g, the group that it has joined, in t->turn for all points of group
- * g. dim: dimensions, a constant. */
+/* Stores the angular velocity of the root of group g of points, the group that it has joined, in t->turn for all points
+ * of group g. dim: dimensions, a constant. */
 static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -250,8 +253,8 @@ static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct tu
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the root of group g: the last one in the chain of groups that it has joined, g itself if it has joined
- * none. */
+/* Returns the root of group g of points: the last one in the chain of groups that it has joined; g itself if it has
+ * joined none. */
 static int32_t group_root(const struct rotation_groups *t, int32_t g)
 {
     while (t->group[g].root != g) g = t->group[g].root;
@@ -261,9 +264,9 @@ static int32_t group_root(const struct rotation_groups *t, int32_t g)
 /* Returns the number of axes along which neighbour k of a group, in the order of groups_near, is displaced. */
 static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
-/* Joins each group of fewer than TURNING_FEW points to the neighbouring group with the most points. Among neighbours
- * with equally many, those displaced along fewer axes come first, then those nearer to the middle of the body. Sets
- * `root` of all groups. */
+/* Joins each group of fewer than TURNING_FEW points to the neighbouring group with the most points, so that both rotate
+ * together; sets `root` of all groups. Among neighbours with equally many points, those displaced along fewer axes come
+ * first, then those nearer to the middle of the body. */
 static void few_join(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;

@@ -62,7 +62,8 @@ static void line_distances(float *f, int64_t n, int64_t stride, real size, real 
     }
 }
 
-/* Stores in n[3] the numbers of voxels along each axis with one more on each side. Returns their product. */
+/* Stores in n[3] the numbers of voxels along each axis of the padded grid, which has one more on each side. Returns
+ * their product. */
 static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
 {
     int64_t all = 1;
@@ -70,8 +71,8 @@ static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
     return all;
 }
 
-/* Computes the squared distances f of all voxels of the padded grid from those with f = 0 [m^2]. On entry f is 0 or
- * infinite. */
+/* Computes f, the squared distances of all voxels of the padded grid from the nearest voxel with f = 0 [m^2], axis by
+ * axis. On entry f is 0 or infinite. The padded grid has one more voxel on each side. */
 static void grid_distances(const struct voxels *v, float *f)
 {
     int64_t n[DIM_MAX], stride = 1, all = padded(v, n);

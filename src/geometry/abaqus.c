@@ -310,8 +310,8 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     return OK;
 }
 
-/* Replaces the labels that were added to sets since the last call by indices of nodes or elements of the scope, a part
- * or what is outside parts. Removes labels that the scope does not contain. */
+/* Replaces the labels that were added to sets since the last call by indices of the nodes or elements of `scope`, a
+ * part or what is outside parts. Removes labels that it does not contain. */
 static void sets_resolve(struct deck *d, const struct scope *scope)
 {
     for (int k = 0; k < d->m->sets; k++) {

@@ -164,8 +164,8 @@ static void builder_close(struct surface_builder *b, struct hull *hull, bool clo
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Makes the surface `hull` of a set of elements. It is closed if some of them fill a part of the body, else open and
- * made of the set's faces, lines and points. */
+/* Makes the surface `hull` of a set of elements. It is closed if some of the elements fill a part of the body, else
+ * open and made of the set's faces, lines and points. */
 static void set_of_elements(struct surface_builder *b, const struct element_set *set, struct hull *hull)
 {
     const struct element *e = b->m->element;

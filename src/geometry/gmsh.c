@@ -56,7 +56,7 @@ struct gmsh {
     int last_set;
 };
 
-/* Combines dimension and tag of an entity into one number. */
+/* Returns one number that combines dimension (0 to 3) and tag of an entity. */
 static int64_t entity_key(int64_t dim, int64_t tag) { return tag * 4 + dim; }
 
 /* Sets *type to the row of the table `types` for Gmsh's element type `number`. Returns REFUSED for an unsupported
@@ -241,7 +241,8 @@ static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t
     return source_check_count(g->s, what, *n, bytes);
 }
 
-/* Reads the section of nodes in format 2.2. Returns REFUSED if it is malformed or a label occurs twice. */
+/* Reads the section of nodes of a file in format 2.2 into the mesh. Returns REFUSED if it is malformed or a label
+ * occurs twice. */
 static status old_nodes(struct gmsh *g)
 {
     int64_t n, label;
@@ -266,8 +267,8 @@ static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t 
     return group == 0 ? OK : group_add(g, element_dim[type->kind], group, g->m->elements - 1);
 }
 
-/* Reads the section of elements in format 2.2. In binary files, elements of one type are in blocks with a header; in
- * text files each element has its type. Returns REFUSED if it is malformed. */
+/* Reads the section of elements of a file in format 2.2 into the mesh. In binary files, elements of one type are in
+ * blocks with a header; in text files each element has its type. Returns REFUSED if it is malformed. */
 static status old_elements(struct gmsh *g)
 {
     int64_t n, label = 0, number, tags, block = 1;
@@ -326,8 +327,8 @@ static status new_node_block(struct gmsh *g)
     return OK;
 }
 
-/* Reads the section of nodes in format 4.1, block by block. Returns REFUSED if it is malformed or a label occurs
- * twice. */
+/* Reads the section of nodes of a file in format 4.1 into the mesh, block by block. Returns REFUSED if it is malformed
+ * or a label occurs twice. */
 static status new_nodes(struct gmsh *g)
 {
     int64_t blocks;
@@ -358,7 +359,8 @@ static status new_element_block(struct gmsh *g)
     return OK;
 }
 
-/* Reads the section of elements in format 4.1, block by block. Returns REFUSED if it is malformed. */
+/* Reads the section of elements of a file in format 4.1 into the mesh, block by block. Returns REFUSED if it is
+ * malformed. */
 static status new_elements(struct gmsh *g)
 {
     int64_t blocks;

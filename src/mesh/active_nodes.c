@@ -18,7 +18,8 @@ static int64_t nodes_end(const struct mesh *mesh, int64_t block)
     return end < row ? end : row;
 }
 
-/* Returns true if no node of a block has mass and no extra node of a slit belongs to the block. */
+/* Returns true if no node of a block (eight nodes along x) has mass and no extra node of a slit belongs to the
+ * block. */
 static bool nodes_empty(const struct mesh *mesh, int64_t block)
 {
     if (mesh->slits.linked && mesh->slits.linked[block]) return false; /* cells there may have extra nodes */
@@ -43,7 +44,7 @@ static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
     }
 }
 
-/* Activates a block of nodes that moves, and its neighbouring blocks that have nodes with mass. */
+/* Activates a block of nodes (eight along x) that moves, and its neighbouring blocks that have nodes with mass. */
 static void mesh_activate(struct mesh *mesh, int64_t block)
 {
     struct active_set *r = &mesh->active;
@@ -60,7 +61,7 @@ static void mesh_activate(struct mesh *mesh, int64_t block)
     }
 }
 
-/* Returns true if a node of the block is displaced from its reference position. */
+/* Returns true if a node of the block (eight nodes along x) is displaced from its reference position. */
 static bool nodes_moved(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)
@@ -69,7 +70,7 @@ static bool nodes_moved(const struct mesh *mesh, int64_t block)
     return false;
 }
 
-/* Returns true if the nodes of a block have neither displacement nor velocity nor force. */
+/* Returns true if the nodes of a block (eight along x) have neither displacement nor velocity nor force. */
 static bool nodes_inactive(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)

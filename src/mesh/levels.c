@@ -8,7 +8,8 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Stores in l->offset[0] the indices of the cell of level 0 at the lower corner of the box around all particles. */
+/* Stores in l->offset[0] the indices of the cell of level 0 (the finest) at the lower corner of the box around all
+ * particles. */
 static void corner_find(struct mesh_levels *l, const struct particles *p)
 {
     const struct grid *g = &l->fine->grid;
@@ -19,8 +20,9 @@ static void corner_find(struct mesh_levels *l, const struct particles *p)
     }
 }
 
-/* Makes the mesh of a level, without cells, with the nodes that its cells may have. source: number of materials;
- * density: of each material [kg/m^3]. Returns REFUSED if it has too many nodes. */
+/* Makes the mesh of a level (cells with the edge of 2^level finest cells), without cells, with the nodes that its cells
+ * may have. source: number of materials; density: of each material [kg/m^3]. Returns REFUSED if it has too many
+ * nodes. */
 static status level_make(struct mesh_levels *l, int level, const struct mesh_source *source, const real *density)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -181,8 +183,8 @@ static void stressed_put(struct mesh *mesh, const uint8_t *marks)
     for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = marks[r] != 0;
 }
 
-/* Saves the flags of stressed rows of cells of a level to the archive a, or restores them. Returns FAILED if the
- * archive does not have them. */
+/* Saves the flags of stressed rows of cells of a level (cells with the edge of 2^level finest cells) to the archive a,
+ * or restores them. Returns FAILED if the archive does not have them. */
 static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 {
     char name[48];
@@ -222,8 +224,9 @@ void levels_reconnect_finest(struct mesh_levels *l, const struct particles *p, c
     }
 }
 
-/* Saves displacements, velocities and momenta of the nodes of a level and the flags of its stressed cells to the
- * archive a, or restores them. Returns FAILED if the archive does not have them. */
+/* Saves displacements, velocities and momenta of the nodes of a level (cells with the edge of 2^level finest cells) and
+ * the flags of its stressed cells to the archive a, or restores them. Returns FAILED if the archive does not have
+ * them. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
     real *const *field[] = {mesh->displacement, mesh->grid.velocity, mesh->grid.momentum};

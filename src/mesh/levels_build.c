@@ -46,8 +46,8 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     return acts;
 }
 
-/* Returns true if a cell of `level` that computes forces contains a node of the next finer level. at: indices of the
- * node, counted from the lower corner of the body. */
+/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) that computes forces contains a node
+ * of the next finer level. at: indices of the node, counted from the lower corner of the body. */
 static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t *at)
 {
     const struct mesh *mesh = &l->at[level].mesh;
@@ -89,9 +89,9 @@ static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I
     m->hanging[m->hangings++] = h;
 }
 
-/* Finds the nodes at the interface between the cells of `level` and finer ones: ghosts, which are nodes of the coarse
- * mesh with a finer node at their position, and hanging nodes of the finer mesh, in the middle of coarse edges or
- * faces. */
+/* Finds the nodes at the interface between the cells of `level` (cells with the edge of 2^level finest cells) and finer
+ * ones: ghosts, which are nodes of the coarse mesh with a finer node at their position, and hanging nodes of the finer
+ * mesh, in the middle of coarse edges or faces. */
 static void interface_find(struct mesh_levels *l, int level)
 {
     struct mesh_level *m = &l->at[level];
@@ -116,7 +116,7 @@ static void interface_find(struct mesh_levels *l, int level)
 }
 
 /* Sets bit c of mesh->matched at each corner c of a whole cell if all neighbours of the cell are whole cells of its
- * material. */
+ * material: such cells have matched inertia. */
 static void matched_find(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;

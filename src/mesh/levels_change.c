@@ -18,8 +18,8 @@ struct cell_around {
     real t[DIM_MAX];
 };
 
-/* Returns the coarse cell that contains node I of level 0, which has the indices k, and the position of the node in it;
- * level 0 if a cell of level 0 contains the node, or no cell does. */
+/* Returns the coarse cell that contains node I of level 0 (the finest), which has the indices k, and the position of
+ * the node in it; level 0 if a cell of level 0 contains the node, or no cell does. */
 static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     const struct mesh *fine = l->fine;
@@ -62,8 +62,8 @@ static real field_at(const struct mesh *mesh, int64_t cell, const real *weight, 
     return value;
 }
 
-/* Sets displacement and velocity of node I of level 0, with indices k, to those of the coarse cell around it, if there
- * is one. */
+/* Sets displacement and velocity of node I of level 0 (the finest), with indices k, to those of the coarse cell around
+ * it, if there is one. */
 static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     struct mesh *fine = l->fine;
@@ -78,7 +78,8 @@ static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
     }
 }
 
-/* Sets displacement and velocity of all nodes of a row of level 0 that are inside coarse cells by interpolation. */
+/* Sets displacement and velocity of all nodes of a row of level 0 (the finest) that are inside coarse cells by
+ * interpolation. */
 static void row_interpolate(struct mesh_levels *l, int64_t row)
 {
     const struct grid *g = &l->fine->grid;
@@ -107,7 +108,7 @@ void levels_interpolate(struct mesh_levels *l, bool all)
 /* ---- motion of the nodes of new cells ---------------------------------------------------------------------------- */
 
 /* Computes lumped mass times velocity of every node, before transfers between levels, and displacement, velocity and
- * mass times velocity of coarse nodes from the nodes of level 0 at the same positions. */
+ * mass times velocity of coarse nodes from the nodes of level 0 (the finest) at the same positions. */
 static void nodes_sample(struct mesh_levels *l)
 {
     struct mesh *fine = l->fine;
@@ -130,8 +131,8 @@ static void nodes_sample(struct mesh_levels *l)
     }
 }
 
-/* Returns the mean of a nodal field of level 0 over the corners of all cells of level 0 inside a cell of `level`.
- * first: lowest of these cells. */
+/* Returns the mean of a nodal field of level 0 over the corners of all cells of level 0 inside a cell of `level` (cells
+ * with the edge of 2^level finest cells). first: lowest of these cells. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
     const int dim = l->fine->grid.dim, parts = levels_fine_cells_per_cell(l, level);
@@ -142,8 +143,9 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
     return sum / (real)(parts << dim);
 }
 
-/* Corrects the momentum of the merged cell J of `level`, which has the indices q: distributes the part that its corners
- * do not have by their sampled velocities to the corners in equal parts. */
+/* Corrects the momentum of the merged cell J of `level` (cells with the edge of 2^level finest cells), which has the
+ * indices q: distributes the part that its corners do not have by their sampled velocities to the corners in equal
+ * parts. */
 static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -163,7 +165,7 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
 }
 
 /* Corrects the momenta of all cells that have been merged from finer ones. before: previous levels of the cells of
- * level 0. */
+ * level 0 (the finest). */
 static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
 {
     for (int level = 1; level <= l->n; level++) {

@@ -43,7 +43,8 @@ static real edge_for(const struct load_rise *r, real across, real edges)
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
 }
 
-/* Replaces the rise *least by *one if *one requires smaller cells in a body of thickness `across` [spacings]. */
+/* Replaces *least by *one if the rise of load *one requires smaller cells in a body of thickness `across`
+ * [spacings]. */
 static void rise_take(struct load_rise *least, const struct load_rise *one, real across)
 {
     const real now = edge_for(least, across, ACROSS), next = edge_for(one, across, ACROSS);

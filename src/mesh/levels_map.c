@@ -17,8 +17,8 @@ static struct level_map level_map_make(int64_t n)
     return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
-/* Initialises the data `to` of the cells of level 0. demand: 1 for cells that must be of level 0; limit: largest level
- * of each cell; NULL: no limits. */
+/* Initialises the data `to` of the cells of level 0 (the finest). demand: 1 for cells that must be of level 0; limit:
+ * largest level of each cell; NULL: no limits. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {
@@ -32,8 +32,9 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
     }
 }
 
-/* Combines in map[level] the data of the 2^dim cells of the next finer level that form cell I of `level`, with indices
- * k. The cell is admissible if all of them are, have one material, and may have this level. */
+/* Combines in map[level] the data of the 2^dim cells of the next finer level that form cell I of `level` (cells with
+ * the edge of 2^level finest cells), with indices k. The cell is admissible if all of them are, have one material, and
+ * may have this level. */
 static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
 {
     const struct grid *below = &level_mesh_read_only(l, level - 1)->grid;
@@ -52,9 +53,9 @@ static void gather_parts(struct level_map *map, const struct mesh_levels *l, int
     to->ok[I] &= to->limit[I] >= level;
 }
 
-/* Returns true if all or none of the cells of level 0 that touch a block of 2^dim cells in a direction contain points.
- * Otherwise a node at the end of an edge of a coarse cell would have no finer node. first: indices of the lower corner
- * of the block; beside: direction, -1, 0 or 1 along each axis. */
+/* Returns true if all or none of the cells of level 0 (the finest) that touch a block of 2^dim cells in a direction
+ * contain points. Otherwise a node at the end of an edge of a coarse cell would have no finer node. first: indices of
+ * the lower corner of the block; beside: direction, -1, 0 or 1 along each axis. */
 static bool touching_alike(const struct level_map *map, const struct grid *g, const int64_t *first, const int *beside)
 {
     int some = 0, all = 0;
@@ -72,7 +73,7 @@ static bool touching_alike(const struct level_map *map, const struct grid *g, co
 }
 
 /* Returns true if a cell of level 1, with indices k, is admissible beside its neighbours: every adjacent block of cells
- * of level 0 touches it with cells that all contain points or all contain none. */
+ * of level 0 (the finest) touches it with cells that all contain points or all contain none. */
 static bool ring_of_first(const struct level_map *map, const struct mesh_levels *l, const int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -88,8 +89,9 @@ static bool ring_of_first(const struct level_map *map, const struct mesh_levels 
     return allows;
 }
 
-/* Returns true if a cell of `level` > 1, with indices k, is admissible beside its neighbours: all non-empty cells of
- * the next finer level in it and around it are admissible, so that adjacent cells differ by one level at most. */
+/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) > 1, with indices k, is admissible
+ * beside its neighbours: all non-empty cells of the next finer level in it and around it are admissible, so that
+ * adjacent cells differ by one level at most. */
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
     const int on = level - 1;
@@ -104,7 +106,8 @@ static bool ring_allows(const struct level_map *map, const struct mesh_levels *l
     return true;
 }
 
-/* Determines the admissible cells of `level` in map[level] from the data of the next finer level. */
+/* Determines the admissible cells of `level` (cells with the edge of 2^level finest cells) in map[level] from the data
+ * of the next finer level. */
 static void level_map_find(struct level_map *map, const struct mesh_levels *l, int level)
 {
     const struct grid *g = &level_mesh_read_only(l, level)->grid;

@@ -5,14 +5,14 @@
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-/* Ranges around cells that must be of level 0, beyond those that conversion requires; empirical [cells of level 0].
- * ZONE_MORE: around peridynamic particles, a margin for crack growth between two changes; ZONE_LATE: additional range
- * for merging. AROUND_STRESS: around stressed cells. AROUND_RING: around rings of sif probes [spacings], as tips move
- * between two checks. */
+/* Ranges around cells that must be of level 0 (the finest), beyond those that conversion requires; empirical [cells of
+ * level 0]. ZONE_MORE: around peridynamic particles, a margin for crack growth between two changes; ZONE_LATE:
+ * additional range for merging. AROUND_STRESS: around stressed cells. AROUND_RING: around rings of sif probes
+ * [spacings], as tips move between two checks. */
 enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 };
-/* Additional range of level 0 between slits and coarse cells [cells]. It is empirical: with coarse cells nearer, two
- * slits 5 to 18 spacings apart with faces in contact gained energy without bound, a single slit did not; the cause is
- * not known. */
+/* Additional range of level 0 (the finest) between slits and coarse cells [cells]. It is empirical: with coarse cells
+ * nearer, two slits 5 to 18 spacings apart with faces in contact gained energy without bound, a single slit did not;
+ * the cause is not known. */
 enum { FLANK_MORE = 2 };
 #define SPLITS 0.5 /* stress at which cells split, over that at which points convert */
 #define MERGES 0.25
@@ -25,7 +25,7 @@ enum { CHECK_STEPS = 256, CALM_CHECKS = 2 };
 
 /* Returns the edge h of a lumped cell whose waves along an axis have the same dispersion as bonds of the lattice [m]:
  * h^2 = (sum xi^6/r^3)/(sum xi^4/r^3) over the bonds, with xi their component along the axis. Without bonds, returns
- * the edge of cells of level 0. */
+ * the edge of cells of level 0 (the finest). */
 static real dispersion_edge(const struct scene *s)
 {
     const int reach = (int)s->horizon, planes = s->dim > 1 ? reach : 0, layers = s->dim > 2 ? reach : 0;
@@ -42,8 +42,8 @@ static real dispersion_edge(const struct scene *s)
     return s->spacing * sqrt(above / below);
 }
 
-/* Returns the cell of level 0 that contains particle i in the reference configuration. It is a cell of the grid,
- * whereas mesh->place may refer to an extra cell of a slit, behind the grid. */
+/* Returns the cell of level 0 (the finest) that contains particle i in the reference configuration. It is a cell of the
+ * grid, whereas mesh->place may refer to an extra cell of a slit, behind the grid. */
 static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     int64_t I = 0;
@@ -52,7 +52,8 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
     return I;
 }
 
-/* Sets demand[I], which requires level 0, for cells beside planes of symmetry that are not on nodes of all levels. */
+/* Sets demand[I], which requires level 0 (the finest), for cells beside planes of symmetry that are not on nodes of all
+ * levels. */
 static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -70,16 +71,16 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
     }
 }
 
-/* Sets demand[I], which requires level 0, for cells beside slits, because coarse cells have no counterpart of their
- * extra nodes. */
+/* Sets demand[I], which requires level 0 (the finest), for cells beside slits, because coarse cells have no counterpart
+ * of their extra nodes. */
 static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 {
     for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Sets demand[I], which requires level 0, for cells inside and around the ring of a sif probe; demand NULL: sets
- * nothing. Returns true if one of these cells is part of a coarse cell at present. */
+/* Sets demand[I], which requires level 0 (the finest), for cells inside and around the ring of a sif probe; demand
+ * NULL: sets nothing. Returns true if one of these cells is part of a coarse cell at present. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -103,9 +104,9 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* Sets demand[I], which requires level 0, for cells inside and around the rings of all sif probes, as ring_cells does:
- * these probes need accelerations in every step, which coarse cells have in some steps only. demand NULL: sets nothing.
- * Returns true if one of the cells is part of a coarse cell at present. */
+/* Sets demand[I], which requires level 0 (the finest), for cells inside and around the rings of all sif probes, as
+ * ring_cells does: these probes need accelerations in every step, which coarse cells have in some steps only. demand
+ * NULL: sets nothing. Returns true if one of the cells is part of a coarse cell at present. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
@@ -113,15 +114,16 @@ static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
     return coarse;
 }
 
-/* Sets mark[I] for all cells I of level 0 that are marked in `more`; does nothing if `more` is NULL. */
+/* Sets mark[I] for all cells I of level 0 (the finest) that are marked in `more`; does nothing if `more` is NULL. */
 static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
 {
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Returns flags [fine->grid.n] of the cells that must be of level 0: within l->roomy_cells + more cells of peridynamic
- * particles and of cells that request it; within FLANK_MORE further cells of several slits, within one cell of a single
- * slit; within one cell of loaded particles and of planes of symmetry off the nodes. Release it with memory_free. */
+/* Returns flags [fine->grid.n] of the cells that must be of level 0 (the finest): within l->roomy_cells + more cells of
+ * peridynamic particles and of cells that request it; within FLANK_MORE further cells of several slits, within one cell
+ * of a single slit; within one cell of loaded particles and of planes of symmetry off the nodes. Release it with
+ * memory_free. */
 static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
                             int more)
 {
@@ -146,8 +148,8 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
     return demand;
 }
 
-/* Sets demand[I] for all cells of level 0 that belong to the cells of `level` marked in `mark`, and for those within
- * AROUND_STRESS cells of them. */
+/* Sets demand[I] for all cells of level 0 that belong to the cells of `level` (cells with the edge of 2^level finest
+ * cells) marked in `mark`, and for those within AROUND_STRESS cells of them. */
 static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
 {
     const struct grid *fine = &l->fine->grid, *g = &level_mesh_read_only(l, level)->grid;
@@ -185,7 +187,8 @@ static uint8_t *stressed_cells(const struct reference_frame *frame, real share, 
     return cells;
 }
 
-/* Returns true if a cell of level 0 becomes part of a coarser cell by level[fine->grid.n] than at present. */
+/* Returns true if a cell of level 0 (the finest) becomes part of a coarser cell by level[fine->grid.n] than at
+ * present. */
 static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 {
     bool any = false;
@@ -201,9 +204,9 @@ static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
-/* Computes the levels of all cells of level 0 for the next steps, level[I]. demand: cells that must be of level 0;
- * limit: upper bounds, which are reduced for cells that, if coarser than at present, would lose too much energy of
- * motion. mass: mass of the body [kg]. */
+/* Computes the levels of all cells of level 0 (the finest) for the next steps, level[I]. demand: cells that must be of
+ * level 0; limit: upper bounds, which are reduced for cells that, if coarser than at present, would lose too much
+ * energy of motion. mass: mass of the body [kg]. */
 static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -296,7 +299,7 @@ static bool any_stressed(const struct mesh_levels *l)
 
 /* Computes upper bounds of the levels of cells for the next change, limit[I]. Cells may always become finer. They may
  * become coarser only in calls with `checks`, after CALM_CHECKS consecutive such calls in which nothing required level
- * 0 nearby. */
+ * 0 (the finest) nearby. */
 static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool checks,
                         uint8_t *limit)
 {

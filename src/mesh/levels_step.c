@@ -10,8 +10,9 @@ int levels_highest_acting(const struct mesh_levels *l, int64_t step)
     return due;
 }
 
-/* Sets the displacements of the ghosts of a level, which are nodes of its mesh at positions of nodes of the next finer
- * level, to those of the finer nodes. Cells at the interface need them to compute forces. */
+/* Sets the displacements of the ghosts of a level (cells with the edge of 2^level finest cells), which are nodes of its
+ * mesh at positions of nodes of the next finer level, to those of the finer nodes. Cells at the interface need them to
+ * compute forces. */
 static void ghosts_displace(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -67,8 +68,9 @@ static void hanging_fold(struct mesh_levels *l, int level)
         }
 }
 
-/* Adds the forces of the cells of `level` on their ghosts to the finer nodes at the same positions, twice, because the
- * steps of the finer level are half as long. Sets the forces on the ghosts to 0. */
+/* Adds the forces of the cells of `level` (cells with the edge of 2^level finest cells) on their ghosts to the finer
+ * nodes at the same positions, twice, because the steps of the finer level are half as long. Sets the forces on the
+ * ghosts to 0. */
 static void ghosts_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];

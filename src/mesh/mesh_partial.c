@@ -398,7 +398,8 @@ static real *numbers_make(const char *label, const struct mesh *mesh, int64_t ea
     return numbers;
 }
 
-/* Returns true if `each` numbers per cell are bitwise equal in the groups g and h of LANES partial cells. */
+/* Returns true if the `each` numbers per cell in the array `of` are bitwise equal in the groups g and h of LANES
+ * partial cells. */
 static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 {
     const int64_t size = (int64_t)each * LANES;

@@ -133,9 +133,9 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
     return sum;
 }
 
-/* Computes to[I] for all nodes: if `value` is not NULL, the right side from the values at points, else the product of
- * the mass matrix with the nodal values `from`. Sets 0 at nodes whose values are not computed. Each node is written by
- * one thread. */
+/* Computes to[I] for all nodes: if `value` is not NULL, the right side sum m_p N_I value_p over the points p, else the
+ * product of the mass matrix with the nodal values `from`. Sets 0 at nodes whose values are not computed. Each node is
+ * written by one thread. */
 static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to,
                                        const int dim)
 {
@@ -157,7 +157,9 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
     }
 }
 
-/* Calls nodes_gather with the number of dimensions of the particles as a constant. */
+/* Computes to[I] for all nodes, as nodes_gather does, with the number of dimensions of the particles as a constant: the
+ * right side from the values at points, or, if `value` is NULL, the product of the mass matrix with the nodal values
+ * `from`. */
 static void gather(const struct projection *m, const real *value, const real *from, real *to)
 {
 #define CASE(D)                                                                                                        \

@@ -10,7 +10,8 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* Largest number of pieces around a node: 2^dim cells have at most as many pieces each. */
+/* Largest number of pieces (points of a cell that no slit separates) around a node: 2^dim cells have at most as many
+ * pieces each. */
 enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };
 
 /* An extra node or cell under construction, at the position of node or cell `base` of the grid. Of a node: the pieces
@@ -115,8 +116,8 @@ static void cell_divide(struct slit_maker *m, int64_t I)
 
 /* ---- groups of pieces around a node ------------------------------------------------------------------------------ */
 
-/* Returns the cell that contains piece number `bit` around node I; the number is 8 c + g for piece g of the cell of
- * which the node is corner c. */
+/* Returns the cell that contains piece number `bit` around node I. A piece is a set of points of a cell that no slit
+ * separates; its number is 8 c + g for piece g of the cell of which the node is corner c. */
 static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
 {
     return I - m->mesh->corner[bit / CORNERS_MAX];
@@ -132,16 +133,16 @@ static bool quarter_points_face(int q, int r, int c, int k)
 }
 
 /* Returns the particle at point q (0 .. 2^dim - 1) of a cell around node I if it belongs to piece `bit` around the
- * node; else -1. */
+ * node, a set of points of a cell that no slit separates; else -1. */
 static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q)
 {
     const int64_t place = (cell_of_bit(m, I, bit) << m->p->dim) + q;
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Returns true if the pieces `one` and `other` around node I are connected: no slit passes between a point of one and a
- * point of the other. Tests the points that are opposite each other across the boundary of the cells; all points only
- * if there are no such pairs. */
+/* Returns true if the pieces `one` and `other` around node I, sets of points of a cell, are connected: no slit passes
+ * between a point of one and a point of the other. Tests the points that are opposite each other across the boundary of
+ * the cells; all points only if there are no such pairs. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
     const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
@@ -158,8 +159,8 @@ static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int ot
     return false;
 }
 
-/* Returns the set of pieces around node I, one bit each, that are connected with the lowest piece of the set `open`,
- * directly or through other pieces of it. */
+/* Returns the set of pieces (points of a cell that no slit separates) around node I, one bit each, that are connected
+ * with the lowest piece of the set `open`, directly or through other pieces of it. */
 static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
 {
     uint64_t group = open & -open;
@@ -184,8 +185,9 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     return positions_parted(m, i, a, b);
 }
 
-/* Returns true if a connected set of pieces around node I (`group`, one bit each) is connected with its mirror image at
- * a plane of symmetry through the node. Tests the points beside the plane; all points only if there are none there. */
+/* Returns true if a connected set of pieces around node I is connected with its mirror image at a plane of symmetry
+ * through the node. A piece is a set of points of a cell that no slit separates; group: the pieces, one bit each. Tests
+ * the points beside the plane; all points only if there are none there. */
 static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
 {
     bool faced = false;
@@ -203,7 +205,8 @@ static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, 
 }
 
 /* Returns the axes, one bit each, of the planes of symmetry through node I at which slits separate a connected set of
- * pieces (`group`, one bit each) from its image. */
+ * pieces from its image. A piece is a set of points of a cell that no slit separates; group: the pieces, one bit
+ * each. */
 static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
 {
     const struct grid *g = &m->mesh->grid;
@@ -216,8 +219,8 @@ static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
     return open;
 }
 
-/* Divides the pieces around node I into connected sets. The first set keeps node I; an extra node is added for each
- * other set. */
+/* Divides the pieces around node I, sets of points of a cell that no slit separates, into connected sets. The first set
+ * keeps node I; an extra node is added for each other set. */
 static void node_divide(struct slit_maker *m, int64_t I)
 {
     uint64_t open = 0;
@@ -258,11 +261,11 @@ static void slits_divide(struct slit_maker *m)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Returns how many extra nodes or cells are stored in a row of nodes: LANES fewer than the row has, since whole vectors
- * are read and written beyond its ends. */
+/* Returns how many extra nodes or cells (made by slits) are stored in a row of nodes: LANES fewer than the row has,
+ * since whole vectors are read and written beyond its ends. */
 static int64_t row_room(const struct grid *g) { return g->count[0] - LANES; }
 
-/* Returns the index in the arrays of nodes and cells of extra node or cell number k. */
+/* Returns the index in the arrays of nodes and cells of extra node or cell number k, one of those that slits make. */
 static int64_t extra_index(const struct mesh *mesh, int64_t k)
 {
     const struct grid *g = &mesh->grid;
@@ -283,15 +286,17 @@ static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
     return s->corner + (int64_t)s->cell[I] * corners;
 }
 
-/* Returns the cell that piece g of cell I of the grid has become: I itself for g = 0. */
+/* Returns the cell that piece g of cell I of the grid has become: I itself for g = 0. A piece is a set of points of a
+ * cell that no slit separates. */
 static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
 {
     while (g-- > 0) I = mesh->slits.next[I];
     return I;
 }
 
-/* Enters the extra cells in the tables of the mesh: links them to the cells from which they were divided, gives them
- * the corners of these cells, and stores the cell of each point of a divided cell. */
+/* Enters the extra cells, into which slits divide cells of the grid, in the tables of the mesh: links them to the cells
+ * from which they were divided, gives them the corners of these cells, and stores the cell of each point of a divided
+ * cell. */
 static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -312,7 +317,8 @@ static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
     }
 }
 
-/* Enters the extra nodes in the tables of the mesh: their positions, and the cells of which they are corners. */
+/* Enters the extra nodes, which slits make at the positions of nodes of the grid, in the tables of the mesh: their
+ * positions, and the cells of which they are corners. */
 static void tables_nodes(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -403,8 +409,8 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
 
 /* ---- blocks and groups ------------------------------------------------------------------------------------------- */
 
-/* Records that a block of nodes has extra nodes or cells that are positioned in another block. extra, base: a node or
- * cell of either block. */
+/* Records that a block of nodes has extra nodes or cells (made by slits) that are positioned in another block. extra,
+ * base: a node or cell of either block. */
 static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
 {
     struct mesh_slits *s = &mesh->slits;

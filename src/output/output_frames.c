@@ -246,6 +246,7 @@ static status job_write(struct frame_job *job)
 
 /* ---- one frame at a time ----------------------------------------------------------------------------------------- */
 
+/* Writes the frame of the job `context` in a thread of its own. Stores status and message in the job. Returns NULL. */
 static void *job_run(void *context)
 {
     struct frame_job *job = context;

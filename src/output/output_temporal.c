@@ -32,7 +32,7 @@ struct temporal {
 };
 
 /* Lists in `a` the frames of a series whose files exist, with their particles files, and the fields that all of them
- * share. */
+ * have; contact forces are listed if any frame has them. */
 static void frames_look(struct temporal *a, const struct frame_series *series)
 {
     unsigned all = (1u << FRAME_FIELDS) - 1, any = 0;

@@ -58,7 +58,8 @@ void particles_file_free(struct particles_file *f)
     f->rows = NULL, f->cells = NULL;
 }
 
-/* Writes one of the lists that define the cells (CELLS_*). of[entries]: its values, in the type of the list. */
+/* Writes the list of VTK cells number `list` (CELLS_*), such as their offsets, to h. of[entries]: values in the type of
+ * the list. */
 static void particles_write_list(struct hdf *h, int list, int64_t entries, const void *of)
 {
     hdf_write_table(h, frame_cells[list].path, frame_cells[list].type, entries, 1, 1, of);
@@ -148,7 +149,7 @@ status particles_file_check(struct hdf *h, const char *path)
     if (!hdf_read_link_file(h, "/VTKHDF/Types", name, sizeof name)) return OK;
     hdf_read_attribute(h, "/Cleave", "content", HDF_I64, &content);
     if (h->failed || !name[0] || strchr(name, '/'))
-        return status_set(FAILED, "cannot read %s: frames/NNNNNN.h5 of a results folder is expected", path);
+        return status_set(FAILED, "cannot read %s: frames/NNNNNN.hdf of a results folder is expected", path);
     const char *slash = strrchr(path, '/');
     const int folder = slash ? (int)(slash + 1 - path) : 0;
     snprintf(file.text, sizeof file.text, "%.*s%s", folder, path, name);

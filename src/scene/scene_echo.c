@@ -232,7 +232,7 @@ void write_group(struct writer *w, const char *group, const void *base)
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-/* Begins an item of a list; the dash is written with its first key. */
+/* Begins an item of a list: sets the indent, and requests a dash before the first key of the item. */
 void write_item(struct writer *w)
 {
     w->indent = 4;
