@@ -30,7 +30,9 @@ struct elastic {
     real trigger; /* sigma_1 at which a point is marked for conversion, INFINITY: never; where strength scatters: of the
                      weakest point [Pa] */
     real trigger_mean; /* sigma_1 of conversion of a point of strength 1; equals `trigger` without scatter [Pa] */
-    real poisson;      /* Poisson's ratio in plane strain, where the material yields [1] */
+    real poisson;      /* Poisson's ratio in plane strain [1] */
+    struct strength_surface surface; /* g0 = 0: none; else points convert, too, where U g0 exceeds `failure` */
+    real failure;                    /* U g0 of conversion; with scatter of a point of strength 1 [Pa] */
     enum space space;
     const struct law *law; /* law by which the material yields; NULL: it is elastic */
     enum law_mode mode;    /* how the law is solved */

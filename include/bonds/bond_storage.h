@@ -68,6 +68,9 @@ struct softened {
     real *dilatation;                    /* [row blocks 8] working memory: trace of the strain of the family [1] */
     const struct image *image;           /* [images] borrowed */
     real least_ratio;                    /* no bond ends below the trigger of its row times this [1] */
+    uint8_t *near; /* [row blocks] 1: a bond has been beyond `gate` since the last look at the strength surface
+                      (bonds_strength.c); NULL: no material has one */
+    real gate;     /* stretch from which on the strength surface may be near [1] */
 };
 
 /* Origin of a mirror image: its source, and the axis normal to its plane of symmetry (-1: clamped plane). */
@@ -282,6 +285,15 @@ static inline real bond_half_spent(const struct bonds *b, int64_t row_block, int
     return 0.5 * b->stiffness * b->w[q] *
            softening_spent(b->soft.curve, b->soft.onset[q], b->soft.end[q], b->soft.most[q]) /
            fabs(b->inverse_length[q]);
+}
+
+/* Marks particle i, of which a bond begins to soften, for conversion if it is a material point: its stress does not
+ * know that its bonds soften. */
+static inline void softness_mark_point(struct bonds *b, struct particles *p, int32_t i)
+{
+    if (p->kind[i] != KIND_MPM) return;
+    p->flag[i] |= FLAG_NEAR;
+    __atomic_store_n(&b->soft.at_points, true, __ATOMIC_RELAXED);
 }
 
 /* Recomputes the common properties b->common[column] of one column (eight bonds, one of each particle of a row block)

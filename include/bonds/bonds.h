@@ -106,6 +106,22 @@ const char *bonds_find_violation(const struct bonds *b);
 /* Returns the energy that bonds which still exist have dissipated by softening [J]. */
 real bonds_softening_energy(const struct bonds *b);
 
+/* Returns true if a bond of a row (all bonds of one particle) that is intact has begun to soften or been started by
+ * the strength surface; false if row is -1. */
+bool bonds_row_has_begun(const struct bonds *b, int64_t row);
+
+/* Evaluates the strength surfaces of materials (bonds_strength.c) at the present positions, in row blocks (the bonds of
+ * eight particles) with stretches near them: where the share U of the surface reaches 1, or the strength of the
+ * particle where strength scatters, the bonds of the particle that have not begun to soften do so from their present
+ * stretch on. Marks material points of such bonds for conversion. Does nothing if no material has a surface. source:
+ * inputs of the bonds. */
+void bonds_start_by_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
+
+/* Computes the shares U of the strength surface of all peridynamic particles, from the strains averaged over families,
+ * into share[p->n] [1]; those of material points from their stress. 0 where the material has no surface. */
+void bonds_surface_shares(const struct bonds *b, const struct particles *p, const struct bond_source *source,
+                          real *share);
+
 /* Returns the damage that the softening of its intact bonds adds to the particle of a row, the sum of d V_j over its
  * family's volume [1]; 0 if row is -1. */
 real bonds_row_softening(const struct bonds *b, const struct particles *p, int64_t row);

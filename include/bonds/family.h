@@ -74,7 +74,8 @@ static inline struct softening_range bond_range_of(const struct particles *p, co
     const real critical = bond_breaking_stretch(p, limit, i, j);
     if (!limit->softening) return (struct softening_range){critical, critical};
     const struct softening_pair *pair = &limit->softening[p->material[i] * limit->materials + p->material[j]];
-    return softening_range_of(limit->curve, pair->onset * bond_strength_factor(p, i, j), critical);
+    const bool fixed = pair->strength_scatters && pair->surface;
+    return softening_range_of(limit->curve, pair->onset * (fixed ? 1 : bond_strength_factor(p, i, j)), critical);
 }
 
 /* Yield stretch s_y and hardening modulus over the elastic one, H_b/k_e, by pair of materials [materials^2]; stretch

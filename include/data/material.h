@@ -8,6 +8,7 @@
 #include "base/base.h"
 #include "law.h"
 #include "scatter.h"
+#include "strength_surface.h"
 
 enum space { SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID };
 
@@ -27,14 +28,18 @@ struct material {
     real tensile_strength;        /* sigma_t of a material whose bonds soften [Pa]; NAN: its bonds are brittle */
     enum softening softening;     /* of bonds that soften */
     bool softening_given;         /* the scene names it */
-    real onset_stretch;           /* s_0 at which bonds begin to soften; critical_stretch if they are brittle [1] */
-    real yield_stress;            /* sigma_y [Pa]; INFINITY or 0: elastic */
-    real yield_tangent;           /* E_t: slope of the uniaxial stress-strain curve beyond sigma_y, below E [Pa] */
+    /* of a strength surface, beside tensile_strength; NAN: not given [Pa] [m] */
+    real compressive_strength, hydrostatic_strength, biaxial_strength, strength_radius;
+    real onset_stretch; /* s_0 at which bonds begin to soften; critical_stretch if they are brittle [1] */
+    real yield_stress;  /* sigma_y [Pa]; INFINITY or 0: elastic */
+    real yield_tangent; /* E_t: slope of the uniaxial stress-strain curve beyond sigma_y, below E [Pa] */
     struct {
         real linear, quadratic;
     } viscosity;                     /* coefficients of bulk viscosity in rapid compression (step/viscosity.h) [1] */
     struct strength_scatter scatter; /* random field of its critical stretch */
     struct law law;                  /* by which its material points yield */
+    struct strength_surface surface; /* by which its bonds begin to soften; none without one of these strengths */
+    int surface_means;               /* number of means over families by which the strain is averaged for it */
     /* values derived by material_compute_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
     real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */
@@ -45,6 +50,9 @@ struct material {
 
 /* Returns true if the bonds of the material soften (softening.h). */
 static inline bool material_softens(const struct material *m) { return m->tensile_strength > 0; }
+
+/* Returns true if a strength surface starts the softening of the material's bonds. */
+static inline bool material_has_surface(const struct material *m) { return m->surface.g0 > 0; }
 
 /* Returns true if the material yields. */
 static inline bool material_yields(const struct material *m)
@@ -101,6 +109,22 @@ real material_stress_at(const struct material *m, real strain);
 /* Computes the members of m that follow from those given by the scene: hardening modulus, elastic constants and wave
  * speeds, for the given space (1D, plane stress, plane strain, 3D). */
 void material_compute_constants(struct material *m, enum space space);
+
+/* Strengths of a material with a surface, in the states of a space: uniaxial and equal biaxial tension, shear,
+ * hydrostatic tension [Pa]; in plane strain the first two with the stress across the plane. */
+struct surface_strengths {
+    real tension, biaxial, shear, hydrostatic;
+};
+
+/* Returns the strengths of a material with a surface, in the given space (plane stress, plane strain, solid). */
+struct surface_strengths material_surface_strengths(const struct material *m, enum space space);
+
+/* Returns the smallest value, over all stress states on the surface of material m, of the largest principal strain that
+ * its bonds have [1]; 0 if some state stretches no bond. */
+real material_least_strain(const struct material *m, enum space space);
+
+/* Returns the share of the surface of material m at a stress of symmetric components `stress` [Pa] [1]. */
+real material_stress_share(const struct material *m, enum space space, const real *stress);
 
 /* Computes the elastic stiffness as a matrix over symmetric components, symmetric_component_count(dim) squared, row
  * major [Pa] (tensor shear strain: shear rows contain 2G). */

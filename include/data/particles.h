@@ -207,6 +207,17 @@ static inline real bond_strength_factor(const struct particles *p, int64_t i, in
     return p->strength ? (p->strength[i] < p->strength[j] ? p->strength[i] : p->strength[j]) : 1;
 }
 
+/* Returns the share of the strength surface of its material at the stress that particle i stores [1]; 0 if it has none.
+ * material: of all particles. */
+static inline real particle_stress_share(const struct particles *p, const struct material *material, enum space space,
+                                         int64_t i)
+{
+    const struct material *m = &material[p->material[i]];
+    real stress[SYM_MAX];
+    for (int s = 0; s < symmetric_component_count(p->dim); s++) stress[s] = p->stress[s][i];
+    return material_has_surface(m) ? material_stress_share(m, space, stress) : 0;
+}
+
 /* Returns true if particle i follows the nodes of a grid or mesh: a material point, or a peridynamic particle that is
  * coupled to the grid. */
 static inline bool particle_moves_with_nodes(const struct particles *p, int64_t i)

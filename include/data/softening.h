@@ -30,10 +30,11 @@ struct softening_curve {
 };
 
 /* Softening of the bonds between two materials. onset: s_0, INFINITY: they are brittle [1]; strength_scatters: a random
- * strength scales s_0 alone, else the critical stretch, too. */
+ * strength scales s_0 alone, else the critical stretch, too; surface: a strength surface starts them, whose share the
+ * strength scales in place of s_0. */
 struct softening_pair {
     real onset;
-    bool strength_scatters;
+    bool strength_scatters, surface;
 };
 
 /* Stretches at which a bond begins to soften and ends [1]; equal if it is brittle. */

@@ -128,8 +128,15 @@ status output_index_drop_lost_frames(struct output *o, int *lost, char *text, si
  * scene requests them; plots and comparisons read the other fields. */
 #define FRAME_FIELD_WORDS                                                                                              \
     "displacement|velocity|stress|damage|plastic_strain|contact_force|fragment|spacing|kind|material|body|id|"         \
-    "von_mises|pressure|principal_stress|principal_directions|speed|strain|density|plastic_work|level|temperature"
-enum { ASK_STRAIN = 1 << 17, ASK_DENSITY = 1 << 18, ASK_PLASTIC_WORK = 1 << 19, ASK_LEVEL = 1 << 20 };
+    "von_mises|pressure|principal_stress|principal_directions|speed|strain|density|plastic_work|level|temperature|"    \
+    "strength_share"
+enum {
+    ASK_STRAIN = 1 << 17,
+    ASK_DENSITY = 1 << 18,
+    ASK_PLASTIC_WORK = 1 << 19,
+    ASK_LEVEL = 1 << 20,
+    ASK_SHARE = 1 << 22
+};
 
 /* Quantities that particles do not store and that the caller computes for requested fields, each [n]. */
 struct frame_state {
@@ -138,6 +145,7 @@ struct frame_state {
     real *plastic_strain;              /* plastic strain of material points, mean over the bonds of PD particles;
                                         * NULL: use the particles' own [1] */
     real *damage;                      /* damage with that of softening bonds; NULL: use the particles' own [1] */
+    real *share;                       /* share of the strength surface [1] */
     uint8_t *level;                    /* refinement level of the coarse cell that holds the material point; 0 if
                                         * none */
 };

@@ -257,9 +257,24 @@ static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct me
         cell_bending_force(m, s->mode, M, i, dim);
 }
 
+/* Returns an upper bound of sqrt(J2) + g1 I1 (data/strength_surface.h) in eight cells, times the factor by which it
+ * reaches m->trigger where material points convert by their strength surface [Pa]. P: stress [Pa]; more: bound of each
+ * component of stresses to be added to it, of which sqrt(J2) is at most 2.2 and I1 3 times as much. */
+static ALWAYS_INLINE lanes cell_surface_bound(const struct elastic *m, const lanes P[3][3], lanes more, const int dim)
+{
+    const lanes zz = dim == 3 ? P[2][2] : (m->space == SPACE_PLANE_STRAIN ? m->poisson : 0) * (P[0][0] + P[1][1]);
+    const lanes a = P[0][0] - P[1][1], b = P[1][1] - zz, c = zz - P[0][0];
+    lanes J2 = (a * a + b * b + c * c) * (1.0 / 6);
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < i; j++) J2 += lanes_max(P[i][j] * P[i][j], P[j][i] * P[j][i]);
+    const lanes failure = lanes_square_root(J2 + 1e-300) + m->surface.g1 * (P[0][0] + P[1][1] + zz);
+    return (failure + (2.2 + 3 * m->surface.g1) * more) * (m->trigger_mean / m->failure);
+}
+
 /* Returns for each of eight cells an upper bound of the largest principal stress at its material points [Pa]: for the
  * stress P of the mean strain the largest normal stress plus the magnitudes of all shear stresses (Gershgorin), plus a
- * bound on the stress of all bending modes in s. m: elastic constants. */
+ * bound on the stress of all bending modes in s; or of what a strength surface makes of it (cell_surface_bound). m:
+ * elastic constants. */
 static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, const struct mesh_cell *s,
                                                        const lanes P[3][3], const int dim)
 {
@@ -269,7 +284,9 @@ static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, 
     for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
-    return bound + largest * ((m->c11 + m->shear) * 0.25);
+    const lanes bending = largest * ((m->c11 + m->shear) * 0.25);
+    if (dim == 1 || !(m->surface.g0 > 0)) return bound + bending;
+    return lanes_max(bound + bending, cell_surface_bound(m, P, bending, dim));
 }
 
 /* Returns the elastic energy of each of eight cells [J], from strain, stress, bending modes and their forces in s.

@@ -324,8 +324,8 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Sets FLAG_STRESSED for the points of cell I whose largest principal stress exceeds their conversion stress. m:
- * elastic constants of all materials; finite: true for finite strain. */
+/* Sets FLAG_STRESSED for the points of cell I that convert at their stress (stress_converts). m: elastic constants of
+ * all materials; finite: true for finite strain. */
 static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                            int64_t I, const int dim, bool finite)
 {
@@ -337,9 +337,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
         if (i < 0) continue;
         const struct elastic *own = &m[p->material[i]];
         point_hooke_stress(own, e[q], s, dim);
-        const real most = point_conversion_stress(own, p, i);
-        if (stress_principal_bound(s, dim) > most && stress_largest_principal(s, dim) > most)
-            p->flag[i] |= FLAG_STRESSED;
+        if (stress_converts(own, p, i, s, dim)) p->flag[i] |= FLAG_STRESSED;
     }
 }
 
@@ -363,8 +361,9 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Returns an upper bound of the largest principal stress at the points of eight cells [Pa], computed at each point and
- * hence closer than the bound of mesh_force. there[q]: mask of the cells that have point number q; NULL: all cells have
+/* Returns an upper bound of the largest principal stress at the points of eight cells [Pa], or of what its strength
+ * surface makes of it (cell_surface_bound), computed at each point and hence closer than the bound of mesh_force.
+ * there[q]: mask of the cells that have point number q; NULL: all cells have
  * all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
@@ -379,6 +378,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
         for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
+        if (dim > 1 && m->surface.g0 > 0) bound = lanes_max(bound, cell_surface_bound(m, P, lanes_broadcast(0), dim));
         most = lanes_max(most, there ? lanes_choose(there[q], bound, most) : bound);
     }
     return most;

@@ -25,17 +25,18 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
 {
     const struct elastic *first = &t->elastic[p->material[point[0]]];
     struct elastic_points m = {points_broadcast(first->c11), points_broadcast(first->c12),
-                               points_broadcast(first->shear), points_broadcast(first->trigger)};
+                               points_broadcast(first->shear), points_broadcast(first->trigger), first->surface.g0 > 0};
     for (int k = 1; k < AT_ONCE(dim); k++) {
         const struct elastic *own = &t->elastic[p->material[point[k]]];
         if (own == first) continue;
+        m.surface |= own->surface.g0 > 0;
         m.c11[k] = own->c11, m.c12[k] = own->c12, m.shear[k] = own->shear, m.trigger[k] = own->trigger;
     }
     return m;
 }
 
 /* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points from their velocity gradients L [1/s], and
- * sets FLAG_STRESSED where the largest principal stress exceeds the conversion stress. The volume follows the trace of
+ * sets FLAG_STRESSED where they convert at their stress (stress_converts). The volume follows the trace of
  * the strain in the space; in plane stress the elastic strain through the thickness is left out (below 1 % strain it
  * changes the volume by less than 0.5 %), the plastic one is added with the return mapping. m: elastic constants by
  * lane; point: numbers of the points, of which there are `points`. Where materials yield the points go to `due`, too
@@ -56,14 +57,13 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
             const row_of_points stretch = points_load(p->stretch[d], point, dim);
             points_store(p->stretch[d], point, stretch + stretch * (t->dt * L[d * dim + d]), dim);
         }
-    const int near = points_sign_bits(m->trigger - stress_principal_bounds(stress, dim));
+    int near = points_sign_bits(m->trigger - stress_principal_bounds(stress, dim));
+    if (__builtin_expect(m->surface, 0)) near = (1 << AT_ONCE(dim)) - 1;
     for (int k = 0; k < AT_ONCE(dim) && __builtin_expect(near, 0); k++) {
         real own[SYM_MAX];
         for (int c = 0; c < n; c++) own[c] = stress[c][k];
         const int32_t i = point[k];
-        if (near >> k & 1 &&
-            stress_largest_principal(own, dim) > point_conversion_stress(&t->elastic[p->material[i]], p, i))
-            p->flag[i] |= FLAG_STRESSED;
+        if (near >> k & 1 && stress_converts(&t->elastic[p->material[i]], p, i, own, dim)) p->flag[i] |= FLAG_STRESSED;
     }
 }
 

@@ -135,6 +135,7 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w
 /* Elastic constants (struct elastic) of a few points. */
 struct elastic_points {
     row_of_points c11, c12, shear, trigger; /* [Pa] */
+    bool surface;                           /* one of them has a strength surface */
 };
 
 /* Updates the stresses s of a few points (one per lane) for a time step dt [s]: rotation by the spin, then Hooke's law.
@@ -206,6 +207,27 @@ static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *
     if (dim == 2) return points_max(s[0], s[1]) + points_absolute(s[2]);
     return points_max(points_max(s[0], s[1]), s[2]) +
            2 * (points_absolute(s[3]) + points_absolute(s[4]) + points_absolute(s[5]));
+}
+
+/* Returns sqrt(J2) + g1 I1 of a stress, the share of the strength surface of material m times g0
+ * (data/strength_surface.h) [Pa]. s: symmetric components. */
+static ALWAYS_INLINE real stress_failure(const struct elastic *m, const real *s, const int dim)
+{
+    real shear = 0;
+    for (int c = dim; c < dim * (dim + 1) / 2; c++) shear += s[c] * s[c];
+    const real zz = dim == 3 ? s[2] : m->space == SPACE_PLANE_STRAIN ? m->poisson * (s[0] + s[1]) : 0;
+    return surface_share(&m->surface, s[0], s[1], zz, shear) * m->surface.g0;
+}
+
+/* Returns true if material point i, of material m, converts to a peridynamic particle at the stress s: if its largest
+ * principal value exceeds the conversion stress, or the strength surface is as near. s: symmetric components [Pa]. */
+static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct particles *p, int64_t i, const real *s,
+                                          const int dim)
+{
+    const real most = point_conversion_stress(m, p, i);
+    if (stress_principal_bound(s, dim) > most && stress_largest_principal(s, dim) > most) return true;
+    if (dim == 1 || !(m->surface.g0 > 0)) return false;
+    return stress_failure(m, s, dim) > m->failure * (p->strength ? p->strength[i] : 1);
 }
 
 /* Computes the stress that point i transmits to the grid [Pa]: all of its stress, or the part that PD-MPM bonds do not

@@ -154,15 +154,6 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
-/* Marks particle i, of which a bond begins to soften, for conversion if it is a material point: its stress does not
- * know that its bonds soften. */
-static void mark_point(struct bonds *b, struct particles *p, int32_t i)
-{
-    if (p->kind[i] != KIND_MPM) return;
-    p->flag[i] |= FLAG_NEAR;
-    __atomic_store_n(&b->soft.at_points, true, __ATOMIC_RELAXED);
-}
-
 /* Examines the bonds of row block g that may begin to soften (is_candidate): those that the stress allows do. Sets
  * DUE_DENIED in its state if the stress does not allow one. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
@@ -179,7 +170,7 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
             }
             if (!b->soft.begun[g]) row_block_open_softness(b, p, limit, g);
             bond_begin(b, p, row, bond.entry, &c, limit->dt);
-            mark_point(b, p, c.i);
+            softness_mark_point(b, p, c.i);
         }
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
 }

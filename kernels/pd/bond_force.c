@@ -77,6 +77,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     if (dim > 1) row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
     if (dim > 2) row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
     *pressed = lanes_any(sum.press < CORE_FROM - 1);
+    if (b->soft.near && model != PD_BOND_SOFT && lanes_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
     return lanes_any(sum.stretch > (model == PD_BOND_SOFT ? zero : lanes_load(b->trigger + g * LANES)));
 }
 

@@ -19,18 +19,49 @@ static real horizon_of_ratio(const struct scene *s, const struct material *m, re
     return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
 }
 
+/* Prints the horizon of a scene, in E G_c/strength^2 of material m, too, if G_c is given. */
+static void say_horizon(const struct scene *s, const struct material *m)
+{
+    printf("               horizon %.4g m", s->horizon * s->spacing);
+    if (!isnan(m->energy_release_rate))
+        printf(", %.3g of E G_c/strength^2",
+               s->horizon * s->spacing * square(m->tensile_strength) / (m->young * m->energy_release_rate));
+}
+
 /* Prints the present horizon and those below which the softening law of material m has its strength and cracks run free
  * of the lattice. */
 static void say_horizons(const struct scene *s, const struct material *m)
 {
     const real more = s->dim == 3 ? SPENDS_MORE_SOLID : SPENDS_MORE_PLANE;
-    printf("               horizon %.4g m", s->horizon * s->spacing);
-    if (!isnan(m->energy_release_rate))
-        printf(", %.3g of E G_c/strength^2",
-               s->horizon * s->spacing * square(m->tensile_strength) / (m->young * m->energy_release_rate));
+    say_horizon(s, m);
     printf("; this strength needs less than %.4g m, and cracks run free of the lattice below %.4g m",
            horizon_of_ratio(s, m, 1), horizon_of_ratio(s, m, FREE_OF_TRAPPING));
     if (s->dim > 1) printf("; below %.4g m they spend about 5 %% more than G_c", horizon_of_ratio(s, m, more));
+    printf("\n");
+}
+
+/* Prints the strengths of a material by its strength surface, the radius over which it is evaluated, and the horizon
+ * below which it starts the bonds before they soften by themselves; above that, the states that fall short. */
+static void print_surface(const struct scene *s, const struct material *m)
+{
+    const struct softening_curve curve = softening_curve_of(m->softening);
+    const struct surface_strengths surface = material_surface_strengths(m, s->space);
+    const real horizon = s->horizon * s->spacing, unit = material_tension_modulus(m, s->space) * m->onset_stretch;
+    const struct softening_strength own =
+        softening_strength_of(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
+    const real own_shear = isnan(own.shear) ? m->young * m->onset_stretch / (1 + m->poisson) : unit * own.shear;
+    const real strain =
+        real_max(surface.tension / material_tension_modulus(m, s->space), surface.shear * (1 + m->poisson) / m->young);
+    printf("strength       %s: %.4g Pa in tension, %.4g Pa in equal biaxial tension, %.4g Pa in shear", m->name,
+           surface.tension, surface.biaxial, surface.shear);
+    if (s->dim == 3) printf(", %.4g Pa in hydrostatic tension", surface.hydrostatic);
+    printf(", by a strength surface; strains are averaged over %.4g m (%d means over families)\n",
+           horizon * sqrt(m->surface_means + 0.3), m->surface_means);
+    say_horizon(s, m);
+    printf("; the surface needs less than %.4g m", horizon * square(m->onset_stretch / strain));
+    if (surface.tension > unit) printf("; in tension bonds begin to soften by themselves at about %.4g Pa", unit);
+    if (surface.shear > own_shear)
+        printf("; shear falls short: bonds soften by themselves at about %.4g Pa", own_shear);
     printf("\n");
 }
 
@@ -39,7 +70,8 @@ void print_softening(const struct scene *s, const struct material *m)
     static const char *const law[] = {[SOFTENING_LINEAR] = "linearly",
                                       [SOFTENING_BILINEAR] = "bilinearly",
                                       [SOFTENING_EXPONENTIAL] = "exponentially"};
-    if (!material_softens(m)) return;
+    if (material_has_surface(m)) print_surface(s, m);
+    if (!material_softens(m) || material_has_surface(m)) return;
     const struct softening_curve curve = softening_curve_of(m->softening);
     const real kappa = square(m->critical_stretch / m->onset_stretch);
     const real unit = material_tension_modulus(m, s->space) * m->onset_stretch;

@@ -59,6 +59,12 @@ void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_sou
  * the particle, if there is one, else none has begun. */
 void row_soften(struct row *row, const struct row_maker *m, int32_t i);
 
+/* Returns true if a row (all bonds of one particle) has an intact bond that has not begun to soften. */
+bool row_has_closed(const struct bonds *b, int64_t row);
+
+/* Share of the least strain on a strength surface from which on stretches are near the surface (bonds_strength.c). */
+#define SURFACE_NEAR 0.8
+
 /* Copies the softening of row `from` of the rows `old` to row `row` of b. new_index: index in the particles p of each
  * particle of `old`, images included; -1: none. limit: of the bonds. */
 void bonds_take_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,

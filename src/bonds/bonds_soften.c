@@ -6,6 +6,24 @@
 #include "base/team.h"
 #include "bonds_parts.h"
 
+/* Allocates b->soft.near and sets the stretch from which on it marks row blocks (the bonds of eight particles), if a
+ * material has a strength surface. Rows that are rebuilt keep their mark; new ones have it. */
+static void rows_watch(struct bonds *b, const struct bonds *old, const struct bond_source *s, const struct particles *p)
+{
+    real least = INFINITY, weakest = 1;
+    for (int m = 0; m < s->materials; m++)
+        if (material_has_surface(&s->material[m]))
+            least = real_min(least, material_least_strain(&s->material[m], s->family.space));
+    if (isinf(least)) return;
+    for (int64_t i = 0; i < p->n && p->strength; i++) weakest = real_min(weakest, p->strength[i]);
+    b->soft.gate = SURFACE_NEAR * least * weakest;
+    b->soft.near = NEW("bonds.near", b->row_blocks, uint8_t);
+    for (int64_t row = 0; row < b->rows && old; row++) {
+        const int32_t before = old->row_of[b->particle[row]];
+        b->soft.near[row / LANES] |= before < 0 || old->soft.near[before / LANES];
+    }
+}
+
 void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_source *s, const struct particles *p)
 {
     if (!s->limit.softening) return;
@@ -21,6 +39,7 @@ void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_sou
             softening_range_of(s->limit.curve, s->limit.softening[k].onset, s->limit.critical_stretch[k]);
         if (isfinite(range.onset)) b->soft.least_ratio = real_min(b->soft.least_ratio, range.end / range.onset);
     }
+    rows_watch(b, old, s, p);
 }
 
 void row_block_open_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
@@ -94,6 +113,8 @@ status softness_archive(struct bonds *b, struct archive *a)
     TRY(a->exchange(a, "bonds/softening_begun", b->soft.begun, (size_t)b->row_blocks * sizeof *b->soft.begun));
     TRY(a->exchange(a, "bonds/softening_due", b->soft.due, (size_t)b->row_blocks * sizeof *b->soft.due));
     TRY(a->exchange(a, "bonds/softening_any_due", &b->soft.any_due, sizeof b->soft.any_due));
+    if (b->soft.near)
+        TRY(a->exchange(a, "bonds/softening_near", b->soft.near, (size_t)b->row_blocks * sizeof *b->soft.near));
     for (int64_t g = 0; g < b->row_blocks; g++) columns += b->soft.begun[g] ? b->column_count[g] : 0;
     if (columns == 0) return OK;
     struct bond_softness *packed = NEW("bonds.softness", columns * LANES, struct bond_softness);
@@ -118,6 +139,21 @@ static real row_block_spent(const void *context, int64_t g)
 real bonds_softening_energy(const struct bonds *b)
 {
     return b->soft.curve ? reproducible_sum(b->row_blocks, row_block_spent, b) : 0;
+}
+
+/* Returns true if a row has an intact bond that has begun to soften or been started (begun), or one that has not. */
+static bool row_has_bond(const struct bonds *b, int64_t row, bool begun)
+{
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+        if (it.bond.w != 0 && bond_softens(b, row / LANES, it.bond.entry) == begun) return true;
+    return false;
+}
+
+bool row_has_closed(const struct bonds *b, int64_t row) { return row_has_bond(b, row, false); }
+
+bool bonds_row_has_begun(const struct bonds *b, int64_t row)
+{
+    return row >= 0 && row_block_softens(b, row / LANES) && row_has_bond(b, row, true);
 }
 
 real bonds_row_softening(const struct bonds *b, const struct particles *p, int64_t row)

@@ -72,7 +72,7 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
             p->low_since[i] = INFINITY;
         else if (!(p->low_since[i] < INFINITY))
             p->low_since[i] = t;
-        cut[i] = p->damage[i] > 0 || bonds_row_softening(b, p, b->row_of[i]) > 0;
+        cut[i] = p->damage[i] > 0 || bonds_row_has_begun(b, b->row_of[i]);
         held[i] = cut[i] || !(t - p->low_since[i] >= rule->hold_time) ||
                   (rule->kept && region_contains(rule->kept, X, p->dim, ON_SURFACE * rule->source->family.spacing));
         rested += !held[i];

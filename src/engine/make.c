@@ -60,7 +60,8 @@ static void make_softening(const struct scene *s, struct material_tables *tables
             const struct material *m = &s->material[a], *n = &s->material[b];
             const struct material *first = m->onset_stretch <= n->onset_stretch ? m : n;
             tables->pair_softening[a * s->materials + b] = (struct softening_pair){
-                first->onset_stretch, first->scatter.given && first->scatter.of == SCATTER_STRENGTH};
+                first->onset_stretch, first->scatter.given && first->scatter.of == SCATTER_STRENGTH,
+                material_has_surface(first)};
         }
     }
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;
@@ -129,7 +130,9 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                               .mode = scene_has_load_steps(s) ? LAW_LOAD_STEP : LAW_EXPLICIT,
                                               .mean_dilatation = material_averages_dilatation(given, s->space),
                                               .trigger = conversion_trigger(s, given),
-                                              .trigger_mean = conversion_trigger(s, given)};
+                                              .trigger_mean = conversion_trigger(s, given),
+                                              .failure = s->conversion.alpha * given->surface.g0};
+        if (isfinite(tables->elastic[m].trigger)) tables->elastic[m].surface = given->surface;
     }
     make_limits(s, tables, source);
     make_softening(s, tables, source);

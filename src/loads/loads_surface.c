@@ -503,7 +503,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
 }
 
 /* Returns the inward area along axis d of particle number k of the load [m^2], summed over its corners. */
-static real surface_share(const struct surface *s, int64_t k, int d)
+static real particle_surface_area(const struct surface *s, int64_t k, int d)
 {
     real area = 0;
     for (int64_t q = s->share_first[k]; q < s->share_first[k + 1]; q++)
@@ -521,5 +521,5 @@ void surface_compute_areas(struct surface *s, const struct particles *p, real *c
     TEAM_LOOP(many, for (int64_t q = 0; q < s->faces; q++) surface_face_area(s, q););
     TEAM_LOOP(many, for (int64_t c = 0; c < s->corners; c++) surface_corner_area(s, c););
     TEAM_LOOP(many, for (int64_t k = 0; k < s->particles; k++) for (int d = 0; d < s->dim; d++) area[d][k] =
-                        surface_share(s, k, d););
+                        particle_surface_area(s, k, d););
 }

@@ -169,6 +169,11 @@ static void copy_integers(int32_t *rows, const int32_t *row, int64_t first, int6
     for (int64_t r = first; r < end; r++) rows[r] = of[row[r]];
 }
 
+static void copy_share(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+{
+    copy_scalars(rows, row, first, end, s->extra.state.share);
+}
+
 static void copy_level(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_bytes(rows, row, first, end, s->extra.state.level);
@@ -276,6 +281,7 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
     {POINT_DATA "plastic_work", "J/m^3", HDF_F32, 1, ROW_WHOLE, false, copy_plastic_work},
     {POINT_DATA "level", "", HDF_U8, 1, ROW_WHOLE, false, copy_level},
     {POINT_DATA "temperature", "K", HDF_F32, 1, ROW_WHOLE, false, copy_temperature},
+    {POINT_DATA "strength_share", "", HDF_F32, 1, ROW_WHOLE, false, copy_share},
     {POINT_DATA "strength", "", HDF_F32, 1, ROW_WHOLE, true, copy_strength},
     {"/Cleave/reference", "m", HDF_F64, 0, ROW_VECTOR, true, copy_reference},
 };
@@ -290,6 +296,7 @@ static bool field_exists(const struct frame_field *field, const struct frame_sou
     const int64_t k = field - frame_fields;
     if (k >= FIELD_ON_DEMAND && k <= FIELD_ON_DEMAND_LAST) return s->extra.asked >> (k - 1) & 1;
     if (field->copy == copy_plastic_strain) return s->p->plastic_strain || s->extra.state.plastic_strain;
+    if (field->copy == copy_share) return s->extra.state.share && s->extra.asked & ASK_SHARE;
     if (field->copy == copy_temperature) return s->p->temperature != NULL;
     if (field->copy == copy_strength) return s->p->strength != NULL;
     if (field->copy == copy_push) return s->extra.push != NULL;

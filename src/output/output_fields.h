@@ -28,7 +28,7 @@ struct frame_field {
 };
 
 /* Index of the positions and of the contact forces in the table; size of the table. */
-enum { FIELD_POINTS, FIELD_CONTACT = 6, FRAME_FIELDS = 25 };
+enum { FIELD_POINTS, FIELD_CONTACT = 6, FRAME_FIELDS = 26 };
 
 /* Table of all fields, in the order of their bits. */
 extern const struct frame_field frame_fields[FRAME_FIELDS];

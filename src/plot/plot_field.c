@@ -55,6 +55,7 @@ static const struct plot_field fields[] = {
     {"plastic_strain", "plastic_strain", 0, "", FROM_ZERO},
     {"plastic_work", "plastic_work", 0, "J/m³", FROM_ZERO},
     {"temperature", "temperature", 0, "K", FROM_LEAST},
+    {"strength_share", "strength_share", 0, "", BOTH_SIGNS},
     {"density", "density", 0, "kg/m³", FROM_LEAST},
     {"contact_force", "contact_force", MAGNITUDE, "N", FROM_ZERO},
     {"level", "level", 0, "", CATEGORY},

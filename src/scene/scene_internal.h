@@ -466,6 +466,14 @@ real scene_critical_stretch(const struct scene *s, const struct material *m);
  * reached (scene_softening.c). */
 status read_softening(struct reader *r, const struct yaml_node *n, struct material *m);
 
+/* Sets the strength surface of material m, if its strengths give one, and its m->onset_stretch; m->critical_stretch
+ * must be set. n: the material in the scene. REFUSED where the strengths contradict each other, or where bonds begin to
+ * soften by themselves before the surface is reached in tension (scene_surface.c). */
+status read_surface(struct reader *r, const struct yaml_node *n, struct material *m);
+
+/* Returns REFUSED for a strength of material m above a tenth of Young's modulus. n: the strength in the scene. */
+status check_strength_size(struct reader *r, const struct yaml_node *n, const struct material *m, real strength);
+
 /* Returns REFUSED if material k, read from n, softens by another law than an earlier one: bonds between two materials
  * have one curve. */
 status check_one_softening(struct reader *r, const struct yaml_node *n, int k);

@@ -24,6 +24,17 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         "with tensile_strength: how the force of a bond falls from its peak to 0; bilinear: concrete, its kink at a "
         "third of the strength",
         .words = "linear|bilinear|exponential", .has = FLAG(material, softening_given)),
+    KEY("material.compressive_strength", KEY_REAL, UNIT_PRESSURE, AT(material, compressive_strength), ABOVE(0), NONE,
+        "with tensile_strength: a strength surface (Drucker and Prager) starts the softening of bonds; at most one of "
+        "these three gives its second point; explicit steps, model bond, not in a line"),
+    KEY("material.hydrostatic_strength", KEY_REAL, UNIT_PRESSURE, AT(material, hydrostatic_strength), ABOVE(0), NONE,
+        "the same by the strength in equal tension in three directions; above a third of tensile_strength"),
+    KEY("material.biaxial_strength", KEY_REAL, UNIT_PRESSURE, AT(material, biaxial_strength), ABOVE(0), NONE,
+        "the same by the strength in equal tension in two directions; between a half of tensile_strength and it"),
+    KEY("material.strength_radius", KEY_REAL, UNIT_LENGTH, AT(material, strength_radius), ABOVE(0),
+        "(0.65 E G_c/tensile_strength^2 in plane stress, 0.9 of it in plane strain and solid)",
+        "radius over which the strain is averaged for a strength surface, at least: by n means over families, which "
+        "reach horizon sqrt(n + 0.3)"),
     KEY("material.yield_stress", KEY_REAL, UNIT_PRESSURE, AT(material, yield_stress), ABOVE(0), "inf",
         "stress at which it yields (von Mises; bonds yield one by one, so that plates of them carry 1.4, solids 1.8 "
         "times as much); inf: elastic",

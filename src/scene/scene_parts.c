@@ -133,6 +133,7 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
     const struct scene *s = r->scene;
     bool line = s->space == SPACE_LINE;
     m->energy_release_rate = m->law.specific_heat = m->law.taylor_quinney = m->tensile_strength = NAN;
+    m->compressive_strength = m->hydrostatic_strength = m->biaxial_strength = m->strength_radius = NAN;
     m->poisson = line ? 0 : bond_based_poisson_ratio(s->space);
     strcpy(m->name, "material");
     TRY(read_group(r, n, n, "material", m));

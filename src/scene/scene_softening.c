@@ -11,9 +11,6 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
     const struct scene *s = r->scene;
     const real strain = m->tensile_strength / material_tension_modulus(m, s->space);
     const real most = s->horizon * s->spacing * square(m->critical_stretch / strain);
-    if (m->tensile_strength > 0.1 * m->young)
-        return fault(r, n, "%s is above a tenth of Young's modulus, %.4g Pa; a smaller strength is expected",
-                     node_text(r, n), 0.1 * m->young);
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
         return fault(r, n,
@@ -27,6 +24,18 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
                  most / s->horizon);
 }
 
+/* Returns REFUSED for a key of a strength surface in a material without tensile strength. */
+static status check_no_surface(struct reader *r, const struct yaml_node *n)
+{
+    static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength",
+                                        "strength_radius"};
+    for (size_t k = 0; k < COUNT_OF(names); k++) {
+        const struct yaml_node *key = yaml_node_find(n, names[k]);
+        if (key) return fault(r, key, "is of a strength surface; tensile_strength is expected with it");
+    }
+    return OK;
+}
+
 status read_softening(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;
@@ -34,7 +43,7 @@ status read_softening(struct reader *r, const struct yaml_node *n, struct materi
                            *scatter = yaml_node_find(n, "scatter");
     m->onset_stretch = m->critical_stretch;
     if (law && !strength) return fault(r, law, "says how bonds lose their tensile_strength, which is expected with it");
-    if (!strength) return OK;
+    if (!strength) return check_no_surface(r, n);
     const char *why = s->method == METHOD_MPM  ? "is of bonds; method: pd or adaptive is expected"
                       : s->model != MODEL_BOND ? "is of model bond so far, whose bonds soften; without this key, bonds "
                                                  "of any model are brittle"
@@ -50,8 +59,10 @@ status read_softening(struct reader *r, const struct yaml_node *n, struct materi
     if (scatter && m->scatter.of != SCATTER_STRENGTH && m->scatter.of != SCATTER_STRETCH)
         return fault(r, yaml_node_find(scatter, "of"),
                      "with tensile_strength, `of: strength` (at one energy) or critical_stretch (with it) is expected");
+    TRY(check_strength_size(r, strength, m, m->tensile_strength));
     m->onset_stretch = softening_onset_of(m, s->space);
-    return check_reachable(r, strength, m);
+    TRY(read_surface(r, n, m));
+    return material_has_surface(m) ? OK : check_reachable(r, strength, m);
 }
 
 status check_one_softening(struct reader *r, const struct yaml_node *n, int k)

@@ -1,4 +1,5 @@
-/* Fields of frames that particles do not store: displacement gradients, plastic work and strain, levels of cells. */
+/* Fields of frames that particles do not store: displacement gradients, plastic work and strain, shares of strength
+ * surfaces, levels of cells. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -155,6 +156,23 @@ static real *damage_make(const struct particles *p, const struct bonds *bonds)
     return damage;
 }
 
+/* Returns the share of the strength surface [n], NULL if no material has one. The caller frees it. */
+static real *shares_make(const struct particles *p, const struct bonds *b, const struct bond_source *source)
+{
+    if (!b->soft.near) return NULL;
+    real *share = NEW("report.share", p->n, real);
+    bonds_surface_shares(b, p, source, share);
+    return share;
+}
+
+/* Returns the share of the strength surface at the stress of every point of coarse cells. The caller frees it. */
+static real *point_shares_make(const struct particles *shown, const struct scene *s)
+{
+    real *share = NEW("report.share", shown->n, real);
+    for (int64_t i = 0; i < shown->n; i++) share[i] = particle_stress_share(shown, s->material, s->space, i);
+    return share;
+}
+
 /* Returns the refinement level of the mesh cell of every particle [n], 0 for particles outside meshes. The caller frees
  * it. */
 static uint8_t *cell_levels_make(const struct reference_frame *frame, const struct particles *part)
@@ -188,9 +206,12 @@ void frame_fields_compute(struct run *e, unsigned requested, struct frame_extra 
     if (requested & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds);
     extra->state.plastic_strain = plastic_strain_make(&e->part, &e->bonds);
     extra->state.damage = damage_make(&e->part, &e->bonds);
+    if (requested & ASK_SHARE) extra->state.share = shares_make(&e->part, &e->bonds, &e->source);
     if (requested & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
     if (!extra->more) return;
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->frame->shown.gradient[k];
+    if (requested & ASK_SHARE && e->bonds.soft.near)
+        extra->more_state.share = point_shares_make(&e->frame->shown.part, e->scene);
     if (requested & ASK_LEVEL) extra->more_state.level = point_levels_make(e->frame, e->scene);
 }
 
@@ -200,6 +221,8 @@ void frame_fields_free(struct frame_extra *extra)
     memory_free(extra->state.plastic_work);
     memory_free(extra->state.plastic_strain);
     memory_free(extra->state.damage);
+    memory_free(extra->state.share);
+    memory_free(extra->more_state.share);
     memory_free(extra->state.level);
     memory_free(extra->more_state.level);
 }

@@ -100,11 +100,20 @@ static bool sweep_moves(const struct scene *s, const struct run_report *report)
     return !report->sampling.due && s->growths == 0 && !scene_viscous(s);
 }
 
+/* Returns the number of time steps between two looks at strength surfaces: those in which a wave crosses half a
+ * horizon [m]. wave_speed [m/s]; dt: time step [s]. */
+static int64_t surface_interval(real horizon, real wave_speed, real dt)
+{
+    return 1 + (int64_t)(0.5 * horizon / (wave_speed * dt));
+}
+
 /* Computes the forces of bonds and breaks the bonds beyond their limit; now->broken receives their number. If
  * sweep_moves allows it, particles without loads are moved in the same sweep. */
 static void push_bonds(struct run *e, struct step *now)
 {
     loads_clear_forces(&e->loads, &e->part);
+    if (e->clock.step % surface_interval(e->source.family.horizon, e->tables.wave_speed, e->clock.dt) == 0)
+        bonds_start_by_surface(&e->bonds, &e->part, &e->source);
     e->source.limit.retries = e->clock.step % SOFTENING_RETRY_STEPS == 0;
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
                               sweep_moves(e->scene, e->report) ? &now->motion : NULL);

@@ -1,0 +1,42 @@
+/* Strength surfaces of Drucker and Prager (1952): a material fails where
+ *
+ *     U = (sqrt(J2) + g1 I1)/g0 = 1
+ *
+ * with the first invariant I1 of the stress, the second J2 of its deviator, g0 the strength in shear, and g1 from a
+ * second strength: compressive, hydrostatic or equal biaxial tension (Kamarei et al. 2025). U, the share of the
+ * surface, is 1 on it and grows in proportion to the stress. */
+#ifndef CLEAVE_STRENGTH_SURFACE
+#define CLEAVE_STRENGTH_SURFACE
+
+#include <math.h>
+
+#include "base/base.h"
+
+/* A surface; g0 = 0: none. */
+struct strength_surface {
+    real g0, g1; /* [Pa] [1] */
+};
+
+/* Returns the surface through the strengths in uniaxial tension and compression [Pa]; compression >= tension. */
+struct strength_surface surface_of_compression(real tension, real compression);
+
+/* Returns the surface through the strengths in uniaxial and hydrostatic tension [Pa]; hydrostatic > tension/3. */
+struct strength_surface surface_of_hydrostatic(real tension, real hydrostatic);
+
+/* Returns the surface through the strengths in uniaxial and equal biaxial tension [Pa]; tension/2 < biaxial <=
+ * tension. */
+struct strength_surface surface_of_biaxial(real tension, real biaxial);
+
+/* Returns the share of the surface at a stress of components xx, yy, zz and the sum of the squares of its shear
+ * stresses xy, yz, zx [Pa] [Pa^2]. */
+static inline real surface_share(const struct strength_surface *s, real xx, real yy, real zz, real shear_squares)
+{
+    const real J2 = (square(xx - yy) + square(yy - zz) + square(zz - xx)) / 6 + shear_squares;
+    return (sqrt(J2) + s->g1 * (xx + yy + zz)) / s->g0;
+}
+
+/* Returns the strength for proportional stresses with the principal values of `direction`: the factor on these at which
+ * the surface is reached [Pa], INFINITY if it never is. */
+real surface_strength(const struct strength_surface *s, const real *direction);
+
+#endif

@@ -1,0 +1,400 @@
+/* Strength surfaces start the softening of bonds. Of each particle the strain is averaged over its family, in n means
+ * over intact bonds that reach R = delta sqrt(n + 0.3) far; where its stress is on the surface, all bonds of the
+ * particle that have not begun to soften do so from their present stretch on. Forces and energy do not jump.
+ *
+ * Strain of a particle, with the reference vectors xi and present vectors y of its bonds, their weight omega V, omega =
+ * 1/r, and the share 1 - d of its stiffness that a bond keeps (0 once it is broken):
+ *
+ *     E = sym[(R^T sum omega V (1 - d) y xi - sum omega V (1 - d) xi xi) K^-1],   K = sum omega V xi xi
+ *
+ * K is that of the first family, after pre-cracks: exact for uniform strain beside faces, too, and smaller where bonds
+ * have softened. R is the rotation of (sum omega V (1 - d) y xi) (sum omega V (1 - d) xi xi)^-1.
+ *
+ * The mean is needed only where the strain of the particle itself is on the surface or beyond: at a crack, where
+ * strains differ from particle to particle. This strain is needed only in row blocks with stretches that are near the
+ * least one on the surface, which sweeps of forces mark. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "bonds_parts.h"
+
+#define LEAST_ONSET 0.3 /* least onset of a started bond over the strain sigma_t/E */
+#define SUDDEN 1e-4     /* relative distance of onset and end of a bond that is started beyond its critical stretch */
+#define SPANS 1e-6      /* least determinant of a moment over that of an isotropic one; below it, directions lack */
+
+/* One evaluation of the surfaces. Rows are those of the bonds b. */
+struct evaluation {
+    const struct bonds *b;
+    const struct particles *p;
+    const struct bond_source *source;
+    int means;                  /* largest number of means of a material */
+    uint16_t *distance;         /* [rows] families between the row and one to be evaluated, plus 1; 0: not needed */
+    real (*strain[2])[SYM_MAX]; /* [rows] symmetric components, of the last mean and of the one being made [1] */
+    real *share;                /* [rows] share of the surface of rows to be evaluated [1] */
+};
+
+/* ---- strain of a particle ---------------------------------------------------------------------------------------- */
+
+typedef real matrix[3][3];
+
+/* Computes the inverse of a matrix of dim rows. Returns false if it is singular. */
+static ALWAYS_INLINE bool square_matrix_invert(const matrix a, matrix inverse, const int dim)
+{
+    real mean = 0, determinant;
+    for (int k = 0; k < dim; k++) mean += fabs(a[k][k]) / dim;
+    if (dim == 2) {
+        determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+        inverse[0][0] = a[1][1], inverse[1][1] = a[0][0], inverse[0][1] = -a[0][1], inverse[1][0] = -a[1][0];
+    } else {
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                const int r = (j + 1) % 3, s = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+                inverse[i][j] = a[r][c] * a[s][d] - a[r][d] * a[s][c];
+            }
+        determinant = a[0][0] * inverse[0][0] + a[0][1] * inverse[1][0] + a[0][2] * inverse[2][0];
+    }
+    if (!(fabs(determinant) > SPANS * (dim == 3 ? mean * mean * mean : mean * mean))) return false;
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) inverse[i][j] /= determinant;
+    return true;
+}
+
+/* Computes the product of two matrices of dim rows, of the transpose of the first one if `turned`. */
+static ALWAYS_INLINE void matrix_multiply(const matrix a, bool turned, const matrix b, matrix product, const int dim)
+{
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) {
+            product[i][j] = 0;
+            for (int k = 0; k < dim; k++) product[i][j] += (turned ? a[k][i] : a[i][k]) * b[k][j];
+        }
+}
+
+/* Replaces F by the rotation of its polar decomposition: in the plane by its angle, in space by the mean of a matrix
+ * and its inverse transpose, repeated (Higham 1986). Returns false if there is none. */
+static ALWAYS_INLINE bool matrix_rotation(matrix F, const int dim)
+{
+    matrix inverse;
+    if (dim == 2) {
+        const real c = F[0][0] + F[1][1], s = F[1][0] - F[0][1], size = sqrt(c * c + s * s);
+        F[0][0] = F[1][1] = c / size, F[1][0] = s / size, F[0][1] = -s / size;
+        return size > 0;
+    }
+    for (int step = 0; step < 30; step++) {
+        real change = 0;
+        if (!square_matrix_invert(F, inverse, dim)) return false;
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                const real next = 0.5 * (F[i][j] + inverse[j][i]);
+                change = real_max(change, fabs(next - F[i][j])), F[i][j] = next;
+            }
+        if (change < 1e-12) return true;
+    }
+    return false;
+}
+
+/* Sums over the bonds of a row: M of the stiffness that is left, L of what is lost, so that K = M + L, and Y = sum
+ * omega V (1 - d) y xi. */
+struct moments {
+    matrix M, L, Y;
+};
+
+/* Adds weight a b^T to m. */
+static ALWAYS_INLINE void moment_add(matrix m, real weight, const real *a, const real *b, const int dim)
+{
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) m[i][j] += weight * a[i] * b[j];
+}
+
+/* Computes the sums over the bonds of a row, without those that a pre-crack cuts. */
+static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, struct moments *sum, const int dim)
+{
+    const struct particles *p = e->p;
+    const int32_t i = e->b->particle[row];
+    const bool begun = e->b->soft.begun[row / LANES];
+    *sum = (struct moments){.M = {{0}}};
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
+        const int32_t j = it.bond.nbr;
+        const real inverse = fabs(it.bond.inverse_length);
+        real xi[DIM_MAX], y[DIM_MAX];
+        for (int d = 0; d < dim; d++) xi[d] = p->X[d][j] - p->X[d][i], y[d] = p->x[d][j] - p->x[d][i];
+        const real weight = p->volume0[j] * inverse;
+        if (it.bond.w == 0) {
+            const bool cut = cracks_separate_particles(e->source->crack, e->source->cracks, p, i, j);
+            if (!cut) moment_add(sum->L, weight, xi, xi, dim);
+            continue;
+        }
+        const real stretch = begun ? sqrt(dot(y, y, dim)) * inverse - 1 : 0;
+        const real kept = begun ? bond_kept_share(e->b, row / LANES, it.bond.entry, stretch) : 1;
+        moment_add(sum->M, weight * kept, xi, xi, dim);
+        moment_add(sum->Y, weight * kept, y, xi, dim);
+        if (kept < 1) moment_add(sum->L, weight * (1 - kept), xi, xi, dim);
+    }
+}
+
+/* Stores the symmetric components of the strain E of a row; 0 where its bonds do not span the space. */
+static ALWAYS_INLINE void row_strain_of(const struct evaluation *e, int64_t row, real *strain, const int dim)
+{
+    struct moments sum;
+    matrix inverse, R, back, E;
+    row_moments(e, row, &sum, dim);
+    for (int s = 0; s < SYM_MAX; s++) strain[s] = 0;
+    if (!square_matrix_invert(sum.M, inverse, dim)) return;
+    matrix_multiply(sum.Y, false, inverse, R, dim);
+    if (!matrix_rotation(R, dim)) return;
+    matrix_multiply(R, true, sum.Y, back, dim);
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) back[i][j] -= sum.M[i][j], sum.L[i][j] += sum.M[i][j];
+    if (!square_matrix_invert(sum.L, inverse, dim)) return;
+    matrix_multiply(back, false, inverse, E, dim);
+    for (int s = 0; s < symmetric_component_count(dim); s++) {
+        int a, c;
+        symmetric_component_axes(dim, s, &a, &c);
+        strain[s] = 0.5 * (E[a][c] + E[c][a]);
+    }
+}
+
+/* Stores the symmetric components of the strain E of a row, as row_strain_of. */
+static void row_strain(const struct evaluation *e, int64_t row, real *strain)
+{
+    if (e->p->dim == 2)
+        row_strain_of(e, row, strain, 2);
+    else
+        row_strain_of(e, row, strain, 3);
+}
+
+/* ---- means ------------------------------------------------------------------------------------------------------- */
+
+/* Returns the row whose strain is that of particle or image j, mirrored: its own, or that of its source; -1 if the row
+ * does not hold the whole family, or if the plane of symmetry is clamped. sign [components of a vector]: -1 along axes
+ * that are mirrored. */
+static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
+{
+    const struct particles *p = e->p;
+    for (int d = 0; d < p->dim; d++) sign[d] = 1;
+    for (; j >= p->n; j = e->source->image[j - p->n].source) {
+        const int axis = e->source->mirror_axis[e->source->image[j - p->n].load];
+        if (axis < 0) return -1;
+        sign[axis] = -sign[axis];
+    }
+    const int64_t row = e->b->row_of[j];
+    return row >= 0 && e->b->whole[row] ? row : -1;
+}
+
+/* Sets the distance of the rows to which the intact bonds of a row lead to `distance` if they have none. Several
+ * threads may set one row. */
+static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distance)
+{
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
+        real sign[DIM_MAX];
+        const int64_t other = it.bond.w == 0 ? -1 : row_of_strain(e, it.bond.nbr, sign);
+        if (other >= 0 && __atomic_load_n(&e->distance[other], __ATOMIC_RELAXED) == 0)
+            __atomic_store_n(&e->distance[other], distance, __ATOMIC_RELAXED);
+    }
+}
+
+/* Computes the mean of the strains of a row and of the rows to which its intact bonds lead, into e->strain[1]. */
+static void row_average(struct evaluation *e, int64_t row)
+{
+    const int dim = e->p->dim, count = symmetric_component_count(dim);
+    real sum[SYM_MAX], sign[DIM_MAX];
+    int terms = 1;
+    for (int s = 0; s < count; s++) sum[s] = e->strain[0][row][s];
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
+        const int64_t other = it.bond.w == 0 ? -1 : row_of_strain(e, it.bond.nbr, sign);
+        if (other < 0) continue;
+        for (int s = 0; s < count; s++) {
+            int a, c;
+            symmetric_component_axes(dim, s, &a, &c);
+            sum[s] += sign[a] * sign[c] * e->strain[0][other][s];
+        }
+        terms++;
+    }
+    for (int s = 0; s < count; s++) e->strain[1][row][s] = sum[s] / terms;
+}
+
+/* Returns the share of the surface of the particle of a row, by the strain e->strain[0] [1]. */
+static real row_share(const struct evaluation *e, int64_t row)
+{
+    const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
+    const int dim = e->p->dim;
+    const real *strain = e->strain[0][row];
+    real stress[SYM_MAX], trace = 0;
+    for (int d = 0; d < dim; d++) trace += strain[d];
+    for (int s = 0; s < symmetric_component_count(dim); s++)
+        stress[s] = s < dim ? (m->c11 - m->c12) * strain[s] + m->c12 * trace : 2 * m->shear * strain[s];
+    return material_stress_share(m, e->source->family.space, stress);
+}
+
+/* Returns the material of the particle of a row if it has a surface, else NULL. */
+static const struct material *row_material(const struct evaluation *e, int64_t row)
+{
+    const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
+    return material_has_surface(m) ? m : NULL;
+}
+
+/* Returns the share of the surface at which the bonds of the particle of a row are started [1]. */
+static real row_strength(const struct evaluation *e, int64_t row)
+{
+    return e->p->strength ? e->p->strength[e->b->particle[row]] : 1;
+}
+
+/* ---- evaluation -------------------------------------------------------------------------------------------------- */
+
+/* Allocates what an evaluation needs. share: as in struct evaluation, allocated by the caller. */
+static struct evaluation evaluation_make(const struct bonds *b, const struct particles *p,
+                                         const struct bond_source *source)
+{
+    struct evaluation e = {b, p, source, 0, NULL, {NULL, NULL}, NULL};
+    for (int m = 0; m < source->materials; m++)
+        if (material_has_surface(&source->material[m]) && source->material[m].surface_means > e.means)
+            e.means = source->material[m].surface_means;
+    e.distance = NEW("bonds.distance", b->rows, uint16_t);
+    e.share = NEW("bonds.share", b->rows, real);
+    for (int k = 0; k < 2; k++) e.strain[k] = memory_new_uninitialised("bonds.strain", b->rows, sizeof *e.strain[k]);
+    return e;
+}
+
+static void evaluation_free(struct evaluation *e)
+{
+    memory_free(e->distance), memory_free(e->share);
+    memory_free(e->strain[0]), memory_free(e->strain[1]);
+}
+
+/* Returns true if the surface may have been reached in a row block (the bonds of eight particles). */
+static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
+
+/* Computes the strains of the rows of row blocks near the surface, and sets the distance of those that are beyond it,
+ * and have a bond to start, to 1. Returns true if there is one. */
+static bool find_candidates(struct evaluation *e)
+{
+    const struct bonds *b = e->b;
+    bool any = false;
+#pragma omp parallel for schedule(dynamic, 64) reduction(| : any)
+    for (int64_t row = 0; row < b->rows; row++) {
+        if (!is_near_surface(b, row / LANES) || !b->whole[row] || !row_material(e, row) || !row_has_closed(b, row))
+            continue;
+        row_strain(e, row, e->strain[0][row]);
+        if (!(row_share(e, row) >= row_strength(e, row))) continue;
+        e->distance[row] = 1;
+        any = true;
+    }
+    return any;
+}
+
+/* Computes the strains of all rows within e->means families of those of distance 1, and the shares of the latter, each
+ * after the number of means of its material. */
+static void evaluate_surfaces(struct evaluation *e)
+{
+    const struct bonds *b = e->b;
+    for (int from = 1; from <= e->means; from++)
+#pragma omp parallel for schedule(dynamic, 64)
+        for (int64_t row = 0; row < b->rows; row++)
+            if (__atomic_load_n(&e->distance[row], __ATOMIC_RELAXED) == from)
+                mark_family_rows(e, row, (uint16_t)(from + 1));
+#pragma omp parallel for schedule(dynamic, 64)
+    for (int64_t row = 0; row < b->rows; row++)
+        if (e->distance[row] > 0) row_strain(e, row, e->strain[0][row]);
+    for (int mean = 0; mean <= e->means; mean++) {
+#pragma omp parallel for schedule(dynamic, 64)
+        for (int64_t row = 0; row < b->rows; row++) {
+            if (e->distance[row] == 0 || e->distance[row] > e->means - mean + 1) continue;
+            const struct material *m = row_material(e, row);
+            if (e->distance[row] == 1 && m && m->surface_means == mean) e->share[row] = row_share(e, row);
+            if (e->distance[row] <= e->means - mean) row_average(e, row);
+        }
+        real(*last)[SYM_MAX] = e->strain[0];
+        e->strain[0] = e->strain[1], e->strain[1] = last;
+    }
+}
+
+void bonds_surface_shares(const struct bonds *b, const struct particles *p, const struct bond_source *s, real *share)
+{
+    struct evaluation e = evaluation_make(b, p, s);
+    for (int64_t row = 0; row < b->rows; row++) e.distance[row] = b->whole[row] ? 1 : 0;
+    evaluate_surfaces(&e);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) {
+        const bool own = p->kind[i] == KIND_PD && b->row_of[i] >= 0;
+        share[i] = own ? e.share[b->row_of[i]] : particle_stress_share(p, s->material, s->family.space, i);
+    }
+    evaluation_free(&e);
+}
+
+/* ---- start ------------------------------------------------------------------------------------------------------- */
+
+/* Returns the least onset of the bonds that the particle j, an image or a particle, starts now [1]; INFINITY if it
+ * starts none. */
+static real start_of(const struct evaluation *e, int32_t j)
+{
+    const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);
+    const int64_t row = e->b->row_of[i];
+    if (row < 0 || e->distance[row] != 1 || !(e->share[row] >= row_strength(e, row))) return INFINITY;
+    const struct material *m = &e->source->material[e->p->material[i]];
+    return LEAST_ONSET * row_strength(e, row) * m->tensile_strength / m->young;
+}
+
+/* Returns the state of a bond that a surface starts, whose least onset is `least`: it softens from its present stretch
+ * on, which no curve lies below. i, j: its particles. */
+static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
+{
+    const struct particles *p = e->p;
+    const struct bond_limit *limit = &e->source->limit;
+    const real closed = bond_range_of(p, limit, i, bond->nbr).onset;
+    const real critical = bond_breaking_stretch(p, limit, i, bond->nbr);
+    real length2 = 0;
+    for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][bond->nbr] - p->x[d][i]);
+    const real onset = real_max(sqrt(length2) * bond->inverse_length - 1, real_min(least, closed));
+    const bool sudden = !(onset < critical * (1 - SUDDEN));
+    const real end = sudden ? onset * (1 + SUDDEN) : softening_end(limit->curve, onset, critical);
+    return (struct bond_softness){(float)onset, (float)onset, (float)end};
+}
+
+/* Starts the bonds of row block g that have not begun to soften and lead from or to a particle on its surface. */
+static void row_block_start(const struct evaluation *e, struct bonds *b, struct particles *p, int64_t g)
+{
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
+        const int32_t i = b->particle[row];
+        const real own = start_of(e, i);
+        for (int64_t k = 0; k < b->column_count[g]; k++) {
+            const struct bond bond = bond_read(b, g, k, (int)(row % LANES));
+            if (bond.w == 0 || bond_softens(b, g, bond.entry)) continue;
+            const real least = real_min(own, start_of(e, bond.nbr));
+            if (isinf(least) || isinf(bond_breaking_stretch(p, &e->source->limit, i, bond.nbr))) continue;
+            if (!b->soft.begun[g]) row_block_open_softness(b, p, &e->source->limit, g);
+            bond_softness_put(&b->soft, bond.entry, bond_started(e, &bond, i, least));
+            softness_mark_point(b, p, i);
+        }
+    }
+}
+
+/* Marks in `touched` [row blocks] those that a row on its surface is in or leads to. Several threads may mark one. */
+static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
+{
+    __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
+        const int64_t other = e->b->row_of[image_source_particle(e->p, e->source->image, it.bond.nbr)];
+        if (other >= 0) __atomic_store_n(&touched[other / LANES], 1, __ATOMIC_RELAXED);
+    }
+}
+
+void bonds_start_by_surface(struct bonds *b, struct particles *p, const struct bond_source *s)
+{
+    bool any = false;
+    if (!b->soft.near) return;
+    for (int64_t g = 0; g < b->row_blocks && !any; g++) any = is_near_surface(b, g);
+    if (!any) return;
+    struct evaluation e = evaluation_make(b, p, s);
+    if (find_candidates(&e)) {
+        uint8_t *touched = NEW("bonds.touched", b->row_blocks, uint8_t);
+        evaluate_surfaces(&e);
+#pragma omp parallel for schedule(dynamic, 64)
+        for (int64_t row = 0; row < b->rows; row++)
+            if (e.distance[row] == 1 && e.share[row] >= row_strength(&e, row)) mark_touched(&e, row, touched);
+#pragma omp parallel for schedule(dynamic, 16)
+        for (int64_t g = 0; g < b->row_blocks; g++)
+            if (touched[g]) row_block_start(&e, b, p, g);
+        memory_free(touched);
+    }
+    array_fill_bytes(b->soft.near, 0, b->row_blocks, 1);
+    evaluation_free(&e);
+}

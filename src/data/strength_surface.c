@@ -1,0 +1,86 @@
+/* Strength surfaces of Drucker and Prager, and what they mean for a material. */
+#include "data/strength_surface.h"
+
+#include "data/material.h"
+
+/* Returns the surface with the coefficient g1 through the tensile strength. */
+static struct strength_surface surface_through(real tension, real g1)
+{
+    return (struct strength_surface){tension * (1 / sqrt(3) + g1), g1};
+}
+
+struct strength_surface surface_of_compression(real tension, real compression)
+{
+    return surface_through(tension, (compression - tension) / (sqrt(3) * (compression + tension)));
+}
+
+struct strength_surface surface_of_hydrostatic(real tension, real hydrostatic)
+{
+    return surface_through(tension, tension / (sqrt(3) * (3 * hydrostatic - tension)));
+}
+
+struct strength_surface surface_of_biaxial(real tension, real biaxial)
+{
+    return surface_through(tension, (tension - biaxial) / (sqrt(3) * (2 * biaxial - tension)));
+}
+
+real surface_strength(const struct strength_surface *s, const real *direction)
+{
+    const real share = surface_share(s, direction[0], direction[1], direction[2], 0);
+    return share > 0 ? 1 / share : INFINITY;
+}
+
+/* Completes the principal stresses of a state in the plane by that across it [Pa]. */
+static void complete_state(const struct material *m, enum space space, real *stress)
+{
+    if (space == SPACE_PLANE_STRESS) stress[2] = 0;
+    if (space == SPACE_PLANE_STRAIN) stress[2] = m->poisson * (stress[0] + stress[1]);
+}
+
+/* Returns the largest of those principal strains of a stress state of unit size that bonds of the space have, when it
+ * reaches the surface [1]; INFINITY if it never does. */
+static real largest_strain(const struct material *m, enum space space, real *stress)
+{
+    const int dim = space_dim(space);
+    real most = -INFINITY;
+    complete_state(m, space, stress);
+    const real strength = surface_strength(&m->surface, stress), sum = stress[0] + stress[1] + stress[2];
+    for (int k = 0; k < dim; k++) most = real_max(most, ((1 + m->poisson) * stress[k] - m->poisson * sum) / m->young);
+    return isinf(strength) ? INFINITY : strength * most;
+}
+
+enum { ANGLES = 360 }; /* of a half circle; the least strain is found to 1e-4 */
+
+real material_least_strain(const struct material *m, enum space space)
+{
+    real least = INFINITY;
+    for (int k = 0; k < 2 * ANGLES; k++) {
+        const real azimuth = M_PI * k / ANGLES;
+        for (int n = 0; n < (space == SPACE_SOLID ? ANGLES : 1); n++) {
+            const real polar = space == SPACE_SOLID ? M_PI * (n + 0.5) / ANGLES : 0.5 * M_PI;
+            real stress[] = {sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar)};
+            least = real_min(least, largest_strain(m, space, stress));
+        }
+    }
+    /* the corner of equal tension in all directions lies between the angles */
+    real equal[] = {1, 1, 1};
+    return real_max(0, real_min(least, largest_strain(m, space, equal)));
+}
+
+struct surface_strengths material_surface_strengths(const struct material *m, enum space space)
+{
+    real tension[] = {1, 0, 0}, biaxial[] = {1, 1, 0};
+    const real shear[] = {1, -1, 0}, hydrostatic[] = {1, 1, 1};
+    if (space != SPACE_SOLID) complete_state(m, space, tension), complete_state(m, space, biaxial);
+    return (struct surface_strengths){surface_strength(&m->surface, tension), surface_strength(&m->surface, biaxial),
+                                      surface_strength(&m->surface, shear), surface_strength(&m->surface, hydrostatic)};
+}
+
+real material_stress_share(const struct material *m, enum space space, const real *stress)
+{
+    const int dim = space_dim(space);
+    real shear = 0;
+    for (int k = dim; k < symmetric_component_count(dim); k++) shear += square(stress[k]);
+    const real across = dim == 3 ? stress[2] : space == SPACE_PLANE_STRAIN ? m->poisson * (stress[0] + stress[1]) : 0;
+    return surface_share(&m->surface, stress[0], stress[1], across, shear);
+}

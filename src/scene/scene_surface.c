@@ -1,0 +1,105 @@
+/* Reads the strength surface of a material: its bonds are started where the mean strain of a particle is on it. */
+#include <math.h>
+
+#include "data/softening.h"
+#include "scene_internal.h"
+
+#define OWN_RATIO                                                                                                      \
+    2 /* kappa of bonds that soften before a surface has started them; with less, lattices trap cracks                 \
+       */
+#define RADIUS_PLANE_STRESS                                                                                            \
+    0.65 /* default radius over E G_c/sigma_t^2: the surface is at 0.8 at a tip of K_c; measured */
+#define RADIUS_ELSE 0.9
+
+status check_strength_size(struct reader *r, const struct yaml_node *n, const struct material *m, real strength)
+{
+    if (!(strength > 0.1 * m->young)) return OK;
+    return fault(r, n, "%s is above a tenth of Young's modulus, %.4g Pa; a smaller strength is expected",
+                 node_text(r, n), 0.1 * m->young);
+}
+
+/* Returns REFUSED unless `value`, read from n, is between the fractions `low` (not itself) and `high` of the tensile
+ * strength of material m. */
+static status check_fraction(struct reader *r, const struct yaml_node *n, const struct material *m, real value,
+                             real low, real high)
+{
+    if (value > low * m->tensile_strength && value <= high * m->tensile_strength) return OK;
+    if (isinf(high))
+        return fault(r, n, "more than %.4g Pa, %s of tensile_strength, is expected", low * m->tensile_strength,
+                     low < 0.4 ? "a third" : "a half");
+    return fault(r, n, "more than %.4g and at most %.4g Pa, half of tensile_strength and all of it, is expected",
+                 low * m->tensile_strength, high * m->tensile_strength);
+}
+
+/* Sets m->surface by the strength that the scene gives with the node n, the key `key`. */
+static status surface_from(struct reader *r, const struct yaml_node *n, const char *key, struct material *m)
+{
+    const real tension = m->tensile_strength;
+    if (key[0] == 'c') {
+        TRY(check_strength_size(r, n, m, m->compressive_strength));
+        if (m->compressive_strength < tension)
+            return fault(r, n, "is below tensile_strength; at least %.4g Pa is expected", tension);
+        m->surface = surface_of_compression(tension, m->compressive_strength);
+    } else if (key[0] == 'h') {
+        TRY(check_strength_size(r, n, m, m->hydrostatic_strength));
+        TRY(check_fraction(r, n, m, m->hydrostatic_strength, 1.0 / 3, INFINITY));
+        m->surface = surface_of_hydrostatic(tension, m->hydrostatic_strength);
+    } else {
+        TRY(check_fraction(r, n, m, m->biaxial_strength, 0.5, 1));
+        m->surface = surface_of_biaxial(tension, m->biaxial_strength);
+    }
+    return OK;
+}
+
+/* Returns the length E G_c/strength^2 of material m, from its critical stretch where G_c is not given [m]. */
+static real characteristic_length(const struct scene *s, const struct material *m)
+{
+    static const real factor[] = {3, 4 * M_PI / 9, 5 * M_PI / 12, 5.0 / 6}; /* s_c^2 E delta/G_c of bonds */
+    const real release_rate = isnan(m->energy_release_rate)
+                                  ? square(m->critical_stretch) * m->young * s->horizon * s->spacing / factor[s->space]
+                                  : m->energy_release_rate;
+    return m->young * release_rate / square(m->tensile_strength);
+}
+
+/* Returns REFUSED if the bonds of material m begin to soften by themselves before its surface is reached in tension.
+ * n: the tensile strength in the scene. */
+static status check_first(struct reader *r, const struct yaml_node *n, const struct material *m)
+{
+    const struct scene *s = r->scene;
+    const struct softening_curve curve = softening_curve_of(m->softening);
+    const real own = material_tension_modulus(m, s->space) * m->onset_stretch *
+                     softening_strength_of(&curve, s->space, OWN_RATIO).tension;
+    const real most = s->horizon * s->spacing * square(own / material_surface_strengths(m, s->space).tension);
+    if (most >= s->horizon * s->spacing) return OK;
+    return fault(r, n,
+                 "bonds of this horizon, %.4g m, soften by themselves at %.4g Pa, before the strength surface is "
+                 "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
+                 s->horizon * s->spacing, own, most, most / s->horizon);
+}
+
+status read_surface(struct reader *r, const struct yaml_node *n, struct material *m)
+{
+    static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength"};
+    const struct scene *s = r->scene;
+    const struct yaml_node *given = NULL, *radius = yaml_node_find(n, "strength_radius");
+    const char *key = NULL;
+    for (size_t k = 0; k < COUNT_OF(names); k++) {
+        const struct yaml_node *next = yaml_node_find(n, names[k]);
+        if (next && given) return fault_keys_exclude(r, given, next);
+        if (next) given = next, key = names[k];
+    }
+    if (!given && radius)
+        return fault(r, radius,
+                     "is of a strength surface; compressive_strength, hydrostatic_strength or biaxial_strength is "
+                     "expected with it");
+    if (!given) return OK;
+    if (s->space == SPACE_LINE)
+        return fault(r, given,
+                     "is of a strength surface, which a line does not have; tensile_strength alone is expected");
+    TRY(surface_from(r, given, key, m));
+    const real share = s->space == SPACE_PLANE_STRESS ? RADIUS_PLANE_STRESS : RADIUS_ELSE;
+    const real reach = radius ? m->strength_radius : share * characteristic_length(s, m);
+    m->surface_means = (int)real_min(1e4, real_max(0, ceil(square(reach / (s->horizon * s->spacing)) - 0.3)));
+    m->onset_stretch = m->critical_stretch / sqrt(OWN_RATIO);
+    return check_first(r, yaml_node_find(n, "tensile_strength"), m);
+}

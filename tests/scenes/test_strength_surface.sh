@@ -1,0 +1,111 @@
+#!/bin/sh
+# Strength surfaces from the command line: whole plates of glass in tension, equal biaxial tension and shear, energy, equal bits on any
+# number of threads and after a checkpoint, an adaptive run, scatter, frames, what check prints, refusals.
+test_name=test_strength_surface
+. tests/support/summary.sh
+. tests/support/scenes.sh
+. tests/support/trust.sh
+
+# A square of 2.8 mm in grips that do not break, strained in proportion to the stress `sx`, `sy` from 0.9 of `load` on.
+cat >"$work/square.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 24 us
+method: pd
+variables: {sx: 1, sy: 1, load: 27 MPa, nu: 1/3, ex: (sx - nu*sy)*load/70 GPa, ey: (sy - nu*sx)*load/70 GPa, start: 0.9, rate: 0.5/(40 us)}
+materials:
+  - {name: glass, young: 70 GPa, density: 2440, energy_release_rate: 10, tensile_strength: 40 MPa, compressive_strength: 1 GPa}
+  - {name: grip, young: 70 GPa, density: 2440}
+body: {box: {from: [-2 mm, -2 mm], to: [2 mm, 2 mm]}}
+parts:
+  - {region: {box: {from: [-2 mm, 1.4 mm], to: [2 mm, 2 mm]}}, material: grip}
+  - {region: {box: {from: [-2 mm, -2 mm], to: [2 mm, -1.4 mm]}}, material: grip}
+  - {region: {box: {from: [1.4 mm, -2 mm], to: [2 mm, 2 mm]}}, material: grip}
+  - {region: {box: {from: [-2 mm, -2 mm], to: [-1.4 mm, 2 mm]}}, material: grip}
+particles: {spacing: 0.1 mm}
+initial:
+  - displacement_gradient: [[ex*start, 0], [0, ey*start]]
+    velocity_gradient: [[ex*rate, 0], [0, ey*rate]]
+boundary:
+  - {name: top, velocity: [free, 1.9 mm*ey*rate], region: {box: {from: [-2 mm, 1.8 mm], to: [2 mm, 2 mm]}}}
+  - {name: bottom, velocity: [free, -1.9 mm*ey*rate], region: {box: {from: [-2 mm, -2 mm], to: [2 mm, -1.8 mm]}}}
+  - {name: right, velocity: [1.9 mm*ex*rate, free], region: {box: {from: [1.8 mm, -2 mm], to: [2 mm, 2 mm]}}}
+  - {name: left, velocity: [-1.9 mm*ex*rate, free], region: {box: {from: [-2 mm, -2 mm], to: [-1.8 mm, 2 mm]}}}
+contact: {between: none}
+probes:
+  - reaction: {boundary: top}
+output: {frames: 4, samples: 200}
+END
+shear="-s variables.sx=-1 -s variables.load=44.4MPa -s particles.spacing=0.05mm"
+
+# The shipped strip, with the compressive strength of glass, in tension.
+surface="-s materials.0.compressive_strength=1GPa"
+cp inputs/strength_strip.yaml "$work/strip.yaml"
+start biaxial "$work/square.yaml" -s 'output.fields=[strength_share]'
+start shear "$work/square.yaml" $shear; wait
+start one "$work/strip.yaml" $surface
+{ "$cleave" run "$work/strip.yaml" -o "$work/two" -t 2 -q $surface 2>"$work/two.err" || fail "two: $(cat "$work/two.err")"; } &
+wait
+start half "$work/strip.yaml" -s time.safety=0.25 $surface
+start scatter "$work/strip.yaml" $surface -s 'materials.0.scatter={modulus: 20, seed: 3}'; wait
+start mirrored "$work/square.yaml" -s 'boundary.1={mirror: {axis: y, at: 0}}' -s 'boundary.3={mirror: {axis: x, at: 0}}' \
+    -s 'body.box={from: [0, 0], to: [2 mm, 2 mm]}'
+start adaptive "$work/strip.yaml" $surface -s method=adaptive; wait
+
+# The largest mean stress across the grips is the strength that the surface has in that state [MPa]: tension 40 within 3 %, equal biaxial
+# tension 27 +- 1.5, shear at a horizon of 0.34 E G_c/strength^2 44.4 +- 2; without the surface bonds have 57 in equal biaxial tension.
+strength() { awk -F, -v area="$2" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /reaction.force_y/) at = k } $at + 0 > most { most = $at }
+    END { print most / area / 1e6 }' "$work/$1/history.csv"; }
+between "tension" "$(strength one 5e-6)" 38.8 41.2
+between "biaxial tension" "$(strength biaxial 4e-6)" 25.5 28.5
+between "shear" "$(strength shear 4e-6)" 42.4 46.4
+between "scatter" "$(strength scatter 5e-6)" 30 39.5
+between "a quarter between mirrors, biaxial" "$(strength mirrored 2e-6)" 25.5 28.5
+between "adaptive" "$(strength adaptive 5e-6)" 38 41.2
+between "adaptive: particles" "$(last adaptive particles_pd)" 100 6000
+
+# The balance of the strip that is torn apart closes with the square of the step: all of it starts to soften at once, which is the hardest.
+error() { figure "$work/$1" energy.balance_error; }
+between "energy" "$(error one)" -6e-3 6e-3
+between "energy at half the step" "$(error half)" -1.5e-3 1.5e-3
+between "it breaks" "$(last one fracture)" 1e-4 1
+
+# Equal bits.
+same() { if cmp "$work/$1/history.csv" "$work/$2/history.csv" && cmp "$work/$1/frames/000012.hdf" "$work/$2/frames/000012.hdf"
+    then pass; else fail "$1 and $2 differ"; fi; }
+same one two
+"$cleave" run "$work/strip.yaml" -o "$work/cut" -t 2 -q $surface -s time.wall=0.7 2>/dev/null
+is "cut" $? 130
+"$cleave" run "$work/strip.yaml" -o "$work/cut" -t 1 -q $surface -s time.wall=1 --resume 2>/dev/null
+"$cleave" run "$work/strip.yaml" -o "$work/cut" -t 1 -q $surface --resume 2>"$work/cut.err" || fail "cut: $(cat "$work/cut.err")"
+same one cut
+start echo "$work/one/scene.yaml"; wait
+same one echo
+
+# The share of the surface in the first frame is 0.9 that of the strength, as the strain at the start.
+"$cleave" plot "$work/biaxial" --field strength_share --times 0 -o "$work/share.png" >"$work/said"
+between "share in a picture" "$(sed -n 's/.*colours from -[0-9.]* to \([0-9.]*\).*/\1/p' "$work/said")" 0.89 0.91
+
+# What check prints: the strengths of the table of the suite, means over R = 0.65 l, the horizon below which bonds are started before they
+# soften by themselves: C l E^2 G_c... = 4 pi/9 E G_c/(2 (1.333 x 44.4 MPa)^2) = 0.139 mm.
+"$cleave" check "$work/square.yaml" --no-trial >"$work/said" 2>&1
+holds "check: strengths" grep -q 'strength  *glass: 4e+07 Pa in tension, 2.70[0-9]*e+07 Pa in equal biaxial tension, 4.44[0-9]*e+07 Pa in shear' "$work/said"
+holds "check: means" grep -q 'strains are averaged over 0.0003438 m (1 means over families)' "$work/said"
+holds "check: horizon" grep -q 'the surface needs less than 0.000139[0-9]* m' "$work/said"
+holds "check: shear" grep -q 'shear falls short: bonds soften by themselves at about 3.[0-9]*e+07 Pa' "$work/said"
+
+bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/square.yaml" "$@"; }
+other() { what=$1 words=$2; shift 2; bad "$what" "$words" -s materials.0.compressive_strength= "$@"; }
+bad "a large horizon" "particles.spacing below 0.0001" -s particles.spacing=0.2mm
+bad "two surfaces" "biaxial_strength" -s materials.0.biaxial_strength=27MPa
+bad "a small compressive strength" "at least 4e+07 Pa is expected" -s materials.0.compressive_strength=20MPa
+bad "a large compressive strength" "above a tenth of Young's modulus" -s materials.0.compressive_strength=8GPa
+other "hydrostatic strength" "more than 1.333e+07 Pa, a third" -s materials.0.hydrostatic_strength=13MPa
+other "a small biaxial strength" "more than 2e+07 and at most 4e+07" -s materials.0.biaxial_strength=20MPa
+other "a large biaxial strength" "more than 2e+07 and at most 4e+07" -s materials.0.biaxial_strength=41MPa
+other "radius alone" "is expected with it" -s materials.0.strength_radius=1mm
+bad "no tensile strength" "tensile_strength is expected with it" -s materials.0.tensile_strength=
+bad "ospd" "is of model bond so far" -s model=ospd
+bad "static" "is of explicit steps" -s solver=cg
+refused "line" "$work/no" "which a line does not have" inputs/hopkinson_bar.yaml -s 'material.tensile_strength=100' -s 'material.compressive_strength=900'
+finish
