@@ -11,6 +11,7 @@
 #include "data/mesh.h"
 #include "data/particles.h"
 #include "data/transfer_order.h"
+#include "data/turning.h"
 
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
@@ -254,6 +255,15 @@ KERNEL_TABLE(rotating_remap_gather_fn, turn_gather_table, [SHAPES]);
 KERNEL_TABLE(rotating_remap_scatter_fn, turn_scatter_table, [SHAPES]);
 KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_to_nodes_fn, spread_table, [SHAPES]);
+
+/* Computes mass, centre, inertia and angular velocity (spin) of each group from its points on the grid, before a step,
+ * and stores in t->turn, for each point, the angular velocity of its group [1/s]. spacing: of the particles [m]. */
+KERNEL(void, rotation_groups_compute_spins, (struct rotation_groups *t, struct particles *p, real spacing));
+
+/* Gives each group the angular momentum that its points have not received from the grid (t->turn [kg m^2/s]), as a
+ * rotation about its centre of mass: adds it to the velocities of the points. Then stores in t->turn, for each point,
+ * the new angular velocity of its group [1/s]. Positions must be those of rotation_groups_compute_spins. */
+KERNEL(void, rotation_groups_restore_spins, (struct rotation_groups *t, struct particles *p));
 
 /* Stores in k the kernels for bodies of `dim` dimensions with the given peridynamic model, shape function of the grid
  * and transfer scheme (FLIP or APIC). The combination must exist in simd/variants.h. */

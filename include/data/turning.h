@@ -19,27 +19,38 @@
 
 enum { TURNING_EDGE = 6, TURNING_FEW = 12, TURNING_NEAR = 26 };
 
-/* One group of particles. */
+/* Particles of a group that are consecutive in memory: first .. first + n - 1, at most LANES. */
+struct turning_run {
+    int32_t first, n;
+};
+
+/* One group of particles. Sums are over its points on the grid. */
 struct turning_group {
     int64_t place[DIM_MAX];     /* position of the group [group edges] */
     int32_t body, points;       /* body; points on the grid now */
     int32_t off;                /* distance from the middle, summed over the axes [half edges] */
-    int64_t first, end;         /* its particles: member[first] .. member[end - 1] */
+    int64_t first, end;         /* its particles: run[first] .. run[end - 1] */
     int32_t near[TURNING_NEAR]; /* neighbours in its body, first along axes; -1: none */
     int32_t root;               /* the group that it has joined, itself if none */
     bool held;                  /* a support acts on points of its body, which then moves as in plain FLIP */
-    real mass, moment[DIM_MAX]; /* [kg], [kg m]; of a root: of all its groups, with moment replaced by the centre [m] */
-    real inertia[3][3];         /* about the centre [kg m^2] */
-    real sum[3];                /* lack of its points, then its angular momentum [kg m^2/s] */
-    real spin[3];               /* gain of spin, then its spin [1/s] */
+    real mass;                  /* [kg] */
+    real about[DIM_MAX];        /* position for its moments [m] */
+    real first_moment[DIM_MAX], second_moment[DIM_MAX][DIM_MAX]; /* of mass, about it [kg m], lower half [kg m^2] */
+    real momentum[DIM_MAX];                                      /* [kg m/s] */
+    real joined, moment[DIM_MAX]; /* of a root: mass and centre of mass of all its groups [kg] [m] */
+    real inertia[3][3];           /* about the centre of its root, lower half; of a root: of all its groups [kg m^2] */
+    real added;                   /* of a root: share of its inertia that keeps thin groups regular [kg m^2] */
+    real sum[3];                  /* angular momentum, then the lack of its points [kg m^2/s] */
+    real angular[3];              /* angular momentum about the centre of its root before the lack is added */
+    real gain[3], spin[3];        /* of a root: gain of spin by the lack of its points, spin [1/s] */
 };
 
 /* All groups. All arrays are owned. */
 struct rotation_groups {
     int32_t groups;              /* number of groups; 0: points do not rotate in groups */
     struct turning_group *group; /* ascending by body and position */
-    int32_t *member;             /* [n] particles, within a group by position */
-    real *turn[3]; /* [n] lack of a point [kg m^2/s], then the spin of its group [1/s]; 2D: only turn[2] */
+    struct turning_run *run;     /* all particles, within a group by position */
+    real *turn[3]; /* [n + LANES] lack of a point [kg m^2/s], then the spin of its group [1/s]; 2D: only turn[2] */
 };
 
 /* Divides all particles into groups of about 6 by 6 (by 6) neighbours of the reference configuration, which later
@@ -52,14 +63,5 @@ void rotation_groups_make(struct rotation_groups *t, const struct particles *p, 
 
 /* Releases all arrays. */
 void rotation_groups_free(struct rotation_groups *t);
-
-/* Computes mass, centre, inertia and angular velocity (spin) of each group from its points on the grid, before a step,
- * and stores in t->turn, for each point, the angular velocity of its group [1/s]. spacing: of the particles [m]. */
-void rotation_groups_compute_spins(struct rotation_groups *t, struct particles *p, real spacing);
-
-/* Gives each group the angular momentum that its points have not received from the grid (t->turn [kg m^2/s]), as a
- * rotation about its centre of mass: adds it to the velocities of the points. Then stores in t->turn, for each point,
- * the new angular velocity of its group [1/s]. Positions must be those of rotation_groups_compute_spins. */
-void rotation_groups_restore_spins(struct rotation_groups *t, struct particles *p);
 
 #endif

@@ -146,6 +146,17 @@ static ALWAYS_INLINE lanes lanes_zero_unless_selected(uint8_t bits, lanes a)
 #endif
 }
 
+/* Stores the entries of a whose bit is set from address `to` on, which need not be aligned. */
+static ALWAYS_INLINE void lanes_store_selected(uint8_t bits, real *to, lanes a)
+{
+#ifdef __AVX512F__
+    _mm512_mask_storeu_pd(to, bits, (__m512d)a);
+#else
+    for (int l = 0; l < LANES; l++)
+        if (bits >> l & 1) to[l] = a[l];
+#endif
+}
+
 /* Returns in each lane l: the larger of a and b if bit l is set in `bits`, else a. */
 static ALWAYS_INLINE lanes lanes_max_selected(uint8_t bits, lanes a, lanes b)
 {

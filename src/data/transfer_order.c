@@ -85,6 +85,9 @@ void transfer_order_reserve(struct transfer_order *o, int64_t n, int64_t blocks,
 
 /* ---- sorting ----------------------------------------------------------------------------------------------------- */
 
+/* Bits of the number of a cell in its block. */
+enum { INSIDE_BITS = 16 };
+
 /* Working memory of a counting sort by the ranks of blocks, each thread on its chunk of the list, then by cell inside
  * each block. Points of a cell keep the order of the list, so the result does not depend on the number of chunks. */
 struct sorting {
@@ -94,6 +97,7 @@ struct sorting {
     const int32_t *list;
     int64_t n;
     int chunks;
+    int64_t *place[DIM_MAX];   /* [g->count] by direction: share of a cell in block << INSIDE_BITS | cell in block */
     int32_t *rank;             /* [blocks] */
     int32_t *fill;             /* [chunks][blocks] number of points; then index of the next point */
     int32_t *key, *bucket;     /* [n] rank of a point's block; points sorted by rank */
@@ -103,20 +107,32 @@ struct sorting {
 /* Returns the index of the first entry of a chunk of the list, one of s->chunks equal parts. */
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
 
-/* Returns the rank of the block (a box of cells) that contains point i. *inside: receives the index of its cell in the
- * block. dim: dimensions, a constant. */
-static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint16_t *inside, const int dim)
+/* Stores in s->place the share of each cell of the box in the numbers of block and cell: they are sums over the
+ * directions. */
+static void cell_shares_find(struct sorting *s)
 {
-    int64_t block = 0, cell = 0;
-#pragma GCC unroll 3
-    for (int d = dim - 1; d >= 0; d--) {
-        const int64_t place = grid_cell_index_at(s->g, d, s->p->x[d][i]),
-                      b = block_of(place, transfer_block_edge_length(d));
-        block = block * s->shape.blocks[d] + (b - s->shape.first[d]);
-        cell = cell * transfer_block_edge_length(d) + (place - b * transfer_block_edge_length(d));
+    int64_t blocks = 1, cells = 1;
+    for (int d = 0; d < s->shape.dim; d++) {
+        const int64_t edge = transfer_block_edge_length(d), first = s->g->first[d];
+        s->place[d] = BARE("transfer.place", s->g->count[d], int64_t);
+        for (int64_t k = 0; k < s->g->count[d]; k++) {
+            const int64_t b = block_of(first + k, edge);
+            s->place[d][k] = (b - s->shape.first[d]) * blocks << INSIDE_BITS | (first + k - b * edge) * cells;
+        }
+        blocks *= s->shape.blocks[d], cells *= edge;
     }
-    *inside = (uint16_t)cell;
-    return s->rank[block];
+}
+
+/* Returns the rank of the block (a box of cells) that contains point i. *inside: receives the index of its cell in the
+ * block. g: the grid, in registers; dim: dimensions, a constant. */
+static ALWAYS_INLINE int32_t find_block(const struct sorting *s, const struct grid *g, int32_t i, uint16_t *inside,
+                                        const int dim)
+{
+    int64_t place = 0;
+#pragma GCC unroll 3
+    for (int d = 0; d < dim; d++) place += s->place[d][grid_cell_index_at(g, d, s->p->x[d][i]) - g->first[d]];
+    *inside = (uint16_t)place;
+    return s->rank[place >> INSIDE_BITS];
 }
 
 /* Finds blocks (s->key) and cells (s->inside) of the points of a chunk of the list (the part of one thread), and counts
@@ -127,8 +143,9 @@ static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const 
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
     array_fill_bytes(count, 0, s->shape.n, sizeof *count);
     int64_t from = chunk_start(s, chunk);
+    const struct grid grid = *s->g;
     for (int64_t k = from; k < chunk_start(s, chunk + 1); k++) {
-        const int32_t own = s->key[k] = find_block(s, s->list[k], &s->inside[k], dim);
+        const int32_t own = s->key[k] = find_block(s, &grid, s->list[k], &s->inside[k], dim);
         if (own == key) continue;
         count[key] += (int32_t)(k - from);
         key = own, from = k;
@@ -232,6 +249,7 @@ static void sorting_make(struct sorting *s)
     s->fill = BARE("transfer.fill", s->chunks * s->shape.n, int32_t);
     s->key = BARE("transfer.key", s->n, int32_t), s->bucket = BARE("transfer.bucket", s->n, int32_t);
     s->inside = BARE("transfer.inside", s->n, uint16_t), s->sorted = BARE("transfer.sorted", s->n, uint16_t);
+    cell_shares_find(s);
 }
 
 static void sorting_free(struct sorting *s)
@@ -239,6 +257,7 @@ static void sorting_free(struct sorting *s)
     memory_free(s->rank), memory_free(s->fill);
     memory_free(s->key), memory_free(s->bucket);
     memory_free(s->inside), memory_free(s->sorted);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(s->place[d]);
 }
 
 void transfer_order_sort(struct transfer_order *o, const struct particles *p, const int32_t *list, int64_t n,

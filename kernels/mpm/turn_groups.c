@@ -1,0 +1,327 @@
+/* Sums over the points of rotating groups (data/turning.h), and the spins of the groups. A group is added up by one
+ * thread in the order of its runs of points, eight lanes apart, and groups in their order, so that bits do not depend
+ * on the number of threads. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "kernels/kernels.h"
+#include "kernels/simd/lanes.h"
+
+/* Smallest radius of inertia of a group [spacings], for single points and, in 3D, lines; empirical. */
+#define LEAST_ARM 0.05
+/* Loop over the components c of spins: in 2D z alone. */
+#define FOR_SPINS(c, dim) for (int c = (dim) == 2 ? 2 : 0; c < 3; c++)
+/* Loop over the runs of points of group g. */
+#define FOR_RUNS(t, g, run)                                                                                            \
+    for (const struct turning_run *run = (t)->run + (g)->first; run < (t)->run + (g)->end; run++)
+
+/* ---- points of a group ------------------------------------------------------------------------------------------- */
+
+/* Returns a bit for each point of a run that is on the grid: that is neither peridynamic nor a point of the mesh. all:
+ * all particles are on the grid. */
+static ALWAYS_INLINE uint8_t run_on_grid(const struct particles *p, const struct turning_run *run, bool all)
+{
+    uint8_t bits = (uint8_t)((1u << run->n) - 1);
+    for (int l = 0; l < LANES && !all; l++)
+        if (p->kind[run->first + l] != KIND_MPM || p->flag[run->first + l] & FLAG_MESHED) bits &= (uint8_t) ~(1u << l);
+    return bits;
+}
+
+/* Returns the sum of the eight entries of a. */
+static ALWAYS_INLINE real run_total(lanes a)
+{
+    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+}
+
+/* Adds the angular momenta m r x v of eight points to `sum`. moment: m r [kg m]. */
+static ALWAYS_INLINE void spin_add(const lanes *moment, const lanes *v, lanes *sum, const int dim)
+{
+    FOR_SPINS(c, dim)
+    sum[c] += moment[(c + 1) % 3] * v[(c + 2) % 3] - moment[(c + 2) % 3] * v[(c + 1) % 3];
+}
+
+/* Sums mass, moments and momenta of the points of group g about the position of one of its particles, g->about. */
+static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct turning_group *g,
+                                      const struct particles *p, const int dim)
+{
+    const lanes none = lanes_broadcast(0);
+    const int64_t start = t->run[g->first].first;
+    const bool all = p->n_free == p->n;
+    lanes mass = none, first[DIM_MAX] = {none, none, none}, spin[3] = {none, none, none};
+    lanes second[DIM_MAX][DIM_MAX], momentum[DIM_MAX] = {none, none, none};
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b <= a; b++) second[a][b] = none;
+    g->points = 0;
+    FOR_RUNS(t, g, run)
+    {
+        const uint8_t bits = run_on_grid(p, run, all);
+        const lanes m = lanes_zero_unless_selected(bits, lanes_load(p->mass + run->first));
+        lanes r[DIM_MAX], v[DIM_MAX], moment[DIM_MAX];
+        g->points += __builtin_popcount(bits);
+        mass += m;
+        for (int d = 0; d < dim; d++) {
+            r[d] = lanes_load(p->x[d] + run->first) - p->x[d][start], v[d] = lanes_load(p->v[d] + run->first);
+            moment[d] = m * r[d], first[d] += moment[d], momentum[d] += m * v[d];
+        }
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b <= a; b++) second[a][b] += moment[a] * r[b];
+        spin_add(moment, v, spin, dim);
+    }
+    g->mass = run_total(mass);
+    for (int d = 0; d < dim; d++) {
+        g->about[d] = p->x[d][start], g->first_moment[d] = run_total(first[d]), g->momentum[d] = run_total(momentum[d]);
+        for (int b = 0; b <= d; b++) g->second_moment[d][b] = run_total(second[d][b]);
+    }
+    FOR_SPINS(c, dim) g->sum[c] = run_total(spin[c]);
+}
+
+/* Sums the angular momentum that the points of group g have lost in the transfer to nodes and back (t->turn) in
+ * g->sum, and their angular momentum about the centre of mass of its root, the group that it has joined, in
+ * g->angular. */
+static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
+                                   const int dim)
+{
+    const lanes none = lanes_broadcast(0);
+    const real *centre = t->group[g->root].moment;
+    const bool all = p->n_free == p->n;
+    lanes lack[3] = {none, none, none}, spin[3] = {none, none, none};
+    FOR_RUNS(t, g, run)
+    {
+        const uint8_t bits = run_on_grid(p, run, all);
+        const lanes m = lanes_zero_unless_selected(bits, lanes_load(p->mass + run->first));
+        lanes v[DIM_MAX], moment[DIM_MAX];
+        for (int d = 0; d < dim; d++) {
+            moment[d] = m * (lanes_load(p->x[d] + run->first) - centre[d]);
+            v[d] = lanes_load(p->v[d] + run->first);
+        }
+        spin_add(moment, v, spin, dim);
+        FOR_SPINS(c, dim) lack[c] += lanes_zero_unless_selected(bits, lanes_load(t->turn[c] + run->first));
+    }
+    FOR_SPINS(c, dim) g->sum[c] = run_total(lack[c]), g->angular[c] = run_total(spin[c]);
+}
+
+/* Stores the spin of the root of group g, the group that it has joined, in t->turn for all points of group g. */
+static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
+                                      const struct particles *p, const int dim)
+{
+    const real *spin = t->group[g->root].spin;
+    const bool all = p->n_free == p->n;
+    FOR_RUNS(t, g, run)
+    {
+        const uint8_t bits = run_on_grid(p, run, all);
+        FOR_SPINS(c, dim) lanes_store_selected(bits, t->turn[c] + run->first, lanes_broadcast(spin[c]));
+    }
+}
+
+/* Adds the rotation by the gain of spin of the root of group g, the group that it has joined, to the velocities of the
+ * points of group g, and stores its spin in t->turn for them. */
+static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
+                                     const int dim)
+{
+    const struct turning_group *root = &t->group[g->root];
+    const bool all = p->n_free == p->n;
+    FOR_RUNS(t, g, run)
+    {
+        const uint8_t bits = run_on_grid(p, run, all);
+        lanes r[DIM_MAX] = {lanes_broadcast(0), lanes_broadcast(0), lanes_broadcast(0)};
+        for (int d = 0; d < dim; d++) r[d] = lanes_load(p->x[d] + run->first) - root->moment[d];
+        for (int d = 0; d < dim; d++) {
+            const int a = (d + 1) % 3, b = (d + 2) % 3;
+            real *v = p->v[d] + run->first;
+            lanes_store_selected(bits, v, lanes_load(v) + (root->gain[a] * r[b] - root->gain[b] * r[a]));
+        }
+        FOR_SPINS(c, dim) lanes_store_selected(bits, t->turn[c] + run->first, lanes_broadcast(root->spin[c]));
+    }
+}
+
+/* ---- groups ------------------------------------------------------------------------------------------------------ */
+
+/* Returns the root of group g: the last one in the chain of groups that it has joined, g itself if it has joined
+ * none. */
+static int32_t group_root(const struct rotation_groups *t, int32_t g)
+{
+    while (t->group[g].root != g) g = t->group[g].root;
+    return g;
+}
+
+/* Returns the number of axes along which neighbour k of a group is displaced. */
+static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
+
+/* Joins each group of fewer than TURNING_FEW points to the neighbour with the most points. Among neighbours with
+ * equally many, those displaced along fewer axes come first, then those nearer to the middle of the body. */
+static void few_join(struct rotation_groups *t)
+{
+    for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
+    for (int32_t g = 0; g < t->groups; g++) {
+        const struct turning_group *own = &t->group[g];
+        int32_t most = -1, best = 0, off = 0, axes = 0;
+        if (own->points == 0 || own->points >= TURNING_FEW) continue;
+        for (int k = 0; k < TURNING_NEAR; k++) {
+            const struct turning_group *near = own->near[k] < 0 ? NULL : &t->group[own->near[k]];
+            if (!near || near->points == 0 || group_root(t, own->near[k]) == g) continue;
+            const bool nearer = near->points == best && axes_of_near(k) == axes && near->off < off;
+            if (near->points > best || nearer)
+                most = own->near[k], best = near->points, off = near->off, axes = axes_of_near(k);
+        }
+        if (most >= 0) t->group[group_root(t, g)].root = group_root(t, most);
+    }
+    for (int32_t g = 0; g < t->groups; g++) t->group[g].root = group_root(t, g);
+}
+
+/* Returns the determinant of a symmetric tensor given by its lower half. */
+static real inertia_determinant(const real J[3][3])
+{
+    const real d = J[1][0], e = J[2][0], f = J[2][1];
+    return J[0][0] * (J[1][1] * J[2][2] - f * f) + d * (e * f - d * J[2][2]) + e * (d * f - J[1][1] * e);
+}
+
+/* Solves J w = sum for a symmetric tensor J given by its lower half. */
+static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
+{
+    if (dim == 2) {
+        w[0] = w[1] = 0, w[2] = sum[2] / J[2][2];
+        return;
+    }
+    const real a = J[0][0], b = J[1][1], c = J[2][2], d = J[1][0], e = J[2][0], f = J[2][1];
+    const real all = inertia_determinant(J), A = b * c - f * f, B = e * f - d * c, C = d * f - b * e, D = d * e - a * f;
+    w[0] = (A * sum[0] + B * sum[1] + C * sum[2]) / all;
+    w[1] = (B * sum[0] + (a * c - e * e) * sum[1] + D * sum[2]) / all;
+    w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
+}
+
+/* Adds g->sum of all groups to those of their roots, the groups that they have joined. */
+static void sums_join(struct rotation_groups *t)
+{
+    for (int32_t g = 0; g < t->groups; g++) {
+        const struct turning_group *own = &t->group[g];
+        for (int c = 0; c < 3 && own->root != g; c++) t->group[own->root].sum[c] += own->sum[c];
+    }
+}
+
+/* Returns true if the points of group g turn with its own spin: it is a root with mass, and no support constrains
+ * it. */
+static bool group_turns(const struct rotation_groups *t, int32_t g)
+{
+    return t->group[g].root == g && t->group[g].joined > 0 && !t->group[g].held;
+}
+
+/* Computes the spin of each root from the angular momentum of its groups, g->sum. It is 0 without mass and in bodies
+ * that a support constrains. */
+static void spins_find(struct rotation_groups *t, int dim)
+{
+    sums_join(t);
+    for (int32_t g = 0; g < t->groups; g++) {
+        struct turning_group *own = &t->group[g];
+        memset(own->spin, 0, sizeof own->spin);
+        if (group_turns(t, g)) spin_solve(own->inertia, own->sum, dim, own->spin);
+    }
+}
+
+/* Computes the gain of spin of each root from the angular momentum that its points lack, g->sum, and its spin after
+ * they have received it: their angular momentum is then g->angular plus the gain of spin times their inertia, which is
+ * g->inertia but for what inertias_find has added to that of thin groups. */
+static void gains_find(struct rotation_groups *t, int dim)
+{
+    spins_find(t, dim);
+    for (int32_t g = 0; g < t->groups; g++) {
+        struct turning_group *own = &t->group[g];
+        memcpy(own->gain, own->spin, sizeof own->gain);
+        for (int c = 0; c < 3; c++) own->sum[c] = own->angular[c];
+    }
+    sums_join(t);
+    for (int32_t g = 0; g < t->groups; g++) {
+        struct turning_group *own = &t->group[g];
+        if (!group_turns(t, g)) continue;
+        for (int c = 0; c < 3; c++) own->sum[c] -= own->added * own->gain[c];
+        spin_solve(own->inertia, own->sum, dim, own->spin);
+        for (int c = 0; c < 3; c++) own->spin[c] += own->gain[c];
+    }
+}
+
+/* Adds mass and first moment of all groups to those of their roots, the groups that they have joined, and divides the
+ * first moments by the masses: `moment` is then the centre of mass. */
+static void centres_find(struct rotation_groups *t)
+{
+    for (int32_t g = 0; g < t->groups; g++) {
+        struct turning_group *own = &t->group[g];
+        own->joined = own->mass;
+        for (int d = 0; d < DIM_MAX; d++) own->moment[d] = own->mass * own->about[d] + own->first_moment[d];
+    }
+    for (int32_t g = 0; g < t->groups; g++) {
+        const struct turning_group *own = &t->group[g];
+        struct turning_group *root = &t->group[own->root];
+        if (own == root) continue;
+        root->joined += own->mass;
+        for (int d = 0; d < DIM_MAX; d++) root->moment[d] += own->mass * own->about[d] + own->first_moment[d];
+    }
+    for (int32_t g = 0; g < t->groups; g++)
+        for (int d = 0; d < DIM_MAX && t->group[g].joined > 0; d++) t->group[g].moment[d] /= t->group[g].joined;
+}
+
+/* Moves angular momentum g->sum and second moments of all groups from g->about to the centres of mass of their roots,
+ * the groups that they have joined, and computes their inertia there. */
+static void moments_shift(struct rotation_groups *t)
+{
+    for (int32_t k = 0; k < t->groups; k++) {
+        struct turning_group *g = &t->group[k];
+        real arm[DIM_MAX], S[DIM_MAX][DIM_MAX];
+        for (int d = 0; d < DIM_MAX; d++) arm[d] = g->about[d] - t->group[g->root].moment[d];
+        for (int c = 0; c < 3; c++) {
+            const int a = (c + 1) % 3, b = (c + 2) % 3;
+            g->sum[c] += arm[a] * g->momentum[b] - arm[b] * g->momentum[a];
+        }
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b <= a; b++)
+                S[a][b] = g->second_moment[a][b] + arm[a] * g->first_moment[b] + g->first_moment[a] * arm[b] +
+                          g->mass * arm[a] * arm[b];
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b <= a; b++) g->inertia[a][b] = (a == b ? S[0][0] + S[1][1] + S[2][2] : 0) - S[a][b];
+    }
+}
+
+/* Adds the inertia of all groups to that of their roots, the groups that they have joined. If the sum nearly vanishes
+ * about some axis, it is increased by the inertia of its mass at a radius of LEAST_ARM spacings. */
+static void inertias_find(struct rotation_groups *t, real spacing, int dim)
+{
+    for (int32_t g = 0; g < t->groups; g++) {
+        const struct turning_group *own = &t->group[g];
+        for (int a = 0; a < 3 && own->root != g; a++)
+            for (int b = 0; b <= a; b++) t->group[own->root].inertia[a][b] += own->inertia[a][b];
+    }
+    for (int32_t g = 0; g < t->groups; g++) {
+        real(*J)[3] = t->group[g].inertia;
+        const real least = t->group[g].joined * square(LEAST_ARM * spacing), half = (J[0][0] + J[1][1] + J[2][2]) / 2;
+        const bool thin = dim == 2 ? J[2][2] < least : inertia_determinant(J) < least * square(half);
+        t->group[g].added = thin ? least : 0;
+        for (int a = 0; a < 3; a++) J[a][a] += t->group[g].added;
+    }
+}
+
+/* Calls SUM for each group, with the number of dimensions as a constant. */
+#define EACH_GROUP_OF(SUM, t, p, dim)                                                                                  \
+    TEAM_LOOP((t)->groups > 16, for (int32_t g = 0; g < (t)->groups; g++) SUM(t, &(t)->group[g], p, dim);)
+#define EACH_GROUP(SUM, t, p)                                                                                          \
+    do {                                                                                                               \
+        if ((p)->dim == 2)                                                                                             \
+            EACH_GROUP_OF(SUM, t, p, 2);                                                                               \
+        else                                                                                                           \
+            EACH_GROUP_OF(SUM, t, p, 3);                                                                               \
+    } while (0)
+
+void rotation_groups_compute_spins(struct rotation_groups *t, struct particles *p, real spacing)
+{
+    EACH_GROUP(sum_moments, t, p);
+    few_join(t);
+    centres_find(t);
+    moments_shift(t);
+    inertias_find(t, spacing, p->dim);
+    spins_find(t, p->dim);
+    EACH_GROUP(spins_store, t, p);
+}
+
+void rotation_groups_restore_spins(struct rotation_groups *t, struct particles *p)
+{
+    EACH_GROUP(sum_lack, t, p);
+    gains_find(t, p->dim);
+    EACH_GROUP(spin_apply, t, p);
+}
