@@ -128,6 +128,14 @@ KERNEL(int64_t, bond_forces,
  * to the fracture energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
+/* Starts the softening of all bonds that are stretched beyond their onset at the present positions, as
+ * bonds_begin_to_soften does, without a preceding sweep. For load steps. */
+KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
+
+/* Breaks the bonds whose largest stretch has reached the end of their softening: all they have dissipated becomes
+ * fracture energy of their rows. For load steps, between two equilibria. Returns the number of directed bonds. */
+KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
+
 /* Updates the largest stretches of all bonds that soften to the present positions, as a force computation does. Call it
  * before energies are read without a force computation. */
 KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p));

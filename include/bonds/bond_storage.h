@@ -60,14 +60,17 @@ enum softening_due {
 struct softened {
     const struct softening_curve *curve; /* NULL: no bond softens */
     float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of a bond [1] */
-    uint8_t *begun;                      /* [row blocks] 1: the arrays are valid */
-    uint8_t *due;                        /* [row blocks] enum softening_due */
-    bool any_due;                        /* an entry of `due` is not DUE_NOT */
-    bool at_points;                      /* bonds of material points have begun since this was cleared */
-    uint8_t *needed;                     /* [row blocks 8] working memory: the dilatation of the row is needed */
-    real *dilatation;                    /* [row blocks 8] working memory: trace of the strain of the family [1] */
-    const struct image *image;           /* [images] borrowed */
-    real least_ratio;                    /* no bond ends below the trigger of its row times this [1] */
+    /* [columns 8] load steps: k of the last equilibrium, 0 for a bond that had not begun [1]. NULL: explicit steps.
+     * With it, forces are those of the stored k, whatever the stretch: bonds are springs of their secant stiffness */
+    float *settled;
+    uint8_t *begun;            /* [row blocks] 1: the arrays are valid */
+    uint8_t *due;              /* [row blocks] enum softening_due */
+    bool any_due;              /* an entry of `due` is not DUE_NOT */
+    bool at_points;            /* bonds of material points have begun since this was cleared */
+    uint8_t *needed;           /* [row blocks 8] working memory: the dilatation of the row is needed */
+    real *dilatation;          /* [row blocks 8] working memory: trace of the strain of the family [1] */
+    const struct image *image; /* [images] borrowed */
+    real least_ratio;          /* no bond ends below the trigger of its row times this [1] */
     uint8_t *near; /* [row blocks] 1: a bond has been beyond `gate` since the last look at the strength surface
                       (bonds_strength.c); NULL: no material has one */
     real gate;     /* stretch from which on the strength surface may be near [1] */
@@ -274,7 +277,8 @@ static inline bool bond_softens(const struct bonds *b, int64_t row_block, int64_
 static inline real bond_kept_share(const struct bonds *b, int64_t row_block, int64_t q, real stretch)
 {
     if (stretch <= 0 || !bond_softens(b, row_block, q)) return 1;
-    return softening_kept(b->soft.curve, b->soft.onset[q], b->soft.end[q], real_max(b->soft.most[q], stretch));
+    const real most = b->soft.settled ? b->soft.most[q] : real_max(b->soft.most[q], stretch);
+    return softening_kept(b->soft.curve, b->soft.onset[q], b->soft.end[q], most);
 }
 
 /* Returns half the energy that the softening of the bond with index q, in row block `row_block`, has dissipated so far

@@ -44,7 +44,8 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
     c->i = i, c->j = bond->nbr;
     c->stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
     c->range = bond_range_of(p, limit, i, bond->nbr);
-    return c->stretch > c->range.onset && c->stretch <= c->range.end && c->range.onset < c->range.end;
+    return c->stretch > c->range.onset && c->range.onset < c->range.end &&
+           (c->stretch <= c->range.end || b->soft.settled);
 }
 
 /* Returns the row whose dilatation stands for that of particle or image j: its own, or that of the source of the image;
@@ -139,15 +140,15 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
 }
 
 /* Starts the softening of the bond with index q of a row, the candidate *c. The bond loses some energy at once, which
- * the closed form of its dissipation does not count: adds half of it to the fracture energy of the row. dt: time step
- * [s]. */
+ * the closed form of its dissipation does not count: adds half of it to the fracture energy of the row, except in load
+ * steps. dt: time step [s]. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
 {
     const struct softening_range range = {(float)c->range.onset, (float)c->range.end};
     const real stretch = bond_stretch_earlier(p, b->inverse_length[q], c->i, c->j, 0.5 * dt);
     bond_softness_put(&b->soft, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end});
-    if (!(stretch > range.onset)) return;
+    if (!(stretch > range.onset) || b->soft.settled) return;
     const real kept = bond_kept_share(b, row / LANES, q, stretch);
     const real lost = 0.5 * square(stretch) * (1 - kept) -
                       softening_spent(b->soft.curve, range.onset, range.end, real_min(stretch, range.end));

@@ -77,6 +77,19 @@ static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64
     bond_end(b, p, row, q, b->particle[row], b->nbr[q]);
 }
 
+int64_t bonds_end_softened(struct bonds *b, struct particles *p)
+{
+    int64_t ended = 0;
+    for (int64_t row = 0; row < b->rows; row++)
+        for (int64_t k = 0; row_block_softens(b, row / LANES) && k < b->column_count[row / LANES]; k++) {
+            const int64_t q = (b->column[row / LANES] + k) * LANES + row % LANES;
+            if (b->w[q] == 0 || !bond_softens(b, row / LANES, q) || b->soft.most[q] < b->soft.end[q]) continue;
+            bond_finish(b, p, row, q);
+            ended++;
+        }
+    return ended;
+}
+
 /* Breaks bond q of a row: replaces its force on the particle by that of the step in which it breaks (bond_last.h), adds
  * its elastic energy to the fracture energy and its plastic work to the plastic work of the row, and marks it as
  * broken. */

@@ -91,6 +91,7 @@ static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct partic
                           ? bond_force_row_block(b, p, g, dim, PD_BOND, &pressed)
                           : bond_force_row_block(b, p, g, dim, model, &pressed);
     if (__builtin_expect(pressed, 0)) row_block_add_core_forces(b, p, g);
+    if (model == PD_BOND_SOFT && b->soft.settled) return 0; /* bonds end between equilibria (bond_secant.c) */
     return past ? bond_break_row_block(b, p, limit, g) : 0;
 }
 

@@ -45,10 +45,11 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
 }
 
 /* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices q to q + 7
- * as their largest ones where they exceed these. */
+ * as their largest ones where they exceed these; in load steps the stored ones stay. */
 static ALWAYS_INLINE lanes bonds_soften(const struct bonds *b, int64_t q, lanes stretch)
 {
     const lanes before = lanes_load_floats(b->soft.most + q), most = lanes_max(before, stretch);
+    if (b->soft.settled) return bonds_softened_stretch(b, q, stretch, before);
     if (lanes_any(stretch > before)) lanes_store_floats(b->soft.most + q, most);
     return bonds_softened_stretch(b, q, stretch, most);
 }
@@ -70,8 +71,10 @@ static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, con
 static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, const struct bonds *b, int64_t q,
                                                  lanes stretch)
 {
-    if (model == PD_BOND_SOFT)
-        return bonds_softened_stretch(b, q, stretch, lanes_max(lanes_load_floats(b->soft.most + q), stretch));
+    if (model == PD_BOND_SOFT) {
+        const lanes most = lanes_load_floats(b->soft.most + q);
+        return bonds_softened_stretch(b, q, stretch, b->soft.settled ? most : lanes_max(most, stretch));
+    }
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + q) : stretch;
 }
 

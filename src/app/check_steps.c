@@ -79,6 +79,14 @@ void print_load_steps(const struct run *e)
         "%.3g of the load\n",
         s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
     if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
+    if (e->bonds.soft.curve) {
+        printf("cracks         grow where bonds soften; %s\n",
+               s->steps.control != CONTROL_ENERGY ? "a step whose loads the body cannot carry ends the run"
+               : s->steps.energy > 0              ? "in each load step they dissipate steps.energy"
+                                                  : "in each load step they dissipate the energy of a quarter spacing "
+                                                    "of crack");
+        return;
+    }
     if (is_sif_driven(e))
         printf("cracks         %d crack %s%s extended in the direction of the largest hoop stress around %s, 2 "
                "spacings in each increment%s\n",

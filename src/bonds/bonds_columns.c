@@ -115,6 +115,7 @@ static void columns_extend(struct bonds *b, int64_t room)
         b->soft.onset =
             memory_resize_uninitialised("bonds.onset", b->soft.onset, had * each, room * each, sizeof(float));
         b->soft.end = memory_resize_uninitialised("bonds.end", b->soft.end, had * each, room * each, sizeof(float));
+        INVARIANT(!b->soft.settled); /* rows of load steps with softening are made once */
     }
     b->room = room;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "balance.h"
+#include "account.h"
 #include "stretch_ratio.h"
 #include "unconstrained.h"
 #include "springs.h"
@@ -74,59 +75,7 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
     return 10 * sqrt(sum);
 }
 
-/* ---- accounts ---------------------------------------------------------------------------------------------------- */
-
-/* Displacements and forces at the start of a solution, from which the work over the solution is computed. */
-struct account {
-    struct field u, f;      /* [nodes] displacement [m], force [N] */
-    real *applied[DIM_MAX]; /* [particles of the body] applied forces [N] */
-};
-
-/* Copies the present displacements and forces into *a. account_end frees its arrays. */
-static void account_start(struct account *a, const struct statics *s, const struct particles *part)
-{
-    for (int d = 0; d < part->dim; d++) {
-        a->u.of[d] = BARE("statics.account", s->balance.n, real);
-        a->f.of[d] = BARE("statics.account", s->balance.n, real);
-        a->applied[d] = BARE("statics.account", part->n, real);
-        array_copy(a->u.of[d], s->balance.u.of[d], s->balance.n, sizeof(real));
-        array_copy(a->f.of[d], s->balance.f.of[d], s->balance.n, sizeof(real));
-        if (s->applied[d])
-            array_copy(a->applied[d], s->applied[d], part->n, sizeof(real));
-        else
-            array_fill_bytes(a->applied[d], 0, part->n, sizeof(real));
-    }
-}
-
-/* Adds the work of supports and of applied forces over a solution to the accounts in `loads`: the mean of initial and
- * final force times the displacement (trapezoidal rule). Without contact (`touched` false), the work of loads along the
- * curved path of the solver is added as well. before: initial positions [dim][particles] [m]. Frees the arrays of *a.
- * Returns an estimate of the error of the work [J]: its difference from the work with the initial or the final force
- * alone. */
-static real account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads,
-                        bool touched, real *const *before)
-{
-    real range[2] = {0};
-    if (!touched) loads->work += s->balance.bent;
-    for (int d = 0; d < p->dim; d++) {
-        for (int64_t k = 0; k < s->balance.n; k++) {
-            const real shift = s->balance.u.of[d][k] - a->u.of[d][k], now = s->balance.f.of[d][k],
-                       initial = a->f.of[d][k];
-            if (!(s->balance.held[k] >> d & 1)) continue;
-            loads->constraint_work -= 0.5 * (initial + now) * shift;
-            range[0] += 0.5 * (now - initial) * shift;
-        }
-        for (int64_t i = 0; i < p->n; i++) {
-            const real shift = p->x[d][i] - before[d][i], now = s->applied[d][i], initial = a->applied[d][i];
-            loads->work += 0.5 * (initial + now) * shift;
-            range[1] += 0.5 * (now - initial) * shift;
-        }
-        memory_free(a->u.of[d]);
-        memory_free(a->f.of[d]);
-        memory_free(a->applied[d]);
-    }
-    return fabs(range[0]) + fabs(range[1]);
-}
+/* ---- losses ------------------------------------------------------------------------------------------------------ */
 
 /* Corrects the energy that the solver has lost since its losses were `lost` [J]. If points yield or faces come into
  * contact, forces do not change linearly over the increment, and the work of loads is known up to +-`range` [J] only. A
@@ -159,6 +108,29 @@ static status equilibrium_failed(const struct statics *s, const struct particles
         p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
+/* Returns INTERRUPTED if the user has stopped the run. */
+static status check_stop(const struct run_report *report, const struct run_clock *clock)
+{
+    if (!report->stop || !*report->stop) return OK;
+    return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; continue with --resume",
+                      (long long)clock->step + 1, (long long)clock->steps);
+}
+
+status equilibrium_solve(struct run *e, real t, real *const *applied)
+{
+    struct statics *s = e->statics;
+    TRY(check_stop(e->report, &e->clock));
+    TRY(loads_check_finite(&e->loads, &e->part, t));
+    applied_forces_compute(s, &e->part, &e->loads, t);
+    if (s->fragments_stale) unconstrained_fragments_find(e);
+    increment_predict(s, &e->part, &e->frame->mesh, &e->loads, t, applied);
+    s->balance.applied = applied_forces_norm(s, &e->part, e->contact);
+    if (!s->precondition) s->balance.noise = round_off_force(&e->bonds, &e->part);
+    const status found = newton_solver_find_equilibrium(&s->balance, &s->increment, t != s->t);
+    s->t = t;
+    return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
+}
+
 /* Finds the equilibrium at pseudo-time t [s] in a single solution and updates all accounts of work and energy.
  * *crossed: set to true if faces have passed through each other, else to false. Returns FAILED, with a message, if
  * there is no equilibrium. */
@@ -166,38 +138,26 @@ static status solve_at(struct run *e, real t, bool *crossed)
 {
     struct statics *s = e->statics;
     struct account account;
-    real *before[DIM_MAX] = {0};
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
     TRY(loads_check_finite(&e->loads, &e->part, t));
     statics_contact_begin(e, t);
     account_start(&account, s, &e->part);
-    for (int d = 0; d < e->part.dim; d++) {
-        before[d] = BARE("statics.before", e->part.n, real);
-        array_copy(before[d], e->part.x[d], e->part.n, sizeof(real));
-    }
-    applied_forces_compute(s, &e->part, &e->loads, t);
-    if (s->fragments_stale) unconstrained_fragments_find(e);
-    increment_predict(s, &e->part, &e->frame->mesh, &e->loads, t, account.applied);
-    s->balance.applied = applied_forces_norm(s, &e->part, e->contact);
-    if (!s->precondition) s->balance.noise = round_off_force(&e->bonds, &e->part);
-    const status found = newton_solver_find_equilibrium(&s->balance, &s->increment, t != s->t);
+    const status found = equilibrium_solve(e, t, account.applied);
     plastic_state_update(e);
     frame_update_points(e->frame, &e->part, &e->loads);
     loads_update_images(&e->loads, &e->part);
-    s->t = t;
     const bool touched = statics_in_contact(s, e->contact);
     const real worked = e->loads.work + e->loads.constraint_work,
-               range = account_end(&account, s, &e->part, &e->loads, touched, before);
+               range = account_end(&account, s, &e->part, &e->loads, touched ? 0 : s->balance.bent);
     const real rigids = statics_contact_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
     *crossed = losses_store(&s->balance, &e->loads, lost, range + rigids, touched || s->in_contact,
                             e->part.plastic_correction[0] != NULL);
     e->damped += s->balance.lost - lost;
-    for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     reactions_store(s, &e->part, &e->loads);
     s->solutions++;
     statics_precondition_check_cost(s, s->balance.directions - asked);
-    return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
+    return found;
 }
 
 /* Finds the equilibria of `substeps` equal increments up to pseudo-time t [s], and stops when faces have passed through
@@ -241,9 +201,7 @@ static status solve_whole(struct run *e, real t)
  * the solution, if the user has stopped the run, so that the checkpoint of the previous load step stays valid. */
 status equilibrium_find_at_time(struct run *e, real t)
 {
-    if (e->report->stop && *e->report->stop)
-        return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; continue with --resume",
-                          (long long)e->clock.step + 1, (long long)e->clock.steps);
+    TRY(check_stop(e->report, &e->clock));
     TRY(solve_whole(e, t));
     e->statics->stretch_ratio = largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
     return OK;

@@ -6,6 +6,7 @@
  * nothing else moves. The energy that a solution with contact loses is therefore the work of the loads minus the
  * change of all energies, not the work of the forces along the path. */
 #include <math.h>
+#include <stdio.h>
 
 #include "contact_set.h"
 #include "unconstrained.h"
@@ -141,4 +142,22 @@ real statics_contact_end(struct run *e, real work, real lost)
     if (statics_in_contact(s, e->contact)) q->lost = lost + work - (energy_present(e) - s->energy);
     s->in_contact = e->contact->touching > 0;
     return range;
+}
+
+void rigid_forces_note(struct rigid_set *rigid, int n)
+{
+    for (int k = 0; k < n; k++) rigid_update_largest_force(&rigid->body[k]);
+}
+
+void rigid_bodies_warn_missed(struct warnings *to, const struct rigid_set *rigid, int n, real least)
+{
+    for (int k = 0; k < n; k++) {
+        const struct rigid_body *r = &rigid->body[k];
+        char text[200];
+        snprintf(text, sizeof text,
+                 "no force acted on rigid body %.60s while it moved in a load step: check that it touches a body, and "
+                 "that this body is held",
+                 r->name);
+        if (r->motion == RIGID_DRIVEN && r->force_most <= least) warnings_add_and_print(to, text);
+    }
 }

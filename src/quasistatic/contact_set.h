@@ -43,4 +43,11 @@ void statics_contact_choose_laws(void *engine, bool settled);
  * forces. */
 real statics_contact_end(struct run *e, real work, real lost);
 
+/* Updates the largest contact forces of the n rigid bodies for the present equilibrium. */
+void rigid_forces_note(struct rigid_set *rigid, int n);
+
+/* Warns of those of the n rigid bodies that are driven and whose largest contact force is at most `least` [N]: they
+ * miss the body, or push a body that nothing constrains. */
+void rigid_bodies_warn_missed(struct warnings *to, const struct rigid_set *rigid, int n, real least);
+
 #endif

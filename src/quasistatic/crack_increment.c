@@ -211,7 +211,7 @@ int64_t crack_increment_break(struct run *e)
 status crack_increment_equilibrate(struct run *e, int64_t broken_bonds)
 {
     TRY(equilibrium_find_at_time(e, e->statics->t));
-    plastic_state_save(e);
+    plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
     return equilibrium_convert_points(e, broken_bonds);
 }
 

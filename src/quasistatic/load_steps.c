@@ -8,6 +8,7 @@
 #include "sif_cracks.h"
 #include "load_size.h"
 #include "unconstrained.h"
+#include "softening_step.h"
 #include "springs.h"
 #include "steps_record.h"
 #include "system.h"
@@ -19,7 +20,6 @@
 #include "mesh/mesh_part.h"
 #include "probes/diagnostics.h"
 #include "quasistatic/load_steps.h"
-#include "rigid/rigid_part.h"
 #include "run/say.h"
 #include "step/report.h"
 #include "step/sample.h"
@@ -48,7 +48,7 @@ static real increment_load(const struct statics *s, const struct diagnostics *di
 static void state_sample(struct run *e)
 {
     sample_update_probes(e);
-    for (int k = 0; k < e->scene->rigids; k++) rigid_update_largest_force(&e->rigid->body[k]);
+    rigid_forces_note(e->rigid, e->scene->rigids);
 }
 
 /* Finds the equilibrium at load size `size`, with the pseudo-time limited to least .. most [s]. Returns FAILED, with a
@@ -174,13 +174,13 @@ static status go_to_opening(struct run *e, real wanted, real t)
     return OK;
 }
 
-/* Returns true if the next crack increment is due before the opening reaches `wanted` [m], assuming that the opening
- * grows in proportion to the loads. */
-static bool increment_before_opening(const struct run *e, real wanted)
+/* Returns true if the next crack increment, due at the load size `due`, comes before the opening reaches `wanted` [m];
+ * assumes that the opening grows in proportion to the loads. size: present load size [m, N]. */
+static bool increment_before_opening(const struct particles *p, const struct statics *s, real size, real due,
+                                     real wanted)
 {
-    const struct statics *s = e->statics;
-    const real now = opening_now(&e->part, e->statics), size = statics_load_size(e, s->t);
-    return s->next.n > 0 && now > 0 && now / size * increment_load(e->statics, e->diagnostics) < wanted;
+    const real now = opening_now(p, s);
+    return s->next.n > 0 && now > 0 && now / size * due < wanted;
 }
 
 /* Increases the opening between the gauge particles by one load step, and makes all crack increments that are due until
@@ -191,10 +191,12 @@ static status step_by_opening(struct run *e)
     const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number,
                now = opening_now(&e->part, e->statics);
     const real first = e->statics->t + e->scene->duration / (real)s->number;
-    bool open = false;
     if (e->statics->next.n == 0) TRY(approach_loads(e, now > 0 ? e->statics->t * wanted / now : first));
-    while (!open || increment_before_opening(e, wanted)) {
-        open = !increment_before_opening(e, wanted);
+    for (bool open = false;;) {
+        const bool before = increment_before_opening(&e->part, e->statics, statics_load_size(e, e->statics->t),
+                                                     increment_load(e->statics, e->diagnostics), wanted);
+        if (open && !before) return OK;
+        open = !before;
         if (open) {
             TRY(go_to_opening(e, wanted,
                               opening_now(&e->part, e->statics) > 0
@@ -208,7 +210,6 @@ static status step_by_opening(struct run *e)
         }
         TRY(crack_increment_find(e));
     }
-    return OK;
 }
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
@@ -236,6 +237,7 @@ static status load_step(struct run *e)
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
     load_step_begin(e);
+    if (e->bonds.soft.curve) return softening_step(e, most * (real)(e->clock.step + 1));
     switch (s->steps.control) {
     case CONTROL_LOAD:
         return step_by_load(e, most * (real)(e->clock.step + 1));
@@ -326,21 +328,6 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
     if (most > FLOW_LARGE) warnings_add_and_print(to, text);
 }
 
-/* Warns of driven rigid bodies, among body[n], without contact force: they miss the body or push a body that nothing
- * constrains. largest: force norm of the solver [N]. */
-static void warn_missed_bodies(struct warnings *to, const struct rigid_body *body, int n, real largest)
-{
-    for (int k = 0; k < n; k++) {
-        const struct rigid_body *r = &body[k];
-        char text[200];
-        snprintf(text, sizeof text,
-                 "no force acted on rigid body %.60s while it moved in a load step: check that it touches a body, and "
-                 "that this body is held",
-                 r->name);
-        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * largest) warnings_add_and_print(to, text);
-    }
-}
-
 /* Adds the warnings about the final state of the run. */
 static void warn_at_end(struct run *e)
 {
@@ -348,7 +335,7 @@ static void warn_at_end(struct run *e)
     sif_leading_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
     warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
     warn_large_flow(&e->warnings, &e->part);
-    warn_missed_bodies(&e->warnings, e->rigid->body, e->scene->rigids, e->statics->balance.largest);
+    rigid_bodies_warn_missed(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
 /* Checks for fragments that nothing constrains although the loads on them are not balanced, and returns FAILED, with a
@@ -383,7 +370,7 @@ status engine_run_load_steps(struct run *e)
         timer_add_elapsed(&e->timers, TIMER_BONDS);
         TRY(solved);
         TRY(check_constrained(e, &apart));
-        plastic_state_save(e);
+        plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
         e->clock.step++;
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;

@@ -13,6 +13,8 @@
 #include "mesh/mesh_part.h"
 #include "solver/multigrid.h"
 
+#define TINY 1e-30 /* a stretch in tension below all others [1] */
+
 /* The matrix during assembly: a first pass counts the entries, a second one stores them. */
 struct springs {
     const struct run *e;
@@ -70,17 +72,18 @@ static struct movers movers_of_end(const struct springs *s, int64_t i, real sign
     return movers_list(s, image_source_particle(&s->e->part, s->e->loads.image, i));
 }
 
-/* Adds the stiffness of a bond of particle i, as a spring along its reference direction, to the rows of the unknowns
- * that determine the displacement of i. The row of the bond's other end adds the other half. */
+/* Adds the stiffness of a bond of particle i, as a spring along its reference direction, in tension, to the rows of the
+ * unknowns that determine the displacement of i. The row of the bond's other end adds the other half. */
 static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &s->e->part;
     real n[DIM_MAX] = {0}, K[DIM_MAX][DIM_MAX], sign[DIM_MAX];
     const struct movers own = movers_list(s, i), other = movers_of_end(s, bond->nbr, sign);
+    const real kept = bond_kept_share(&s->e->bonds, s->e->bonds.row_of[i] / LANES, bond->entry, TINY);
     for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
     for (int k = 0; k < own.n; k++) {
-        const real stiffness =
-            s->e->bonds.stiffness * bond->w * bond->inverse_length * own.share[k] * s->e->statics->weight[own.node[k]];
+        const real stiffness = s->e->bonds.stiffness * bond->w * kept * bond->inverse_length * own.share[k] *
+                               s->e->statics->weight[own.node[k]];
         for (int m = 0; m < own.n + other.n; m++) {
             const bool here = m < own.n;
             const real share = here ? own.share[m] : -other.share[m - own.n];

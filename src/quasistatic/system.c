@@ -22,21 +22,19 @@ status plastic_state_save_or_load(struct bonds *b, struct particles *p, int opti
     return particles_save_or_load(p, optional, a);
 }
 
-void plastic_state_save(struct run *e)
+void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional)
 {
-    struct memory_archive *m = &e->statics->plastic;
     memory_archive_free(m);
     memory_archive_make(m, ARCHIVE_TRIAL);
-    const status kept = plastic_state_save_or_load(&e->bonds, &e->part, e->optional, &m->archive);
+    const status kept = plastic_state_save_or_load(b, p, optional, &m->archive);
     INVARIANT(kept == OK);
 }
 
-void plastic_state_restore(struct run *e)
+void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional)
 {
-    struct memory_archive *m = &e->statics->plastic;
     if (m->n == 0) return;
     memory_archive_rewind(m);
-    const status restored = plastic_state_save_or_load(&e->bonds, &e->part, e->optional, &m->archive);
+    const status restored = plastic_state_save_or_load(b, p, optional, &m->archive);
     INVARIANT(restored == OK);
 }
 
@@ -71,7 +69,8 @@ static void forces_present(struct run *e)
     if (has_mesh) frame_update_exposed_points(e->frame, &e->part);
     loads_update_images(&e->loads, &e->part);
     loads_clear_forces(&e->loads, &e->part);
-    plastic_state_restore(e); /* that of the last equilibrium, whatever positions have been evaluated since */
+    plastic_state_restore(&e->statics->plastic, &e->bonds, &e->part,
+                          e->optional); /* that of the last equilibrium, whatever positions have been evaluated since */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(e->contact, &e->part, 0);
     applied_add(e->statics, &e->loads, &e->part);
@@ -131,7 +130,7 @@ void statics_unknowns_make(struct run *e)
     s->has_contact = e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0;
     unknowns_list(s, &e->part, &e->frame->mesh, &e->loads);
     unconstrained_fragments_find(e);
-    plastic_state_save(e);
+    plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
 }
 
 void statics_unknowns_free(struct statics *s)

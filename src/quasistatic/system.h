@@ -2,6 +2,7 @@
 #ifndef CLEAVE_SYSTEM
 #define CLEAVE_SYSTEM
 
+#include "base/memory_archive.h"
 #include "run/run.h"
 
 /* Makes the system of equations, one unknown displacement per present peridynamic particle and moving mesh node,
@@ -21,11 +22,12 @@ void plastic_state_update(struct run *e);
  * another size. */
 status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional, struct archive *a);
 
-/* Copies the plastic state of bonds and points to e->statics, as the state from which the next solutions start. */
-void plastic_state_save(struct run *e);
+/* Copies the plastic state of bonds and points to *m, whose former contents it frees: the state from which the next
+ * solutions start. optional: as in plastic_state_save_or_load. */
+void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional);
 
-/* Restores the plastic state of bonds and points that plastic_state_save copied last. Does nothing if there is no
+/* Restores the plastic state of bonds and points that plastic_state_save has copied to *m. Does nothing if there is no
  * copy. */
-void plastic_state_restore(struct run *e);
+void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional);
 
 #endif

@@ -24,7 +24,7 @@ static status trial_archive(struct run *e, struct archive *a)
 
 void trial_begin(struct run *e, struct memory_archive *m)
 {
-    plastic_state_save(e);
+    plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
     memory_archive_make(m, ARCHIVE_TRIAL);
     const status saved = trial_archive(e, &m->archive);
     INVARIANT(saved == OK);
@@ -37,7 +37,8 @@ void trial_undo(struct run *e, struct memory_archive *m, const struct break_list
     const status restored = trial_archive(e, &m->archive);
     INVARIANT(restored == OK);
     memory_archive_free(m);
-    plastic_state_save(e); /* a nested trial may have saved a different one */
+    plastic_state_save(&e->statics->plastic, &e->bonds, &e->part,
+                       e->optional); /* a nested trial may have saved a different one */
     unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     frame_update_points(e->frame, &e->part, &e->loads);
     loads_update_images(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */

@@ -192,21 +192,24 @@ void resolve_safety(struct reader *r, const struct yaml_node *root)
 }
 
 /* Sets the default of contact.between. There is contact if the scene has several bodies, rigid bodies or cracks, except
- * with static solvers. root: tree of the scene. Returns REFUSED for contact settings that contradict the solver or the
- * model. */
+ * with static solvers or where bonds soften in load steps. root: tree of the scene. Returns REFUSED for contact settings
+ * that contradict the solver or the model. */
 status resolve_contact(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *between = scene_check_below(root, "contact", "between");
     const struct yaml_node *friction = scene_check_below(root, "contact", "friction");
     const bool faces = s->bodies + s->rigids > 1 || (scene_can_crack(s) && s->method != METHOD_MPM);
-    const bool meet = !scene_is_single_equilibrium(s) && faces;
+    const bool meet = !scene_is_single_equilibrium(s) && !steps_soften(s) && faces;
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
                      "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");
     if (s->contact_between != CONTACT_NONE && scene_is_single_equilibrium(s))
         return fault(r, between, "a static equilibrium has no contact; solver: explicit is expected");
+    if (s->contact_between != CONTACT_NONE && steps_soften(s))
+        return fault(r, between,
+                     "load steps of bonds that soften have no contact; none, or solver: explicit, is expected");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
         return fault(r, friction, "there is no contact (contact.between: none), so there is no friction");
     return OK;

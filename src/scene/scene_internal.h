@@ -502,6 +502,9 @@ status check_solver(struct reader *r, const struct yaml_node *root);
 /* REFUSED for keys that load steps do not support (scene_steps.c). */
 status check_load_steps(struct reader *r, const struct yaml_node *root);
 
+/* Returns true if the scene has load steps and a material whose bonds soften (scene_steps.c). */
+bool steps_soften(const struct scene *s);
+
 /* REFUSED for keys of load steps with another solver, unless they all have their defaults (scene_steps.c). */
 status check_steps_given(struct reader *r, const struct yaml_node *root);
 

@@ -82,8 +82,9 @@ const struct key keys[] = {
         "number of load steps in the duration; with control energy or opening: the largest number of steps"),
     KEY("steps.control", KEY_CHOICE, UNIT_NONE, AT(scene, steps.control), ANY, "load",
         "quantity that controls a load step: load: pseudo-time; energy: pseudo-time grows until a bond reaches its "
-        "limit, and decreases where the body releases more than steps.energy, so that snap-back is followed; opening: "
-        "the distance between two points grows evenly, and pseudo-time follows from it",
+        "limit, and decreases where the body releases more than steps.energy, so that snap-back is followed; with "
+        "bonds that soften each step dissipates steps.energy; opening: the distance between two points grows evenly, "
+        "and pseudo-time follows from it",
         .words = "load|energy|opening"),
     KEY("steps.path", KEY_CHOICE, UNIT_NONE, AT(scene, steps.path), ANY, "auto",
         "criterion of the crack path: bonds: the bonds with the largest ratio of stretch to critical stretch break; "
@@ -93,7 +94,9 @@ const struct key keys[] = {
         .words = "auto|bonds|hoop"),
     KEY("steps.energy", KEY_REAL, UNIT_ENERGY, AT(scene, steps.energy), ABOVE(0), "auto",
         "energy of the bonds of one crack increment; auto: that of an increment of two spacings through the material "
-        "or interface that it cuts",
+        "or interface that it cuts; with bonds that soften: energy that a load step dissipates; auto: that of a "
+        "quarter "
+        "spacing of crack, in space times the shortest side of the body",
         .words = "auto", .word_value = 0),
     KEY("steps.from", KEY_POINT, UNIT_LENGTH, AT(scene, steps.from), ANY, "(required with control opening)",
         "first of the two points between which the opening is measured: the particle nearest to it",

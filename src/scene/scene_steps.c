@@ -1,4 +1,5 @@
 /* Checks the settings of load steps (solver static). */
+#include <math.h>
 #include <stdlib.h>
 
 #include "scene_internal.h"
@@ -49,6 +50,36 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
+bool steps_soften(const struct scene *s)
+{
+    bool softens = false;
+    for (int m = 0; m < s->materials; m++) softens |= material_softens(&s->material[m]);
+    return softens && scene_has_load_steps(s);
+}
+
+/* Returns REFUSED for settings that load steps do not support where bonds soften. */
+static status check_steps_softening(struct reader *r, const struct yaml_node *root)
+{
+    const struct scene *s = r->scene;
+    const struct yaml_node *solver = yaml_node_find(root, "solver");
+    if (!steps_soften(s)) return OK;
+    if (s->method != METHOD_PD) return fault(r, solver, "bonds soften in load steps of method: pd, which is expected");
+    if (s->rigids > 0)
+        return fault(r, solver,
+                     "bonds soften in load steps without rigid bodies; boundaries are expected in their place");
+    if (s->steps.control == CONTROL_OPENING || s->steps.then == THEN_EXPLICIT || s->steps.path == PATH_HOOP)
+        return fault(r, yaml_node_find(root, "steps"),
+                     "bonds that soften choose their path; control: energy or load, then: equilibrium, and path: bonds "
+                     "or auto are expected");
+    for (int m = 0; m < s->materials; m++)
+        if (isfinite(s->material[m].critical_stretch) && !material_softens(&s->material[m]))
+            return fault(r, solver,
+                         "material %s breaks without softening, which load steps do not mix; a tensile_strength of all "
+                         "materials that break, or of none, is expected",
+                         s->material[m].name);
+    return OK;
+}
+
 /* Returns REFUSED if no boundary, gravity or rigid body of the scene loads or displaces the body. root: tree of the
  * scene. */
 static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
@@ -76,6 +107,7 @@ status check_load_steps(struct reader *r, const struct yaml_node *root)
     const bool opening = s->steps.control == CONTROL_OPENING;
     TRY(check_steps_motion(r, root));
     TRY(check_steps_loads(r, root));
+    TRY(check_steps_softening(r, root));
     r->scene->active_set = false; /* an equilibrium involves the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
         return fault(r, tree_find(root, "steps.then"),

@@ -27,13 +27,13 @@ struct step {
 };
 
 /* Returns the quantities that the phases of the next step share: middle of the step, damping factors, length of the
- * velocity update. Also stores that length in the grid method. */
-static struct step step_begin(struct run *e)
+ * velocity update, which is also stored in *transfer. damping: decay rate of the bulk [1/s]. */
+static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
-    const real dt = e->clock.dt, decay = e->scene->damping * dt, share = damping_factor(decay);
-    const real dt_velocity = (e->clock.step == 0 ? 0.5 : 1) * dt * share;
-    e->grid->transfer.dt_velocity = dt_velocity;
-    return (struct step){.middle = e->clock.t + 0.5 * dt, decay, share, dt_velocity};
+    const real dt = clock->dt, decay = damping * dt, share = damping_factor(decay);
+    const real dt_velocity = (clock->step == 0 ? 0.5 : 1) * dt * share;
+    transfer->dt_velocity = dt_velocity;
+    return (struct step){.middle = clock->t + 0.5 * dt, decay, share, dt_velocity};
 }
 
 /* Records the bonds broken in this step and converts material points near them to peridynamic particles.
@@ -216,7 +216,7 @@ bool step_convert(struct run *e, int64_t broken_bonds)
  * step later. */
 status step(struct run *e)
 {
-    struct step now = step_begin(e);
+    struct step now = step_begin(&e->clock, e->scene->damping, &e->grid->transfer);
     if (e->coupling->approaches && e->clock.step == 0) conversion(e, &now); /* bodies that touch at the start */
     reversion_apply_due(e);
     motion_begin(e, &now);

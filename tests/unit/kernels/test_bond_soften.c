@@ -7,31 +7,11 @@
 #include "tests/support/cloud.h"
 #include "tests/support/near.h"
 #include "tests/support/sets.h"
+#include "tests/support/soft_body.h"
 #include "tests/support/soften_reference.h"
 
 #define ONSET 1e-3
 #define CRITICAL 2e-3 /* kappa = 4 */
-
-/* A body whose bonds soften. */
-struct soft_body {
-    struct plotted_particles c;
-    struct softening_curve curve;
-    struct softening_pair pair[CLOUD_MATERIALS * CLOUD_MATERIALS];
-};
-
-/* Creates the bonds of a body, with `onset` and `critical` for all pairs of materials, after plotted_particles_make. */
-static void soft_bonds(struct soft_body *s, enum softening law, real onset, real critical)
-{
-    s->curve = softening_curve_of(law);
-    cloud_source(&s->c);
-    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++)
-        s->pair[k] = (struct softening_pair){onset, false}, s->c.limit[k] = critical;
-    s->c.source.yield.stretch = NULL;
-    s->c.source.limit.softening = s->pair, s->c.source.limit.curve = &s->curve;
-    s->c.source.limit.last_force = LAST_FORCE_NONE;
-    s->c.source.limit.retries = true;
-    bonds_make(&s->c.bonds, NULL, &s->c.p, &s->c.source);
-}
 
 /* One step: bonds begin to soften, forces. Returns the number of bonds broken. */
 static int64_t soft_forces(struct soft_body *s)

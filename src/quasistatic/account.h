@@ -1,0 +1,27 @@
+/* The work of supports and applied forces between two equilibria. */
+#ifndef CLEAVE_ACCOUNT
+#define CLEAVE_ACCOUNT
+
+#include "loads/loads.h"
+#include "quasistatic/statics.h"
+
+/* Displacements and forces of an equilibrium, from which the work up to the next one is computed. */
+struct account {
+    struct field u, f;      /* [nodes] displacement [m], force [N] */
+    real *applied[DIM_MAX]; /* [particles of the body] applied forces [N] */
+    real *x[DIM_MAX];       /* [particles of the body] positions [m] */
+};
+
+/* Copies the present positions, displacements and forces into *a. account_end or account_free frees the storage. */
+void account_start(struct account *a, const struct statics *s, const struct particles *part);
+
+/* Adds the work of supports and of applied forces since account_start to that of the loads: the mean of the initial and
+ * final force times the displacement (trapezoidal rule), and `bent`, the work of loads beyond that mean along the
+ * curved path of the solver [J]. Frees the storage of *a. Returns an estimate of the error of the work [J], its
+ * difference from the work with the initial or the final force alone. */
+real account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads, real bent);
+
+/* Frees the storage of *a. */
+void account_free(struct account *a);
+
+#endif

@@ -1,0 +1,118 @@
+/* Bonds that soften in load steps (softening.h). */
+#include "softening.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "kernels/pd/bond_last.h"
+
+#define FACTOR_ERROR 1e-10 /* relative error of a factor */
+enum { BISECTIONS_MOST = 100 };
+
+/* ---- a list of bonds --------------------------------------------------------------------------------------------- */
+
+/* Appends the bond `bond` of row `row` to the list. */
+static void softening_list_add(struct softening_list *l, const struct bonds *b, const struct particles *p, int64_t row,
+                               const struct bond *bond, real factor)
+{
+    const struct bond_softness soft = bond_softness_get(&b->soft, bond->entry);
+    const real stretch = bond_stretch_earlier(p, bond->inverse_length, b->particle[row], bond->nbr, 0);
+    GROW("softening.bonds", l->bond, l->n + 1);
+    l->bond[l->n++] =
+        (struct softening_bond){bond->entry, stretch / factor, real_max(b->soft.settled[bond->entry], soft.onset),
+                                soft.onset,  soft.end,         0.5 * b->stiffness * bond->w / bond->inverse_length};
+}
+
+void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p, real factor)
+{
+    l->n = 0, l->curve = b->soft.curve;
+    for (int64_t row = 0; row < b->rows; row++) {
+        if (!row_block_softens(b, row / LANES)) continue;
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+            if (it.bond.w != 0 && bond_softens(b, row / LANES, it.bond.entry))
+                softening_list_add(l, b, p, row, &it.bond, factor);
+    }
+}
+
+/* Returns the energy that a bond has dissipated once its largest stretch is k [J]. */
+static real spent_at(const struct softening_list *l, const struct softening_bond *bond, real k)
+{
+    return bond->energy * softening_spent(l->curve, bond->onset, bond->end, k);
+}
+
+real softening_list_spent(const struct softening_list *l, real factor)
+{
+    real sum = 0;
+    for (int64_t k = 0; k < l->n; k++) {
+        const struct softening_bond *bond = &l->bond[k];
+        const real stretch = factor * bond->stretch;
+        if (stretch > bond->settled) sum += spent_at(l, bond, stretch) - spent_at(l, bond, bond->settled);
+    }
+    return sum;
+}
+
+/* The false position method, with the Illinois rule (Dowell & Jarratt 1971). */
+real softening_list_factor(const struct softening_list *l, real wanted, real high)
+{
+    real low = 0, at_low = -wanted, at_high = softening_list_spent(l, high) - wanted;
+    int side = 0;
+    for (int k = 0; k < BISECTIONS_MOST && high - low > FACTOR_ERROR * high && at_high > 0; k++) {
+        const real middle = k % 4 == 3 ? 0.5 * (low + high) : (low * at_high - high * at_low) / (at_high - at_low);
+        const real at = softening_list_spent(l, middle) - wanted;
+        if (at > 0) {
+            high = middle, at_high = at;
+            if (side > 0) at_low *= 0.5;
+        } else {
+            low = middle, at_low = at;
+            if (side < 0) at_high *= 0.5;
+        }
+        side = at > 0 ? 1 : -1;
+        if (fabs(at) <= FACTOR_ERROR * wanted) return middle;
+    }
+    return high;
+}
+
+void softening_list_store(const struct softening_list *l, struct bonds *b, real factor)
+{
+    for (int64_t k = 0; k < l->n; k++) {
+        const struct softening_bond *bond = &l->bond[k];
+        b->soft.most[bond->entry] = (float)real_max(bond->settled, factor * bond->stretch);
+    }
+}
+
+/* ---- equilibria -------------------------------------------------------------------------------------------------- */
+
+/* Settles the bond `bond` of row `row`. */
+static void settle_bond(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
+                        const struct bond *bond)
+{
+    const int64_t q = bond->entry;
+    if (b->soft.most[q] > b->soft.onset[q]) {
+        b->soft.settled[q] = b->soft.most[q];
+        return;
+    }
+    b->soft.settled[q] = 0;
+    bond_softness_put(&b->soft, q, bond_softness_closed(bond_range_of(p, limit, b->particle[row], bond->nbr)));
+}
+
+void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+{
+    if (!b->soft.settled) b->soft.settled = memory_new_lazy_zero("bonds.settled", b->room * LANES, sizeof(float));
+    for (int64_t row = 0; row < b->rows; row++) {
+        if (!row_block_softens(b, row / LANES)) continue;
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+            if (it.bond.w != 0 && bond_softens(b, row / LANES, it.bond.entry)) settle_bond(b, p, limit, row, &it.bond);
+    }
+}
+
+void softening_undo(struct bonds *b)
+{
+    for (int64_t row = 0; row < b->rows; row++) {
+        if (!row_block_softens(b, row / LANES)) continue;
+        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+            const int64_t q = it.bond.entry;
+            if (it.bond.w != 0 && bond_softens(b, row / LANES, q))
+                b->soft.most[q] = fmaxf(b->soft.settled[q], b->soft.onset[q]);
+        }
+    }
+}

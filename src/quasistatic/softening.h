@@ -1,0 +1,46 @@
+/* Bonds that soften in load steps: between two equilibria they are springs of the secant stiffness that belongs to a
+ * largest stretch k, which the search for the next equilibrium chooses (softening_step.c). */
+#ifndef CLEAVE_QUASISTATIC_SOFTENING
+#define CLEAVE_QUASISTATIC_SOFTENING
+
+#include "bonds/bonds.h"
+
+/* A directed bond that softens, or may do so. energy: 1/2 c V V w r, the energy of its row at stretch 1 over stretch
+ * squared [J]. */
+struct softening_bond {
+    int64_t entry;                    /* in the bond storage */
+    real stretch;                     /* of the body at a factor of 1 [1] */
+    real settled, onset, end, energy; /* k of the last equilibrium, at least the onset [1] */
+};
+
+struct softening_list {
+    int64_t n;
+    struct softening_bond *bond; /* [n] owned */
+    const struct softening_curve *curve;
+};
+
+/* Lists the intact bonds that soften, in the order of rows. factor: by which the present displacements are scaled [1];
+ * stretches are divided by it. Replaces the former contents of *l; free l->bond with memory_free. */
+void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p, real factor);
+
+/* Returns the energy that the bonds would dissipate since the last equilibrium, if the displacements grew by `factor`
+ * [J]. */
+real softening_list_spent(const struct softening_list *l, real factor);
+
+/* Returns the smallest factor, between 0 and `high`, at which softening_list_spent is `wanted` [J]; at `high` it must
+ * be at least that. */
+real softening_list_factor(const struct softening_list *l, real wanted, real high);
+
+/* Sets the largest stretch k of each bond of the list to the larger one of that of the last equilibrium and `factor`
+ * times its stretch. */
+void softening_list_store(const struct softening_list *l, struct bonds *b, real factor);
+
+/* Makes the present largest stretches those of an equilibrium, from which later ones start. Bonds that have not passed
+ * their onset begin anew, so that the stress across them is examined again. limit: of the bonds. Allocates the storage
+ * of load steps in b->soft on its first call: from then on forces are those of the stored stretches. */
+void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
+
+/* Sets the largest stretches to those of the last equilibrium. */
+void softening_undo(struct bonds *b);
+
+#endif

@@ -1,0 +1,201 @@
+/* Load steps of bodies whose bonds soften. An equilibrium is a stationary point of the sum of phi over all bonds: with
+ * the largest stretch k_0 of a bond at the last equilibrium, its energy psi and dissipation D (data/softening.h),
+ *
+ *     phi(s) = psi(s, k_0) for s <= k_0,   psi(s, s) + D(s) - D(k_0) beyond
+ *
+ * It is found by iteration on secants: with k fixed, bonds are springs, and the body has one equilibrium, which the
+ * solver of all load steps finds. Under control by energy its displacements are then scaled by the factor at which
+ * bonds that follow them dissipate the wanted energy, which fixes new k, and the loads are scaled likewise. Loads may
+ * fall, but dissipation grows, so that the path is followed through snap-back (Gutierrez 2004). Under control by loads
+ * the factor is that of the loads. The search ends when the forces with k = max(k_0, s) are balanced. */
+#include "softening_step.h"
+
+#include <math.h>
+
+#include "account.h"
+#include "balance.h"
+#include "load_size.h"
+#include "softening.h"
+#include "stretch_ratio.h"
+#include "toughness.h"
+#include "trial.h"
+#include "unknowns.h"
+
+#include "base/memory.h"
+
+#define FACTOR_ERROR 1e-5  /* largest difference of the last factor from 1 */
+#define RESIDUAL_MOST 1e-5 /* residual of an equilibrium, unless solver_tolerance is larger [1] */
+#define SOLVED_TO 0.1      /* residual of a solution with fixed k over that of the state before */
+#define SOLVED_LEAST 1e-3  /* largest residual of such a solution [1] */
+#define THROUGH 1e-2       /* share of the largest load size at which the body counts as severed */
+#define LENGTH_SHARE 0.25  /* crack growth of a load step by default [spacings] */
+#define FIRST_SHARE 1e-3   /* share of the energy of a load step that the first one dissipates */
+enum { ITERATIONS_MOST = 400, TRIES_MOST = 5, GROWTHS_MOST = 200 };
+
+/* A search for the next equilibrium. Pointers are borrowed. */
+struct search {
+    struct newton_solver *q;
+    struct bonds *bonds;
+    struct particles *part;
+    const struct bond_limit *limit;
+    struct softening_list list;
+    real spent;    /* energy to be dissipated, INFINITY: loads are given [J] */
+    real end;      /* largest pseudo-time [s] */
+    bool at_end;   /* the loads of the pseudo-time `end` are reached */
+    real residual; /* of the last state, with k = max(k_0, s) [1] */
+};
+
+/* Moves the body to `factor` times the displacements of the last solution. The forces there are not used. */
+static void body_scale(const struct search *f, real factor)
+{
+    struct newton_solver *q = f->q;
+    for (int d = 0; d < q->dim; d++)
+        for (int64_t k = 0; k < q->n; k++) q->at.of[d][k] = factor * q->u.of[d][k];
+    q->force(q->context, &q->at, &q->z);
+}
+
+/* Returns the factor on the present displacements at which the wanted energy is dissipated, at most `most`, and chooses
+ * k by it. most: ratio of the loads at the end to the present ones [1]. */
+static real secants_choose(struct search *f, real most)
+{
+    const bool given = !isfinite(f->spent);
+    real high = given ? most : real_min(1, most), growth = 1.01;
+    for (int k = 0;; k++) {
+        body_scale(f, high);
+        bonds_open_beyond_onset(f->bonds, f->part, f->limit);
+        softening_list_make(&f->list, f->bonds, f->part, high);
+        if (given || high >= most || k == GROWTHS_MOST || softening_list_spent(&f->list, high) >= f->spent) break;
+        high = real_min(most, growth * high);
+        growth = real_min(2, square(growth));
+    }
+    f->at_end = given || softening_list_spent(&f->list, high) < f->spent;
+    const real factor = f->at_end ? high : softening_list_factor(&f->list, f->spent, high);
+    softening_list_store(&f->list, f->bonds, factor);
+    return factor;
+}
+
+/* Returns the residual of the displacements of the last solution relative to the scale of the solver [1], and stores
+ * the forces. */
+static real residual_now(struct newton_solver *q)
+{
+    real sum = 0;
+    q->force(q->context, &q->u, &q->f);
+    for (int d = 0; d < q->dim; d++)
+        for (int64_t k = 0; k < q->n; k++) sum += q->held[k] >> d & 1 ? 0 : square(q->f.of[d][k]);
+    return sum > 0 ? sqrt(sum) / q->scale : 0;
+}
+
+/* Finds the next equilibrium, in turn with fixed k and by a new choice of k. Solutions with fixed k need not be more
+ * exact than k is. */
+static status search_run(struct run *e, struct search *f)
+{
+    struct statics *s = e->statics;
+    const real lost = s->balance.lost, tolerance = s->balance.tolerance, enough = real_max(RESIDUAL_MOST, tolerance);
+    status found = OK;
+    for (int k = 0; k < ITERATIONS_MOST && found == OK; k++) {
+        const real size = statics_load_size(e, s->t), last = statics_load_size(e, f->end);
+        struct account now;
+        real t = last > 0 ? f->end / (real)e->clock.steps : f->end; /* no loads yet: the body is elastic */
+        f->residual = 1;
+        if (size > 0 || k > 0) {
+            const real factor = secants_choose(f, size > 0 ? last / size : 1);
+            f->residual = k > 0 ? residual_now(f->q) : 1;
+            if (f->residual <= enough && fabs(factor - 1) <= FACTOR_ERROR) return OK;
+            t = f->at_end ? f->end : statics_time_of_size(e, factor * size);
+        }
+        account_start(&now, s, &e->part);
+        s->balance.tolerance = real_max(tolerance, real_min(SOLVED_LEAST, SOLVED_TO * f->residual));
+        found = equilibrium_solve(e, t, now.applied);
+        s->balance.tolerance = tolerance, s->balance.lost = lost;
+        account_free(&now);
+    }
+    TRY(found);
+    return status_set(
+        FAILED,
+        "load step %lld, t = %.6g s: no equilibrium of softening bonds, the residual stays at %.3g of the "
+        "load: %s is expected",
+        (long long)e->clock.step + 1, s->t, f->residual,
+        isfinite(f->spent) ? "a smaller steps.energy" : "steps.control: energy, which follows loads that fall,");
+}
+
+/* Tries to find the equilibrium that ends a load step. spent: energy to be dissipated, INFINITY: the loads are those of
+ * the pseudo-time t [J]. Under given loads, work beyond the growth of energies is lost in motion that is not resolved.
+ * Restores the state before if the search fails. */
+static status step_try(struct run *e, real t, real spent)
+{
+    struct statics *s = e->statics;
+    struct memory_archive saved;
+    struct account account;
+    struct search f = {&s->balance, &e->bonds, &e->part, &e->source.limit, .spent = spent, .end = t};
+    trial_begin(e, &saved);
+    account_start(&account, s, &e->part);
+    const real worked = e->loads.work + e->loads.constraint_work,
+               stored = e->kernels.bond_energy(&e->bonds, &e->part) + bonds_fracture_energy(&e->bonds);
+    const status found = search_run(e, &f);
+    memory_free(f.list.bond);
+    if (found != OK) {
+        account_free(&account);
+        softening_undo(&e->bonds);
+        trial_undo(e, &saved, NULL);
+        return found;
+    }
+    memory_archive_free(&saved);
+    account_end(&account, s, &e->part, &e->loads, 0);
+    const real lost = e->loads.work + e->loads.constraint_work - worked + stored -
+                      e->kernels.bond_energy(&e->bonds, &e->part) - bonds_fracture_energy(&e->bonds);
+    if (!isfinite(spent)) s->balance.lost += real_max(0, lost), e->damped += real_max(0, lost);
+    softening_settle(&e->bonds, &e->part, &e->source.limit);
+    return OK;
+}
+
+/* Returns the smallest crack energy per area of the materials whose bonds soften [J/m^2]. */
+static real least_toughness(const struct scene *s, const struct bond_source *source)
+{
+    real least = INFINITY;
+    for (int m = 0; m < s->materials; m++)
+        if (material_softens(&s->material[m]))
+            least = real_min(least, toughness_of_material(&source->family, s->model, &s->material[m]));
+    return least;
+}
+
+/* Returns the area by which a crack grows in a load step by default [m^2]: LENGTH_SHARE spacings times the thickness,
+ * in space times the shortest side of the body. */
+static real area_of_step(const struct scene *s, const struct particles *p)
+{
+    real shortest = INFINITY, low, high;
+    if (p->dim == 1) return LENGTH_SHARE * scene_section_factor(s);
+    for (int d = 0; d < p->dim; d++) {
+        particles_coordinate_range(p, p->n, d, &low, &high);
+        shortest = real_min(shortest, high - low + s->spacing);
+    }
+    return LENGTH_SHARE * s->spacing * (p->dim == 2 ? scene_section_factor(s) : shortest);
+}
+
+/* Under control by energy the first step ends where bonds begin to soften: on a coarse lattice that may be the largest
+ * load, and the work over a step is computed from both its ends. If no equilibrium is found, bonds dissipate a half, a
+ * quarter .. of the energy. */
+status softening_step(struct run *e, real t)
+{
+    struct statics *s = e->statics;
+    const real toughness = least_toughness(e->scene, &e->source), given = e->scene->steps.energy;
+    const real before = bonds_fracture_energy(&e->bonds);
+    const bool by_energy = e->scene->steps.control == CONTROL_ENERGY;
+    if (by_energy) t = e->scene->duration;
+    real spent = !by_energy ? INFINITY : given > 0 ? given : toughness * area_of_step(e->scene, &e->part);
+    if (before == 0) spent *= FIRST_SHARE;
+    softening_settle(&e->bonds, &e->part, &e->source.limit);
+    status tried = step_try(e, t, spent);
+    for (int k = 1; k < TRIES_MOST && tried == FAILED && by_energy; k++, spent *= 0.5)
+        tried = step_try(e, t, 0.5 * spent);
+    TRY(tried);
+    const int64_t ended = bonds_end_softened(&e->bonds, &e->part);
+    s->record.broken += (bonds_fracture_energy(&e->bonds) - before) / toughness;
+    s->precondition_stale = true, s->fragments_stale |= ended > 0;
+    reactions_store(s, &e->part, &e->loads);
+    s->solutions++;
+    s->stretch_ratio = largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
+    const real size = statics_load_size(e, s->t);
+    s->record.load_most = real_max(s->record.load_most, size);
+    s->severs = by_energy && size < THROUGH * s->record.load_most;
+    return equilibrium_convert_points(e, ended);
+}

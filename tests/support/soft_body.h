@@ -1,0 +1,29 @@
+/* A body of cloud.h whose bonds soften, for tests. */
+#ifndef CLEAVE_TESTS_SOFT_BODY
+#define CLEAVE_TESTS_SOFT_BODY
+
+#include "kernels/kernels.h"
+#include "tests/support/cloud.h"
+
+/* A body whose bonds soften. */
+struct soft_body {
+    struct plotted_particles c;
+    struct softening_curve curve;
+    struct softening_pair pair[CLOUD_MATERIALS * CLOUD_MATERIALS];
+};
+
+/* Creates the bonds of a body, with `onset` and `critical` for all pairs of materials, after plotted_particles_make. */
+static inline void soft_bonds(struct soft_body *s, enum softening law, real onset, real critical)
+{
+    s->curve = softening_curve_of(law);
+    cloud_source(&s->c);
+    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++)
+        s->pair[k] = (struct softening_pair){onset, false}, s->c.limit[k] = critical;
+    s->c.source.yield.stretch = NULL;
+    s->c.source.limit.softening = s->pair, s->c.source.limit.curve = &s->curve;
+    s->c.source.limit.last_force = LAST_FORCE_NONE;
+    s->c.source.limit.retries = true;
+    bonds_make(&s->c.bonds, NULL, &s->c.p, &s->c.source);
+}
+
+#endif
