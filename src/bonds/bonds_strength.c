@@ -131,20 +131,47 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     }
 }
 
-/* Stores the symmetric components of the strain E of a row; 0 where its bonds do not span the space. */
-static ALWAYS_INLINE void row_strain_of(const struct evaluation *e, int64_t row, real *strain, const int dim)
+/* Computes the sums over the bonds of the eight rows of a row block that follows a stencil: intact bonds at equal index
+ * distances that have not begun to soften. */
+static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g, struct moments *sum, const int dim)
 {
-    struct moments sum;
+    const struct particles *p = e->p;
+    const struct stencil *stencil = e->b->stencil[g];
+    const int64_t i = e->b->particle[g * LANES];
+    real M[3][3][LANES] = {{{0}}}, Y[3][3][LANES] = {{{0}}};
+    for (int k = 0; k < stencil->columns; k++) {
+        const int64_t j = i + stencil->column[k].offset;
+        const real inverse = stencil->column[k].inverse_length;
+        real weight[LANES], xi[DIM_MAX][LANES], y[DIM_MAX][LANES];
+        for (int l = 0; l < LANES; l++) weight[l] = stencil->w[k][l] == 0 ? 0 : p->volume0[j + l] * inverse;
+        for (int d = 0; d < dim; d++)
+            for (int l = 0; l < LANES; l++)
+                xi[d][l] = p->X[d][j + l] - p->X[d][i + l], y[d][l] = p->x[d][j + l] - p->x[d][i + l];
+        for (int a = 0; a < dim; a++)
+            for (int c = 0; c < dim; c++)
+                for (int l = 0; l < LANES; l++)
+                    M[a][c][l] += weight[l] * xi[a][l] * xi[c][l], Y[a][c][l] += weight[l] * y[a][l] * xi[c][l];
+    }
+    for (int l = 0; l < LANES; l++) {
+        sum[l] = (struct moments){.M = {{0}}};
+        for (int a = 0; a < dim; a++)
+            for (int c = 0; c < dim; c++) sum[l].M[a][c] = M[a][c][l], sum[l].Y[a][c] = Y[a][c][l];
+    }
+}
+
+/* Computes the symmetric components of the strain E from the sums over the bonds of a row, which it overwrites; 0 where
+ * they do not span the space. */
+static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, const int dim)
+{
     matrix inverse, R, back, E;
-    row_moments(e, row, &sum, dim);
     for (int s = 0; s < SYM_MAX; s++) strain[s] = 0;
-    if (!square_matrix_invert(sum.M, inverse, dim)) return;
-    matrix_multiply(sum.Y, false, inverse, R, dim);
+    if (!square_matrix_invert(sum->M, inverse, dim)) return;
+    matrix_multiply(sum->Y, false, inverse, R, dim);
     if (!matrix_rotation(R, dim)) return;
-    matrix_multiply(R, true, sum.Y, back, dim);
+    matrix_multiply(R, true, sum->Y, back, dim);
     for (int i = 0; i < dim; i++)
-        for (int j = 0; j < dim; j++) back[i][j] -= sum.M[i][j], sum.L[i][j] += sum.M[i][j];
-    if (!square_matrix_invert(sum.L, inverse, dim)) return;
+        for (int j = 0; j < dim; j++) back[i][j] -= sum->M[i][j], sum->L[i][j] += sum->M[i][j];
+    if (!square_matrix_invert(sum->L, inverse, dim)) return;
     matrix_multiply(back, false, inverse, E, dim);
     for (int s = 0; s < symmetric_component_count(dim); s++) {
         int a, c;
@@ -153,13 +180,26 @@ static ALWAYS_INLINE void row_strain_of(const struct evaluation *e, int64_t row,
     }
 }
 
-/* Stores the symmetric components of the strain E of a row, as row_strain_of. */
-static void row_strain(const struct evaluation *e, int64_t row, real *strain)
+/* Computes the strains of the rows of row block g that are marked in `wanted` [LANES] into e->strain[0]. */
+static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, const bool *wanted, const int dim)
 {
-    if (e->p->dim == 2)
-        row_strain_of(e, row, strain, 2);
-    else
-        row_strain_of(e, row, strain, 3);
+    struct moments sum[LANES];
+    const bool common = e->b->stencil[g] != NULL;
+    if (common) stencil_moments(e, g, sum, dim);
+    for (int l = 0; l < LANES; l++) {
+        if (!wanted[l]) continue;
+        if (!common) row_moments(e, g * LANES + l, &sum[l], dim);
+        moments_strain(&sum[l], e->strain[0][g * LANES + l], dim);
+    }
+}
+
+/* As row_block_strain_of, for any dimension. Does nothing if no row is marked. */
+static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted)
+{
+    bool any = false;
+    for (int l = 0; l < LANES; l++) any |= wanted[l];
+    if (any && e->p->dim == 2) row_block_strain_of(e, g, wanted, 2);
+    if (any && e->p->dim == 3) row_block_strain_of(e, g, wanted, 3);
 }
 
 /* ---- means ------------------------------------------------------------------------------------------------------- */
@@ -263,21 +303,31 @@ static void evaluation_free(struct evaluation *e)
 /* Returns true if the surface may have been reached in a row block (the bonds of eight particles). */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
-/* Computes the strains of the rows of row blocks near the surface, and sets the distance of those that are beyond it,
- * and have a bond to start, to 1. Returns true if there is one. */
-static bool find_candidates(struct evaluation *e)
+/* Computes the strains of the rows of row block g that have a surface and a bond to start, and sets the distance of
+ * those that are beyond the surface to 1. Returns true if there is one. */
+static bool row_block_find(struct evaluation *e, int64_t g)
 {
     const struct bonds *b = e->b;
-    bool any = false;
-#pragma omp parallel for schedule(dynamic, 64) reduction(| : any)
-    for (int64_t row = 0; row < b->rows; row++) {
-        if (!is_near_surface(b, row / LANES) || !b->whole[row] || !row_material(e, row) || !row_has_closed(b, row))
-            continue;
-        row_strain(e, row, e->strain[0][row]);
-        if (!(row_share(e, row) >= row_strength(e, row))) continue;
+    bool wanted[LANES] = {false}, any = false;
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
+        wanted[row % LANES] = b->whole[row] && row_material(e, row) && row_has_closed(b, row);
+    row_block_strain(e, g, wanted);
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
+        if (!wanted[row % LANES] || !(row_share(e, row) >= row_strength(e, row))) continue;
         e->distance[row] = 1;
         any = true;
     }
+    return any;
+}
+
+/* Sets the distance of the rows that are beyond the surface by their own strain, and have a bond to start, to 1.
+ * Returns true if there is one. */
+static bool find_candidates(struct evaluation *e)
+{
+    bool any = false;
+#pragma omp parallel for schedule(dynamic, 16) reduction(| : any)
+    for (int64_t g = 0; g < e->b->row_blocks; g++)
+        if (is_near_surface(e->b, g)) any |= row_block_find(e, g);
     return any;
 }
 
@@ -291,9 +341,13 @@ static void evaluate_surfaces(struct evaluation *e)
         for (int64_t row = 0; row < b->rows; row++)
             if (__atomic_load_n(&e->distance[row], __ATOMIC_RELAXED) == from)
                 mark_family_rows(e, row, (uint16_t)(from + 1));
-#pragma omp parallel for schedule(dynamic, 64)
-    for (int64_t row = 0; row < b->rows; row++)
-        if (e->distance[row] > 0) row_strain(e, row, e->strain[0][row]);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t g = 0; g < b->row_blocks; g++) {
+        bool wanted[LANES] = {false};
+        for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
+            wanted[row % LANES] = e->distance[row] > 0;
+        row_block_strain(e, g, wanted);
+    }
     for (int mean = 0; mean <= e->means; mean++) {
 #pragma omp parallel for schedule(dynamic, 64)
         for (int64_t row = 0; row < b->rows; row++) {

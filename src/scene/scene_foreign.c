@@ -50,8 +50,9 @@ static const struct foreign {
     {"weibull|weibull_modulus|flaws|heterogeneity|random_strength", "material.scatter", NULL},
     {"precrack|pre_crack|pre_cracks|precracks|crack_list|notch|notches|initial_crack|slit|slits|flaw", "cracks", NULL},
     {"tie|tied|cohesive|cohesive_zone|czm|interface|adhesion|adhesive|glue|bonded", "interfaces", NULL},
-    {"compressive_strength|compression_strength|f_c|fc|crushing_strength|crushing", "material.yield_stress",
-     "=Cleave does not do failure in compression: bonds break by tension; `yield_stress` limits stress in both"},
+    {"compression_strength|f_c|fc|crushing_strength|crushing", "material.compressive_strength material.yield_stress",
+     "=with `compressive_strength` beside `tensile_strength`, a strength surface starts the softening of bonds; Cleave "
+     "does not do crushing; `yield_stress` limits stress in both"},
     {"fatigue|cycles|paris|paris_law|n_cycles|s_n_curve", "steps",
      "=Cleave does not do fatigue; load steps (`solver: static`, `steps`) follow a crack under one growing load"},
     {"phase_field|length_scale|l0|regularisation|regularization|xfem", "particles.horizon",

@@ -104,7 +104,7 @@ done <<'END'
 6|material: {young: 190 GPa, rho: 7800}|6:28|here it is `density`
 6|material: {young: 190 GPa, density: 7800, G_c: 100}|6:43|here it is `energy_release_rate`
 6|material: {young: 190 GPa, density: 7800, strength: 100 MPa}|6:43|with `tensile_strength` bonds soften
-6|material: {young: 190 GPa, density: 7800, compressive_strength: 100 MPa}|6:43|does not do failure in compression
+6|material: {young: 190 GPa, density: 7800, f_c: 100 MPa}|6:43|does not do crushing
 6|material: {young: 190 GPa, density: 7800, friction_angle: 30}|6:43|does not do yielding that depends on pressure
 6|material: {young: 190 GPa, density: 7800, thermal-expansion: 1}|6:43|does not do heat
 6|material: {young: 190 GPa, density: 7800, conductivity: 1}|6:43|does not do heat
