@@ -51,6 +51,9 @@ start scatter "$work/strip.yaml" $surface -s 'materials.0.scatter={modulus: 20, 
 start mirrored "$work/square.yaml" -s 'boundary.1={mirror: {axis: y, at: 0}}' -s 'boundary.3={mirror: {axis: x, at: 0}}' \
     -s 'body.box={from: [0, 0], to: [2 mm, 2 mm]}'
 start adaptive "$work/strip.yaml" $surface -s method=adaptive; wait
+start points "$work/square.yaml" -s method=adaptive -s mpm.frame=current
+start strain "$work/square.yaml" -s 'space=plane strain' -s variables.load=25.7MPa; wait
+start pressed "$work/strip.yaml" $surface -s variables.start='-1*strain' -s variables.rate='-4*strain/40 us' -s duration=40us; wait
 
 # The largest mean stress across the grips is the strength that the surface has in that state [MPa]: tension 40 within 3 %, equal biaxial
 # tension 27 +- 1.5, shear at a horizon of 0.34 E G_c/strength^2 44.4 +- 2; without the surface bonds have 57 in equal biaxial tension.
@@ -63,6 +66,15 @@ between "scatter" "$(strength scatter 5e-6)" 30 39.5
 between "a quarter between mirrors, biaxial" "$(strength mirrored 2e-6)" 25.5 28.5
 between "adaptive" "$(strength adaptive 5e-6)" 38 41.2
 between "adaptive: particles" "$(last adaptive particles_pd)" 100 6000
+between "points on the grid, biaxial" "$(strength points 4e-6)" 25.5 28.5
+between "points on the grid: particles" "$(last points particles_pd)" 100 1599
+
+# In plane strain the stress across the plane brings equal biaxial tension to 27.4 MPa.
+between "plane strain, biaxial" "$(strength strain 4e-6)" 26.6 28.2
+
+# Five times the strength in compression, a fifth of that of the surface, does nothing.
+is "compression: dissipated" "$(last pressed fracture)" 0
+between "compression: stress over strength" "$(compute "$(last pressed reaction.force_y) / 5e-6 / 40e6")" -5.2 -4.8
 
 # The balance of the strip that is torn apart closes with the square of the step: all of it starts to soften at once, which is the hardest.
 error() { figure "$work/$1" energy.balance_error; }

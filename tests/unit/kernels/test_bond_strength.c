@@ -179,14 +179,15 @@ static real started(const struct bonds *b)
 
 /* A body is strained in proportion: below the surface no bond begins, beyond it all do. Forces do not change at the
  * start (states are floats: 1e-6), nothing is dissipated; beyond, the force of every bond falls, and what is dissipated
- * grows to the energy of G_c. Strains of tension, equal tension and shear. */
+ * grows to the energy of G_c. Strains of tension, equal tension and shear, in the plane and in a solid. */
 static void test_start(void **state)
 {
     (void)state;
     const real states[][2] = {{1, -1.0 / 3}, {1, 1}, {1, -1}};
-    for (size_t k = 0; k < COUNT_OF(states); k++) {
+    for (size_t run = 0; run < 2 * COUNT_OF(states); run++) {
+        const size_t k = run / 2;
         struct surface_body s;
-        body_make(&s, SPACE_PLANE_STRESS, 0.1, 1, false);
+        body_make(&s, run % 2 ? SPACE_SOLID : SPACE_PLANE_STRESS, 0.1, 1, false);
         struct particles *p = &s.c.p;
         struct bonds *b = &s.c.bonds;
         real *share = NEW("test.share", p->n, real), force = 0, change = 0;
@@ -213,10 +214,10 @@ static void test_start(void **state)
         for (int64_t i = 0; i < p->n; i++)
             force = real_max(force, fabs(before[i])), change = real_max(change, fabs(p->f[0][i] - before[i]));
         assert_true(change < 1e-6 * force);
-        assert_near(bonds_fracture_energy(b), 0, 1e-6 * bond_energy_table[2][PD_BOND_SOFT](b, p));
+        assert_near(bonds_fracture_energy(b), 0, 1e-6 * bond_energy_table[p->dim][PD_BOND_SOFT](b, p));
         cloud_strain(&s.c, STRAIN(2 * at));
         soft_forces(&s);
-        assert_true(bonds_fracture_energy(b) > 0.1 * bond_energy_table[2][PD_BOND_SOFT](b, p));
+        assert_true(bonds_fracture_energy(b) > 0.1 * bond_energy_table[p->dim][PD_BOND_SOFT](b, p));
         memory_free(share), memory_free(before);
         plotted_particles_free(&s.c);
     }
