@@ -10,6 +10,7 @@
 #define AHEAD_REACH 1.2   /* range of the search for particles ahead of an end [spacings] */
 #define FACE_REACH 1.01   /* largest distance of particles that face each other across a slit [spacings] */
 #define MEET_REACH 1.5    /* range of the search for faces that approach each other [spacings] */
+#define REACH_SLACK 1e-9  /* relative round-off of distances */
 #define VOID_AHEAD 0.1    /* gap of the faces of a void at which they become peridynamic [spacings] */
 enum { EDGE_PARTS = 16 }; /* sampling points along an edge */
 
@@ -292,11 +293,29 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
+/* Returns the largest present distance of particles that meeting_distance may exceed after the time `ahead` [m]: two
+ * particles approach each other by at most twice the largest speed of all. */
+static real meeting_reach(const struct notches *n, const struct particles *p, real spacing, real ahead)
+{
+    const real gap = NOTCH_GAP * spacing;
+    real deepest = 0, speed2 = 0;
+    for (int64_t k = 0; k < n->faces; k++) {
+        real v2 = 0;
+        if (n->voids) deepest = real_max(deepest, n->depth[k]);
+        for (int d = 0; d < p->dim; d++) v2 += square(p->v[d][n->face[k]]);
+        speed2 = real_max(speed2, v2);
+    }
+    real most = n->voids ? 2 * deepest + VOID_AHEAD * spacing : 0;
+    for (int k = 0; k < n->slits; k++) most = real_max(most, spacing - real_max(gap, n->slit[k].width - gap));
+    return real_min(MEET_REACH * spacing, (most + 2 * sqrt(speed2) * ahead) * (1 + REACH_SLACK));
+}
+
 void notches_flag_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead)
 {
     struct particles places = {.n = n->faces, .n_all = n->faces, .dim = p->dim};
     struct cells cells;
     if (n->faces == 0) return;
+    const real reach = meeting_reach(n, p, spacing, time_ahead);
     for (int d = 0; d < p->dim; d++) {
         places.X[d] = BARE("notch.place", n->faces, real);
         for (int64_t k = 0; k < n->faces; k++) places.X[d][k] = p->x[d][n->face[k]];
@@ -309,7 +328,7 @@ void notches_flag_closing_faces(const struct notches *n, struct particles *p, re
         for (int64_t k = 0; k < n->faces; k++) {
             const int32_t i = n->face[k];
             if (p->kind[i] != KIND_MPM) continue;
-            particles_find_near(&near, &cells, &places, k, MEET_REACH * spacing, false);
+            particles_find_near_unordered(&near, &cells, &places, k, reach, false);
             for (int q = 0; q < near.n && !(p->flag[i] & FLAG_NEAR); q++) {
                 const int32_t j = n->face[near.at[q]];
                 const real after = distance_ahead(p, i, j, time_ahead);
