@@ -240,9 +240,9 @@ static void constrained_walls(const struct constrained_set *s, struct grid *g, c
 {
     for (int64_t q = 0; q < s->n; q++) {
         const struct held *h = &s->held[q];
-        real x[DIM_MAX];
+        real x[DIM_MAX] = {0};
         if (g->mass[h->node] <= 0) continue;
-        node_at(g, mesh, h->node, x);
+        if (boundary_motion_varies_in_space(by[h->load].now.boundary)) node_at(g, mesh, h->node, x);
         wall_add(g, &by[h->load], h->node, x, h->component, h->load, reference);
     }
 }
@@ -265,8 +265,8 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *he
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Adds the mass that the points of `load` contribute to each node to share[mesh->grid.n] [kg], and sets mark[I] = 1 for
- * these nodes I. Both arrays are zeroed by the caller. */
+/* Adds the mass that the points of `load` contribute to each node I to share[mesh->grid.n] [kg], and sets mark[I] = 1 for
+ * these nodes. share is valid at marked nodes alone; `mark` is zeroed by the caller. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {
@@ -274,8 +274,8 @@ static void driven_masses(const struct load *load, const struct mesh *mesh, cons
         const int32_t i = load->particle[k];
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
             const int64_t I = mesh_cell_corner_node(mesh, mesh->place[i] >> p->dim, c);
+            if (!mark[I]) share[I] = 0, mark[I] = 1;
             share[I] += p->mass[i] * mesh_shape_function_value(p->dim, c, mesh->place[i] & ((1 << p->dim) - 1));
-            mark[I] = 1;
         }
     }
 }
@@ -286,7 +286,7 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
 {
     const struct load *load = &l->load[which];
     const int64_t n = mesh->grid.n;
-    real *share = BLANK("loads.mesh_share", n, real);
+    real *share = BARE("loads.mesh_share", n, real);
     uint8_t *mark = NEW("loads.mesh_mark", n + LANES, uint8_t);
     driven_masses(load, mesh, p, share, mark);
     for (int64_t I = next_marked_index(mark, 0, n); I < n; I = next_marked_index(mark, I + 1, n))
