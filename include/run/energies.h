@@ -38,9 +38,10 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
 real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt);
 
 /* Computes the linear momentum of all particles and mesh nodes. nodes: `grids` pointers to the grids of the meshes;
- * momentum: receives dim components [kg m/s]. Returns the sum of the magnitudes |m v| of all contributions [kg m/s],
- * to which round-off errors of the momentum can be compared. */
-real particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum);
+ * momentum: receives dim components [kg m/s]; size: receives the sum of the magnitudes |m v| of all contributions [kg
+ * m/s], to which round-off errors of the momentum can be compared; NULL: not computed. */
+void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum,
+                               real *size);
 
 /* Computes the weighted volume and the dilatation of the family of each particle of bonds b at the present positions,
  * as ordinary state-based peridynamics needs them before forces or energies; of bonds that soften updates the largest

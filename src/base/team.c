@@ -304,8 +304,9 @@ void core_shares_free(struct core_shares *s)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-/* largest number of blocks of a sum without allocation: steps need short sums several times */
-enum { FEW_BLOCKS = 16 };
+/* largest number of blocks of a sum without allocation: steps need short sums several times; largest number of terms
+ * that threads compute before they are added */
+enum { FEW_BLOCKS = 16, FEW_TERMS = 4 * SUM_BLOCK };
 
 /* Stores the `terms` sums over block number b of n entries in part[terms]. block(context, first, end, sum): adds the
  * terms of the entries first .. end - 1 to sum. */
@@ -337,16 +338,30 @@ struct single {
     const void *context;
 };
 
+/* Stores all n terms in `each`. There are few, each of which may take long: threads share them, not blocks of them. */
+static void terms_store(int64_t n, const struct single *s, real *each)
+{
+    TEAM_LOOP(n > 1, for (int64_t i = 0; i < n; i++) each[i] = s->term(s->context, i););
+}
+
 static void single_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct single *s = context;
     for (int64_t i = first; i < end; i++) sum[0] += s->term(s->context, i);
 }
 
+/* Returns term i of the array `context`. */
+static real stored_term(const void *context, int64_t i) { return ((const real *)context)[i]; }
+
 real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context)
 {
-    real sum;
-    reproducible_sums(n, 1, single_block, &(struct single){term, context}, &sum);
+    real sum, few[FEW_TERMS];
+    struct single s = {term, context};
+    if (n <= FEW_TERMS) {
+        terms_store(n, &s, few);
+        s = (struct single){stored_term, few};
+    }
+    reproducible_sums(n, 1, single_block, &s, &sum);
     return sum;
 }
 

@@ -24,8 +24,8 @@ void diagnostics_make(struct diagnostics *w)
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse)
 {
-    const real size = particles_linear_momentum(p, nodes, grids, w->now.momentum);
-    real missing2 = 0;
+    real size, missing2 = 0;
+    particles_linear_momentum(p, nodes, grids, w->now.momentum, &size);
     for (int d = 0; d < p->dim; d++) {
         if (!w->started) w->momentum_start[d] = w->now.momentum[d] - impulse[d];
         missing2 += square(w->now.momentum[d] - w->momentum_start[d] - impulse[d]);

@@ -29,15 +29,18 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
     return all != 0;
 }
 
+/* Which sums are computed: kinetic energy alone; momentum as well; and the sum of |m v|, which takes square roots. */
+enum motion_sums { SUM_ENERGY, SUM_MOMENTUM, SUM_SIZES };
+
 /* Sums over particles or nodes: kinetic energy [J], momentum by component, and sum of |m v| [kg m/s]. */
 struct motion {
     real kinetic, momentum[DIM_MAX], size;
 };
 
-/* Adds the kinetic energy of entries first .. end - 1 of m to *to and, if `all` is true, their momentum and |m v|.
- * meshed: entries with FLAG_MESHED are skipped. dim, meshed and all must be compile-time constants. */
+/* Adds the wanted sums over entries first .. end - 1 of m to *to. meshed: entries with FLAG_MESHED are skipped. dim,
+ * meshed and wanted must be compile-time constants. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
-                                     const int dim, const bool meshed, const bool all)
+                                     const int dim, const bool meshed, const enum motion_sums wanted)
 {
     const real *mass = m->mass, *v0 = m->v[0], *v1 = m->v[dim > 1], *v2 = m->v[dim > 2 ? 2 : 0];
     const uint8_t *flag = m->flag;
@@ -47,11 +50,11 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
         const real own = meshed && flag[i] & FLAG_MESHED ? 0 : mass[i];
         const real speed2 = square(v0[i]) + (dim > 1 ? square(v1[i]) : 0) + (dim > 2 ? square(v2[i]) : 0);
         kinetic += own * speed2;
-        if (!all) continue;
+        if (wanted == SUM_ENERGY) continue;
         p0 += own * v0[i];
         if (dim > 1) p1 += own * v1[i];
         if (dim > 2) p2 += own * v2[i];
-        size += own * sqrt(speed2);
+        if (wanted == SUM_SIZES) size += own * sqrt(speed2);
     }
     to->kinetic += 0.5 * kinetic, to->size += size;
     to->momentum[0] += p0, to->momentum[1] += p1, to->momentum[2] += p2;
@@ -60,19 +63,19 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
 /* Calls add_motion for entries first .. end - 1 with the dimension of m as a constant. Skips them if the nodes of a
  * mesh move all of these particles. */
 static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to,
-                                       const bool all)
+                                       const enum motion_sums wanted)
 {
     const bool meshed = m->flag != NULL;
     if (meshed && all_meshed(m->flag, first, end)) return;
     switch (m->dim) {
     case 1:
-        meshed ? add_motion(m, first, end, to, 1, true, all) : add_motion(m, first, end, to, 1, false, all);
+        meshed ? add_motion(m, first, end, to, 1, true, wanted) : add_motion(m, first, end, to, 1, false, wanted);
         break;
     case 2:
-        meshed ? add_motion(m, first, end, to, 2, true, all) : add_motion(m, first, end, to, 2, false, all);
+        meshed ? add_motion(m, first, end, to, 2, true, wanted) : add_motion(m, first, end, to, 2, false, wanted);
         break;
     default:
-        meshed ? add_motion(m, first, end, to, 3, true, all) : add_motion(m, first, end, to, 3, false, all);
+        meshed ? add_motion(m, first, end, to, 3, true, wanted) : add_motion(m, first, end, to, 3, false, wanted);
         break;
     }
 }
@@ -86,15 +89,15 @@ static bool none_has_mass(const real *mass, int64_t first, int64_t end)
     return most == 0;
 }
 
-/* Returns the sums over entries first .. end - 1 of m: kinetic energy, momentum and |m v| if `all` is true, else the
- * kinetic energy alone, which needs no square roots. */
-static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end, const bool all)
+/* Returns the wanted sums over entries first .. end - 1 of m; the others are 0. */
+static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end,
+                                             const enum motion_sums wanted)
 {
     struct motion sum = {0};
     if (m->flag ? all_meshed(m->flag, first, end) : none_has_mass(m->mass, first, end)) return sum;
     for (int64_t to; first < end; first = to) {
         to = first + MOTION_PIECE < end ? first + MOTION_PIECE : end;
-        motion_piece(m, first, to, &sum, all);
+        motion_piece(m, first, to, &sum, wanted);
     }
     return sum;
 }
@@ -103,7 +106,7 @@ static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t fir
  * struct movers. */
 static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    sum[0] += motion_of(context, first, end, false).kinetic;
+    sum[0] += motion_of(context, first, end, SUM_ENERGY).kinetic;
 }
 
 static struct movers movers_of(const struct particles *p) { return (struct movers){p->dim, p->mass, p->v, p->flag}; }
@@ -157,12 +160,20 @@ real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_v
     return sum;
 }
 
-/* Adds the momentum of entries first .. end - 1 to sum[0 .. dim - 1] and their sum of |m v| to sum[dim] [kg m/s]; a
- * block function of reproducible_sums. context: a struct movers. */
+/* Adds the momentum of entries first .. end - 1 to sum[0 .. dim - 1] [kg m/s]; a block function of reproducible_sums.
+ * context: a struct movers. */
 static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct movers *m = context;
-    const struct motion motion = motion_of(m, first, end, true);
+    const struct motion motion = motion_of(m, first, end, SUM_MOMENTUM);
+    for (int d = 0; d < m->dim; d++) sum[d] += motion.momentum[d];
+}
+
+/* Adds the momentum by component, then the sum of |m v|, to sum [dim + 1]. */
+static void momentum_and_size_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct movers *m = context;
+    const struct motion motion = motion_of(m, first, end, SUM_SIZES);
     for (int d = 0; d < m->dim; d++) sum[d] += motion.momentum[d];
     sum[m->dim] += motion.size;
 }
@@ -266,18 +277,21 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
                             &(struct strain_sum){.p = p, .m = m, .partial = partial, .list = p->list[KIND_MPM]});
 }
 
-real particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum)
+void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum,
+                               real *size)
 {
+    void (*const block)(const void *, int64_t, int64_t, real *) = size ? momentum_and_size_block : momentum_block;
     const struct movers m = movers_of(p);
+    const int sums = p->dim + (size != NULL);
     real sum[DIM_MAX + 1], more[DIM_MAX + 1];
-    reproducible_sums(p->n, p->dim + 1, momentum_block, &m, sum);
+    reproducible_sums(p->n, sums, block, &m, sum);
     for (int g = 0; g < grids && nodes[g]->n > 0; g++) {
         const struct movers n = {nodes[g]->dim, nodes[g]->mass, nodes[g]->velocity, NULL};
-        reproducible_sums(nodes[g]->n, p->dim + 1, momentum_block, &n, more);
-        for (int k = 0; k <= p->dim; k++) sum[k] += more[k];
+        reproducible_sums(nodes[g]->n, sums, block, &n, more);
+        for (int k = 0; k < sums; k++) sum[k] += more[k];
     }
     for (int d = 0; d < p->dim; d++) momentum[d] = sum[d];
-    return sum[p->dim];
+    if (size) *size = sum[p->dim];
 }
 
 /* Computes the stresses p->stress of peridynamic particles from their bonds. The states of state-based models are

@@ -195,7 +195,7 @@ static void momentum_now(const struct particles *p, const struct reference_frame
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(frame, nodes);
-    particles_linear_momentum(p, nodes, grids, momentum);
+    particles_linear_momentum(p, nodes, grids, momentum, NULL);
 }
 
 /* Replaces momentum[dim], that after the step, by that at time t [s] of a sample: s->momentum before t and the one
