@@ -56,7 +56,7 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {
-    const unsigned intact = row_block_intact_lanes(b, g);
+    const unsigned intact = row_block_is_complete(b, g) ? 0 : row_block_intact_lanes(b, g);
     struct column_copy column;
     for (int lane = 0; lane < LANES; lane++)
         if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);

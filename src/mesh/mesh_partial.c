@@ -357,11 +357,16 @@ static real *lane_of(real *from, int64_t cell, int each)
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
 }
 
-/* Copies `each` numbers of one partial cell, LANES apart, to another one. from NULL: sets them to 0; to NULL: does
- * nothing. */
-static void lane_copy(real *to, real *from, int each)
+/* Copies `each` numbers of each of the partial cells from[LANES] of the previous array `old` to group `group` of the
+ * array `to`, lane by lane as they are stored, so that both arrays are read and written in order. A lane with from < 0
+ * keeps its values. */
+static void group_copy(real *to, real *old, const int64_t *from, int64_t group, int each)
 {
-    for (int k = 0; k < each && to; k++) to[k * LANES] = from ? from[k * LANES] : 0;
+    real *own = to + group * each * LANES;
+    const real *source[LANES];
+    for (int l = 0; l < LANES; l++) source[l] = from[l] >= 0 ? lane_of(old, from[l], each) : own + l;
+    for (int k = 0; k < each * LANES; k += LANES)
+        for (int l = 0; l < LANES; l++) own[k + l] = source[l][k];
 }
 
 /* Repeats the first cell of the last group of LANES partial cells until the group is full. The repeated cells have no
@@ -374,10 +379,12 @@ static void groups_fill(struct mesh *mesh)
 }
 
 /* Returns for each partial cell its index in the previous list `old`; -1 if its stiffness must be computed because it
- * is new or marked in `dirty` (NULL: all are). Release it with memory_free. */
+ * is new or marked in `dirty` (NULL: all are), and for the lanes that fill the last group. Release it with
+ * memory_free. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
-    int64_t *from = NEW("mesh.from", mesh->partial_cells, int64_t);
+    int64_t *from = BARE("mesh.from", mesh_partial_group_count(mesh) * LANES, int64_t);
+    for (int64_t k = mesh->partial_cells; k < mesh_partial_group_count(mesh) * LANES; k++) from[k] = -1;
     for (int64_t k = 0, q = 0; k < mesh->partial_cells; k++) {
         while (q < old->partial_cells && old->partial_cell[q] < mesh->partial_cell[k]) q++;
         from[k] = dirty && q < old->partial_cells && old->partial_cell[q] == mesh->partial_cell[k] &&
@@ -434,13 +441,11 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
     for (int64_t k = 0; k < groups * LANES; k++)
         mesh->partial_material[k] = partial_material(mesh, p, s, mesh->partial_cell[k]);
     int64_t *from = origins(mesh, old, dirty);
-#pragma omp parallel for schedule(dynamic, 16)
-    for (int64_t k = 0; k < mesh->partial_cells; k++) {
-        real *K = lane_of(mesh->stiffness, k, half);
-        if (from[k] < 0)
-            mesh_partial_cell_make(&c, mesh->partial_cell[k], K);
-        else
-            lane_copy(K, lane_of(old->stiffness, from[k], half), half);
+#pragma omp parallel for schedule(dynamic, 2)
+    for (int64_t g = 0; g < groups; g++) {
+        group_copy(mesh->stiffness, old->stiffness, from + g * LANES, g, half);
+        for (int64_t k = g * LANES; k < (g + 1) * LANES && k < mesh->partial_cells; k++)
+            if (from[k] < 0) mesh_partial_cell_make(&c, mesh->partial_cell[k], lane_of(mesh->stiffness, k, half));
     }
     alike_find(mesh, c.modes);
     mesh_slits_store_corners(mesh);
