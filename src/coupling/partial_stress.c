@@ -415,7 +415,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     renewal_make(&r, p, b, source, partial->table, changed, n);
     if (partial_table_is_filled(partial->table))
         partial_table_update(partial->table, p, b, source, all ? NULL : r.list, r.n);
-    real *M = NEW("partial.new", r.n * whole, real);
+    real *M = BARE("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
     entries_make(M, crossed, partial, &r, p, b, source);
     for (int64_t k = 0; k < r.n; k++) {

@@ -278,11 +278,10 @@ static void responses_room(struct partial_table *t, int64_t open)
     struct responses *a = &t->responses;
     const int64_t each = (int64_t)t->vectors * t->parts;
     if (open <= a->room) return;
-    const int64_t room = open + open / 4;
-    real *response = BARE("partial.answer", room * each, real);
-    array_copy(response, a->response, a->n * each, sizeof *response);
-    memory_free(a->response);
-    a->response = response;
+    const int64_t room = 2 * open; /* only entries that are written take memory */
+    a->response = a->response ? memory_resize_uninitialised("partial.answer", a->response, a->room * each, room * each,
+                                                            sizeof *a->response)
+                              : memory_new_sparse("partial.answer", room * each, sizeof *a->response);
     a->free = memory_resize("partial.free", a->free, a->room, room, sizeof *a->free);
     a->room = room;
 }
