@@ -142,8 +142,9 @@ struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
     struct row_block_found **found; /* [row blocks] neighbours found by search in the first pass, NULL: not kept */
-    int64_t *kept; /* [row blocks] previous row block that is taken over, -1: rebuilt; NULL: all are built */
-    bool count;    /* first pass: columns are only counted */
+    int64_t *kept;                  /* [row blocks] previous row block that is taken over, -1: the row block is made */
+    int64_t n, *list;               /* [n] row blocks that are made, in ascending order */
+    bool count;                     /* first pass: columns are only counted */
 };
 
 /* Returns true if one of the particles particle[rows] was in a row block of the previous rows whose weights have
@@ -222,36 +223,54 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Processes all row blocks (rows of eight particles each): copies those that are unchanged from the previous rows and
- * makes the others. Called twice, first to count columns, then to fill them, so that a list of all bonds never exists
- * twice. Updates b->reach. Returns the number of directed bonds. */
-static int64_t rows_pass(const struct rows_pass *pass)
+/* Finds the row blocks that are taken over from the previous rows, and lists the others, so that threads share these
+ * evenly. */
+static void rows_pass_begin(struct rows_pass *pass)
+{
+    struct bonds *b = pass->b;
+    const struct row_maker *m = &pass->maker;
+    pass->kept = BARE("bonds.kept", b->row_blocks, int64_t);
+    pass->list = BARE("bonds.list", b->row_blocks, int64_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t g = 0; g < b->row_blocks; g++) {
+        const int64_t from = pass->kept[g] = row_block_find_unchanged(b, m, g);
+        if (from >= 0) b->column_count[g] = m->old->column_count[from];
+    }
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        if (pass->kept[g] < 0) pass->list[pass->n++] = g;
+}
+
+/* Counts the columns of all row blocks (rows of eight particles each) that are made, or fills them. Called twice, so
+ * that a list of all bonds never exists twice. Updates b->reach. */
+static void rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
-    int64_t made = 0;
     int32_t reach = 0;
-#pragma omp parallel reduction(+ : made) reduction(max : reach)
+#pragma omp parallel reduction(max : reach)
     {
         struct row_block_buffer room = {0};
         row_block_buffer_make(&room, m->room, m->map);
 #pragma omp for schedule(static)
-        for (int64_t g = 0; g < pass->b->row_blocks; g++) {
-            if (pass->kept && pass->count) pass->kept[g] = row_block_find_unchanged(pass->b, m, g);
-            const int64_t from = pass->kept ? pass->kept[g] : -1;
-            if (from < 0)
-                pass->b->made[g] = (int32_t)row_block_pass(pass, &room, g);
-            else if (pass->count)
-                pass->b->column_count[g] = m->old->column_count[from];
-            else
-                row_block_copy_unchanged(pass->b, m->old, g, from);
-            made += pass->b->made[g];
-        }
+        for (int64_t k = 0; k < pass->n; k++)
+            pass->b->made[pass->list[k]] = (int32_t)row_block_pass(pass, &room, pass->list[k]);
         reach = room.reach;
         row_block_buffer_free(&room);
     }
     const int32_t row_blocks = (reach + LANES - 1) / LANES;
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
-    return made;
+}
+
+/* Copies the row blocks that are taken over, and counts the directed bonds of all. */
+static void rows_pass_end(const struct rows_pass *pass)
+{
+    struct bonds *b = pass->b;
+    int64_t made = 0;
+#pragma omp parallel for schedule(static) reduction(+ : made)
+    for (int64_t g = 0; g < b->row_blocks; g++) {
+        if (pass->kept[g] >= 0) row_block_copy_unchanged(b, pass->maker.old, g, pass->kept[g]);
+        made += b->made[g];
+    }
+    b->n = made;
 }
 
 /* Makes all row blocks (rows of eight particles each) of b in two passes. If previous rows exist, few row blocks
@@ -263,15 +282,17 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
     struct rows_pass pass = {.b = b,
                              .maker = maker,
                              .count = true,
-                             .kept = maker.old ? BARE("bonds.kept", b->row_blocks, int64_t) : NULL,
                              .found = maker.old ? NEW("bonds.found", b->row_blocks, struct row_block_found *) : NULL};
+    rows_pass_begin(&pass);
     rows_pass(&pass);
     columns_assign(b, &pass.maker, pass.kept);
     pass.count = false;
-    b->n = rows_pass(&pass);
-    for (int64_t g = 0; g < b->row_blocks && pass.found; g++) memory_free(pass.found[g]);
+    rows_pass(&pass);
+    rows_pass_end(&pass);
+    for (int64_t k = 0; k < pass.n && pass.found; k++) memory_free(pass.found[pass.list[k]]);
     memory_free(pass.found);
     memory_free(pass.kept);
+    memory_free(pass.list);
     memory_free(pairs.ratio);
 }
 
