@@ -27,7 +27,7 @@ enum { OWN_PAGES = 1 << 20 };
 /* Limits of the store of released blocks, in which blocks released on request wait for an array of similar size, mostly
  * the rebuilt one: the system takes longer to provide a page than to write one. KEPT: number of blocks; KEPT_LEAST,
  * KEPT_MOST: size of a block; KEPT_ALL: size of all blocks [byte]. */
-enum { KEPT = 64, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
+enum { KEPT = 256, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
 
 /* Elements allocated by the first growth of an array. */
 enum { GROWN_FIRST = 16 };

@@ -92,6 +92,7 @@ void contact_list_compute_arrays(struct contact *c, const struct particles *p)
     c->rise = BARE("contact.rise", c->n, real);
     c->root = BARE("contact.root", c->n, int32_t);
     c->size = BARE("contact.size", c->n, real);
+#pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < c->n; k++) {
         c->size[k] = contact_spacing(&c->law, p, c->particle[k]);
         c->rise[k] = contact_rise(&c->law, p, image_source_particle(p, c->law.image, c->particle[k]), c->size[k]);

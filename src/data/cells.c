@@ -14,7 +14,7 @@ static int64_t cells_cell_of(const struct cells *c, const real *X)
 {
     int64_t index = 0;
     for (int d = c->dim - 1; d >= 0; d--) {
-        int64_t k = (int64_t)floor((X[d] - c->origin[d]) / c->width);
+        int64_t k = (int64_t)((X[d] - c->origin[d]) / c->width); /* a negative one is the first, rounded or not */
         if (k < 0) k = 0;
         if (k >= c->count[d]) k = c->count[d] - 1;
         index = index * c->count[d] + k;
@@ -124,8 +124,9 @@ static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
 static inline void cells_within(const struct cells *c, const real *X, int d, real reach, int64_t *low, int64_t *high)
 {
     reach = reach * (1 + 1e-12) + 1e-15 * fabs(X[d]); /* round-off of the distance */
-    *low = (int64_t)floor((X[d] - reach - c->origin[d]) / c->width);
-    *high = (int64_t)floor((X[d] + reach - c->origin[d]) / c->width);
+    /* rounded towards 0: negative indices, which are rare, are no cells or the first */
+    *low = (int64_t)((X[d] - reach - c->origin[d]) / c->width);
+    *high = (int64_t)((X[d] + reach - c->origin[d]) / c->width);
     if (*low < 0) *low = 0;
     if (*high >= c->count[d]) *high = c->count[d] - 1;
 }
