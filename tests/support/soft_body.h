@@ -18,7 +18,7 @@ static inline void soft_bonds(struct soft_body *s, enum softening law, real onse
     s->curve = softening_curve_of(law);
     cloud_source(&s->c);
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++)
-        s->pair[k] = (struct softening_pair){onset, false}, s->c.limit[k] = critical;
+        s->pair[k] = (struct softening_pair){.onset = onset}, s->c.limit[k] = critical;
     s->c.source.yield.stretch = NULL;
     s->c.source.limit.softening = s->pair, s->c.source.limit.curve = &s->curve;
     s->c.source.limit.last_force = LAST_FORCE_NONE;
