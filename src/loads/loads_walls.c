@@ -265,8 +265,8 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *he
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Adds the mass that the points of `load` contribute to each node I to share[mesh->grid.n] [kg], and sets mark[I] = 1 for
- * these nodes. share is valid at marked nodes alone; `mark` is zeroed by the caller. */
+/* Adds the mass that the points of `load` contribute to each node I to share[mesh->grid.n] [kg], and sets mark[I] = 1
+ * for these nodes. share is valid at marked nodes alone; `mark` is zeroed by the caller. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {

@@ -192,8 +192,8 @@ void resolve_safety(struct reader *r, const struct yaml_node *root)
 }
 
 /* Sets the default of contact.between. There is contact if the scene has several bodies, rigid bodies or cracks, except
- * with static solvers or where bonds soften in load steps. root: tree of the scene. Returns REFUSED for contact settings
- * that contradict the solver or the model. */
+ * with static solvers or where bonds soften in load steps. root: tree of the scene. Returns REFUSED for contact
+ * settings that contradict the solver or the model. */
 status resolve_contact(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
