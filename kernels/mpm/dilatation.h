@@ -29,9 +29,17 @@ static ALWAYS_INLINE bool mean_shared(const struct particles *p, int32_t i, int3
     return p->material[i] == p->material[j] && p->body[i] == p->body[j];
 }
 
-/* Replaces value[k] of the n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of
- * its body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined,
- * so that the code for other materials contains none of it. */
+/* Returns true if the n listed points all share one mean. */
+static ALWAYS_INLINE bool mean_of_all(const struct particles *p, const int32_t *list, int n)
+{
+    bool same = true;
+    for (int k = 1; k < n; k++) same &= mean_shared(p, list[0], list[k]);
+    return same;
+}
+
+/* Replaces value[k] of the n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of its
+ * body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined, so
+ * that the code for other materials contains none of it. */
 static NEVER_INLINE void differences_from_mean(const struct particles *p, const struct transfer_data *t,
                                                const int32_t *list, int n, real *value)
 {

@@ -5,14 +5,14 @@
 #include "kernels/laws/law_update.h"
 #include "stress.h"
 
-typedef real points_anywhere __attribute__((vector_size(POINTS * sizeof(real)), aligned(sizeof(real)), may_alias));
-
-/* Points whose return mapping is due. They are collected from several cells, since a cell has fewer points than a
- * vector has lanes. Their trial stresses are those of the particles. */
+/* Points whose return mapping is due, with what it reads. They are collected from several cells, since a cell has fewer
+ * points than a vector has lanes. */
 enum { FLOW_ROOM = LANES + POINTS };
 struct flow_points {
     int n;                                /* fewer than LANES between cells */
     int32_t point[FLOW_ROOM];             /* numbers of the points */
+    real stress[SYM_MAX][FLOW_ROOM];      /* trial stresses [Pa] */
+    real volume[FLOW_ROOM];               /* volumes at the end of the step [m^3] */
     real L[DIM_MAX * DIM_MAX][FLOW_ROOM]; /* velocity gradients of the step [1/s] */
 };
 
@@ -51,7 +51,23 @@ static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, 
     m->rate = lanes_square_root(lanes_max(2.0 / 3 * square, lanes_broadcast(1e-200)));
 }
 
-/* Returns lanes l to l + POINTS - 1 of the eight values *a. */
+/* Returns the entries from[point[l]] of an array. Eight loads take half the time of a gather instruction. */
+static ALWAYS_INLINE lanes flow_pick(const real *from, const int32_t *point)
+{
+    return (lanes){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
+                   from[point[4]], from[point[5]], from[point[6]], from[point[7]]};
+}
+
+/* Stores the first n lanes of a to to[point[l]]. */
+static ALWAYS_INLINE void flow_put(real *to, const int32_t *point, lanes a, int n)
+{
+    if (n == LANES)
+        for (int l = 0; l < LANES; l++) to[point[l]] = a[l];
+    else
+        for (int l = 0; l < n; l++) to[point[l]] = a[l];
+}
+
+/* Returns lanes l to l + POINTS - 1 of a. */
 static ALWAYS_INLINE row_of_points lanes_part(const lanes *a, int l)
 {
     return (row_of_points) * (const points_anywhere *)((const real *)a + l);
@@ -74,12 +90,11 @@ static NEVER_INLINE void flow_load_back(const struct particles *p, const int32_t
     if (dim == 2) e->back[2] = -e->back[0] - e->back[1];
 }
 
-/* Loads the plastic state and the stresses of eight points into *e, for law_update. m: constants of their material;
- * point: numbers of the points; stress: their trial stresses, symmetric components [Pa]; motion: their motion in the
- * step. */
+/* Loads the state of eight points into e. m: constants of their material; stress, volume: their trial stresses [Pa] and
+ * volumes [m^3]. */
 static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elastic *m, const int32_t *point,
-                                    const lanes *stress, const struct flow_motion *motion, struct law_points *e,
-                                    const int dim)
+                                    const lanes *stress, lanes volume, const struct flow_motion *motion,
+                                    struct law_points *e, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
     const lanes none = lanes_broadcast(0);
@@ -95,37 +110,52 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
         e->back[c] = none;
     }
     if (p->back_stress[0]) flow_load_back(p, point, motion, e, dim);
-    e->volume = lanes_gather(p->volume, point) / lanes_gather(p->volume0, point);
+    e->volume = volume / flow_pick(p->volume0, point);
     e->volume_before = e->volume / (1.0 + motion->trace), e->thins = true;
-    e->a = lanes_gather(p->plastic_strain, point), e->work = lanes_gather(p->plastic_work, point);
+    e->a = flow_pick(p->plastic_strain, point), e->work = flow_pick(p->plastic_work, point);
     e->rate = motion->rate;
-    e->temperature =
-        p->temperature ? lanes_gather(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
+    e->temperature = p->temperature ? flow_pick(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Clears FLAG_STRESSED of point i of a material m that has yielded, if its largest principal stress does not exceed the
- * conversion stress. stress: symmetric components after the return mapping [Pa]. */
-static ALWAYS_INLINE void point_unmark(struct particles *p, const struct elastic *m, int64_t i, const real *stress,
-                                       const int dim)
+/* Clears FLAG_STRESSED of those of the points whose bits `flowed` are set, which have yielded, whose largest principal
+ * stress does not exceed the conversion stress. m: their material; e: their state after the return mapping. */
+static ALWAYS_INLINE void flow_unmark(struct particles *p, const struct elastic *m, const struct law_points *e,
+                                      unsigned flowed, const int32_t *point, const int dim)
 {
-    if (!(p->flag[i] & FLAG_STRESSED)) return;
-    const real trigger = point_conversion_stress(m, p, i);
-    if (!(stress_principal_bound(stress, dim) > trigger && stress_largest_principal(stress, dim) > trigger))
-        p->flag[i] &= (uint8_t)~FLAG_STRESSED;
+    for (int l = 0; l < LANES; l++) {
+        if (!(flowed >> l & 1 && p->flag[point[l]] & FLAG_STRESSED)) continue;
+        const real trigger = point_conversion_stress(m, p, point[l]);
+        real stress[SYM_MAX];
+        for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = e->s[law_place[dim][c]][l];
+        if (!(stress_principal_bound(stress, dim) > trigger && stress_largest_principal(stress, dim) > trigger))
+            p->flag[point[l]] &= (uint8_t)~FLAG_STRESSED;
+    }
 }
 
-/* Stores the plastic state and stress in lane l of *e, of a point that has yielded, to point i of the particles. m:
- * constants of its material. */
-static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *m, const struct law_points *e, int l,
-                                     int64_t i, const int dim)
+/* Stores volume or stress across the plane of those of the points whose bits `flowed` are set. m: their material; e:
+ * their state after the return mapping. */
+static NEVER_INLINE void flow_store_across(struct particles *p, const struct elastic *m, const struct law_points *e,
+                                           unsigned flowed, const int32_t *point)
 {
-    real stress[SYM_MAX];
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) p->stress[c][i] = stress[c] = e->s[law_place[dim][c]][l];
-    if (m->space == SPACE_PLANE_STRESS || m->space == SPACE_LINE) p->volume[i] = e->volume[l] * p->volume0[i];
-    if (m->space == SPACE_PLANE_STRAIN) p->out_of_plane[i] = e->s[2][l] - m->poisson * (e->s[0][l] + e->s[1][l]);
-    p->plastic_strain[i] = e->a[l], p->plastic_work[i] = e->work[l];
-    if (p->temperature) p->temperature[i] = e->temperature[l];
-    point_unmark(p, m, i, stress, dim);
+    const lanes across = e->s[2] - m->poisson * (e->s[0] + e->s[1]);
+    for (int l = 0; l < LANES; l++)
+        if (flowed >> l & 1 && m->space == SPACE_PLANE_STRAIN)
+            p->out_of_plane[point[l]] = across[l];
+        else if (flowed >> l & 1)
+            p->volume[point[l]] = e->volume[l] * p->volume0[point[l]];
+}
+
+/* Stores the state of those of n points of material m whose bits `flowed` are set, which have yielded; the others keep
+ * theirs. stress[]: receives their stress, component by component [Pa]. */
+static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *m, const struct law_points *e,
+                                     unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
+{
+    const lanes_mask own = lanes_mask_from_bits((uint8_t)flowed);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_choose(own, e->s[law_place[dim][c]], stress[c]);
+    if (m->space != SPACE_SOLID) flow_store_across(p, m, e, flowed, point);
+    flow_put(p->plastic_strain, point, e->a, n), flow_put(p->plastic_work, point, e->work, n);
+    if (p->temperature) flow_put(p->temperature, point, e->temperature, n);
+    flow_unmark(p, m, e, flowed, point, dim);
 }
 
 /* Stores the back stresses of eight points in the lanes whose bits are set in lanes_set; their components turn with the
@@ -146,12 +176,15 @@ static ALWAYS_INLINE void flow_remove(struct flow_points *due, int n, const int 
     if (due->n == 0) return;
     for (int k = 0; k < due->n; k++) due->point[k] = due->point[n + k];
     for (int k = 0; k < dim * dim; k++) *(points_anywhere *)due->L[k] = *(const points_anywhere *)(due->L[k] + n);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++)
+        *(points_anywhere *)due->stress[c] = *(const points_anywhere *)(due->stress[c] + n);
+    *(points_anywhere *)due->volume = *(const points_anywhere *)(due->volume + n);
 }
 
 /* Maps the trial stresses of the first points of `due`, at most LANES, back to their yield surfaces if their materials
- * yield, stores stress, plastic strain, plastic work, back stress and temperature of those that do, clears their
- * FLAG_STRESSED if the resulting stress does not exceed the conversion stress, and removes the points. Their volumes
- * and trial stresses must have been stored. Points of several materials: law by law. */
+ * yield, stores stress, plastic strain, plastic work, back stress and temperature, clears FLAG_STRESSED of those that
+ * yield if the resulting stress does not exceed the conversion stress, and removes the points. Their volumes must have
+ * been stored. Points of several materials: law by law. */
 static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_data *t, struct flow_points *due,
                                      const int dim)
 {
@@ -163,7 +196,7 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
     unsigned left = (1u << n) - 1;
     for (int l = 0; l < LANES; l++) point[l] = due->point[int_min(l, n - 1)];
     for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(due->L[k]);
-    for (int c = 0; c < parts; c++) stress[c] = lanes_gather(p->stress[c], point);
+    for (int c = 0; c < parts; c++) stress[c] = lanes_load(due->stress[c]);
     flow_motion_of(&motion, L, t->dt, t->elastic[p->material[point[0]]].space, dim);
     while (left) {
         const struct elastic *m = &t->elastic[p->material[point[__builtin_ctz(left)]]];
@@ -171,21 +204,23 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
         for (int l = 0; l < n; l++) own |= (unsigned)(left >> l & 1 && &t->elastic[p->material[point[l]]] == m) << l;
         left &= ~own;
         if (!m->law) continue;
-        flow_load(p, m, point, stress, &motion, &e, dim);
+        flow_load(p, m, point, stress, lanes_load(due->volume), &motion, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m->law, &e, m->space, LAW_EXPLICIT);
         if (p->back_stress[0]) flow_store_back(p, &e, own, point, dim);
-        for (int l = 0; l < n && flowed; l++)
-            if (flowed >> l & 1) flow_store(p, m, &e, l, point[l], dim);
+        if (flowed) flow_store(p, m, &e, flowed, point, n, stress, dim);
     }
+    for (int c = 0; c < parts; c++) flow_put(p->stress[c], point, stress[c], n);
     flow_remove(due, n, dim);
 }
 
-/* Adds n points to the list `due` of those whose return mapping is due. point: their numbers, filled up to AT_ONCE; L:
- * their velocity gradients [1/s]. */
+/* Adds n points to those whose return mapping is due. point: their numbers, filled up to AT_ONCE; L: their velocity
+ * gradients [1/s]; stress, volume: their trial stresses [Pa] and volumes [m^3]. */
 static ALWAYS_INLINE void flow_add(struct flow_points *due, const int32_t *point, int n, const row_of_points *L,
-                                   const int dim)
+                                   const row_of_points *stress, row_of_points volume, const int dim)
 {
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) *(points_anywhere *)(due->stress[c] + due->n) = stress[c];
+    *(points_anywhere *)(due->volume + due->n) = volume;
     for (int k = 0; k < AT_ONCE(dim); k++) due->point[due->n + k] = point[k];
     for (int k = 0; k < dim * dim; k++) *(points_anywhere *)(due->L[k] + due->n) = L[k];
     due->n += n;

@@ -1,27 +1,42 @@
-/* Vectors of the four nodes of a row of grid nodes, or of as many material points as fit into a register, one node or
- * point per lane. Interpolation from nodes to points has points in the lanes, summation from points to nodes has nodes
- * in the lanes: neither adds across lanes. */
+/* Vectors of the nodes of a row of grid nodes, or of as many material points as fit into a register, one node or point
+ * per lane. Interpolation from nodes to points has points in the lanes, summation from points to nodes has nodes in the
+ * lanes: neither adds across lanes.
+ *
+ * A file that is to have other widths defines ROW_NODES, the number of nodes of a row, and POINTS_MOST, the largest
+ * number of points at once, before it includes this header: the usual numbers in a cell. */
 #ifndef CLEAVE_KERNELS_ROW
 #define CLEAVE_KERNELS_ROW
 
 #include "base/base.h"
 
+#ifndef ROW_NODES
+#define ROW_NODES 4
+#endif
+#ifndef POINTS_MOST
+#define POINTS_MOST 4
+#endif
+#if defined __AVX512F__ && POINTS_MOST == 8
+#define POINTS_LANES 8
+#elif defined __AVX__
+#define POINTS_LANES 4
+#else
+#define POINTS_LANES 2
+#endif
 #ifdef __AVX__
 #include <immintrin.h>
-enum { ROW = 4, POINTS = 4 };
-#else
-enum { ROW = 4, POINTS = 2 };
 #endif
+enum { ROW = ROW_NODES, POINTS = POINTS_LANES };
 
 typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
 typedef real row_anywhere __attribute__((vector_size(ROW * sizeof(real)), aligned(sizeof(real)), may_alias));
 typedef real pair_of_nodes __attribute__((vector_size(2 * sizeof(real))));
 typedef real pair_anywhere __attribute__((vector_size(2 * sizeof(real)), aligned(sizeof(real)), may_alias));
 typedef real row_of_points __attribute__((vector_size(POINTS * sizeof(real))));
+typedef real points_anywhere __attribute__((vector_size(POINTS * sizeof(real)), aligned(sizeof(real)), may_alias));
 typedef int64_t points_mask __attribute__((vector_size(POINTS * sizeof(int64_t))));
 
 /* Returns a vector of ROW nodes whose entries are a. */
-static ALWAYS_INLINE row_of_nodes row_broadcast(real a) { return (row_of_nodes){a, a, a, a}; }
+static ALWAYS_INLINE row_of_nodes row_broadcast(real a) { return a - (row_of_nodes){0}; }
 
 /* Returns a vector of POINTS material points whose entries are a. */
 static ALWAYS_INLINE row_of_points points_broadcast(real a) { return a - (row_of_points){0}; }
@@ -29,7 +44,9 @@ static ALWAYS_INLINE row_of_points points_broadcast(real a) { return a - (row_of
 /* Returns a in lanes where `sign` is negative, else b. */
 static ALWAYS_INLINE row_of_points points_choose(row_of_points sign, row_of_points a, row_of_points b)
 {
-#ifdef __AVX__
+#if POINTS_LANES == 8
+    return (row_of_points)_mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)sign), (__m512d)b, (__m512d)a);
+#elif POINTS_LANES == 4
     return (row_of_points)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)sign);
 #else
     const points_mask mask = sign < 0;
@@ -40,7 +57,9 @@ static ALWAYS_INLINE row_of_points points_choose(row_of_points sign, row_of_poin
 /* Returns the larger of a and b in each lane of two vectors of material points. */
 static ALWAYS_INLINE row_of_points points_max(row_of_points a, row_of_points b)
 {
-#ifdef __AVX__
+#if POINTS_LANES == 8
+    return (row_of_points)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif POINTS_LANES == 4
     return (row_of_points)_mm256_max_pd((__m256d)a, (__m256d)b);
 #else
     return points_choose(b - a, a, b);
@@ -50,7 +69,9 @@ static ALWAYS_INLINE row_of_points points_max(row_of_points a, row_of_points b)
 /* Returns the smaller of a and b in each lane of two vectors of material points. */
 static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 {
-#ifdef __AVX__
+#if POINTS_LANES == 8
+    return (row_of_points)_mm512_min_pd((__m512d)a, (__m512d)b);
+#elif POINTS_LANES == 4
     return (row_of_points)_mm256_min_pd((__m256d)a, (__m256d)b);
 #else
     return points_choose(a - b, a, b);
@@ -67,12 +88,30 @@ static ALWAYS_INLINE row_of_points points_absolute(row_of_points a)
 /* Returns a bit mask of a vector of material points: bit k is set where lane k is negative. */
 static ALWAYS_INLINE int points_sign_bits(row_of_points a)
 {
-#ifdef __AVX__
+#if POINTS_LANES == 8
+    return _mm512_movepi64_mask((__m512i)a);
+#elif POINTS_LANES == 4
     return _mm256_movemask_pd((__m256d)a);
 #else
     const points_mask bits = (points_mask)a;
     return (bits[0] < 0) | (bits[1] < 0) << 1;
 #endif
+}
+
+/* Returns a in the first n lanes, 0 in the others. */
+static ALWAYS_INLINE row_of_points points_first(row_of_points a, int n)
+{
+    row_of_points lane;
+    for (int k = 0; k < POINTS; k++) lane[k] = k;
+    return points_choose(lane - n, a, points_broadcast(0));
+}
+
+/* Returns the sum of all lanes of a. */
+static ALWAYS_INLINE real points_sum(row_of_points a)
+{
+    real sum = a[0];
+    for (int k = 1; k < POINTS; k++) sum += a[k];
+    return sum;
 }
 
 /* Returns the number of material points processed at once: the usual number per cell, two in 1D. Unused vector entries
@@ -97,9 +136,14 @@ static ALWAYS_INLINE bool points_are_the_same(const int32_t *point, const int di
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
     if (points_are_the_same(point, dim)) return points_broadcast(from[point[0]]);
+#if POINTS_LANES == 8
+    return (row_of_points){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
+                           from[point[4]], from[point[5]], from[point[6]], from[point[7]]};
+#else
     row_of_points a;
     for (int k = 0; k < POINTS; k++) a[k] = from[point[k % AT_ONCE(dim)]];
     return a;
+#endif
 }
 
 /* Stores lane k of a in to[point[k]] for the listed points. Lanes that hold the same point must have equal values. */
@@ -110,25 +154,45 @@ static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_po
     for (int k = 1; k < AT_ONCE(dim); k++) to[point[k]] = a[k];
 }
 
-/* Transposes ROW vectors with one lane per point to POINTS vectors with one lane per node. */
-static ALWAYS_INLINE void rows_transpose(const row_of_points from[ROW], row_of_nodes to[POINTS])
-{
+#if ROW_NODES == 4
 #ifdef __AVX__
-#define EVEN(u, v) VECTOR_PICK(points_mask, u, v, 0, 4, 2, 6)
-#define ODD(u, v) VECTOR_PICK(points_mask, u, v, 1, 5, 3, 7)
-#define FIRST(u, v) VECTOR_PICK(points_mask, u, v, 0, 1, 4, 5)
-#define LAST(u, v) VECTOR_PICK(points_mask, u, v, 2, 3, 6, 7)
-    const row_of_points a = EVEN(from[0], from[1]), b = ODD(from[0], from[1]);
-    const row_of_points c = EVEN(from[2], from[3]), d = ODD(from[2], from[3]);
+typedef real four_points __attribute__((vector_size(4 * sizeof(real))));
+typedef int64_t four_mask __attribute__((vector_size(4 * sizeof(int64_t))));
+
+/* Transposes four vectors of four entries. */
+static ALWAYS_INLINE void fours_transpose(const four_points from[4], four_points to[4])
+{
+#define EVEN(u, v) VECTOR_PICK(four_mask, u, v, 0, 4, 2, 6)
+#define ODD(u, v) VECTOR_PICK(four_mask, u, v, 1, 5, 3, 7)
+#define FIRST(u, v) VECTOR_PICK(four_mask, u, v, 0, 1, 4, 5)
+#define LAST(u, v) VECTOR_PICK(four_mask, u, v, 2, 3, 6, 7)
+    const four_points a = EVEN(from[0], from[1]), b = ODD(from[0], from[1]);
+    const four_points c = EVEN(from[2], from[3]), d = ODD(from[2], from[3]);
     to[0] = FIRST(a, c), to[1] = FIRST(b, d);
     to[2] = LAST(a, c), to[3] = LAST(b, d);
 #undef EVEN
 #undef ODD
 #undef FIRST
 #undef LAST
+}
+#endif
+
+/* Transposes ROW vectors with one lane per point to POINTS vectors with one lane per node. */
+static ALWAYS_INLINE void rows_transpose(const row_of_points from[ROW], row_of_nodes to[POINTS])
+{
+#if POINTS_LANES == 8
+    four_points half[2][ROW];
+    for (int k = 0; k < ROW; k++) {
+        half[0][k] = (four_points)_mm512_castpd512_pd256((__m512d)from[k]);
+        half[1][k] = (four_points)_mm512_extractf64x4_pd((__m512d)from[k], 1);
+    }
+    fours_transpose(half[0], to), fours_transpose(half[1], to + 4);
+#elif POINTS_LANES == 4
+    fours_transpose(from, to);
 #else
     for (int k = 0; k < POINTS; k++) to[k] = (row_of_nodes){from[0][k], from[1][k], from[2][k], from[3][k]};
 #endif
 }
+#endif
 
 #endif

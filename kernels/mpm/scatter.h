@@ -17,6 +17,18 @@ static ALWAYS_INLINE bool prefetch_is_due(const int32_t *list, int k, int64_t *i
 /* Prefetches the cache line of *at for reading. */
 static ALWAYS_INLINE void prefetch_line(const real *at) { __builtin_prefetch(at, 0, 3); }
 
+/* Prefetches mass, position, velocity and spin of the point ORDER_AHEAD entries after entry k of the list; once per
+ * cache line. turn: of transfer_data. */
+static ALWAYS_INLINE void motion_fetch(const struct particles *p, real *const *turn, const int32_t *list, int k,
+                                       const int dim)
+{
+    int64_t i;
+    if (!prefetch_is_due(list, k, &i)) return;
+    prefetch_line(p->mass + i);
+    for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i), prefetch_line(p->v[d] + i);
+    for (int c = dim == 2 ? 2 : 0; c < 3 && turn[2]; c++) prefetch_line(turn[c] + i);
+}
+
 /* Body of an instance for dimension D: evaluates CALL, an expression in `nodes`, `points`, `data`, `list` and `n`, for
  * the n listed points of every cell in the order of TRANSFER. Threads share the blocks of a colour; one colour follows
  * the other. The parallel region is inside the instance, where the literals of CALL are known; `nodes`, `points` and

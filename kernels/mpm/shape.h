@@ -96,17 +96,17 @@ static ALWAYS_INLINE void shape_functions_of_row(const enum shape shape, row_of_
 /* ---- nodes of a cell ---------------------------------------------------------------------------------------------
  *
  * The points of a cell share a patch of nodes: rows of four along x, side by side in the directions across. Linear
- * shapes reach only the corners; in two and three dimensions their row holds the four corners of a face z = const
- * instead, so that no lane of a vector is idle. */
+ * shapes reach only the corners; in two and three dimensions their one row holds all corners of the cell instead, so
+ * that no lane of a vector is idle. Bit d of the number of a corner is set on the upper side in direction d. */
 
 enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 
-#define IS_FACE(dim, shape) ((shape) == SHAPE_LINEAR && (dim) > 1)
-/* Number of axes along which the four nodes of a row differ: two for the corners of a face, else one (x). */
-#define ROW_DIMS(dim, shape) (IS_FACE(dim, shape) ? 2 : 1)
+#define HAS_CORNERS(dim, shape) ((shape) == SHAPE_LINEAR && (dim) > 1)
+/* Number of axes along which the nodes of a row differ: all for the corners of a cell, else one (x). */
+#define ROW_DIMS(dim, shape) (HAS_CORNERS(dim, shape) ? (dim) : 1)
 /* Number of rows of nodes along y and along z, around one cell, that a shape function can reach; and their product. */
-#define ROWS_Y(dim, shape) ((dim) > 1 && !IS_FACE(dim, shape) ? ACROSS : 1)
-#define ROWS_Z(dim, shape) ((dim) > 2 ? IS_FACE(dim, shape) ? 2 : ACROSS : 1)
+#define ROWS_Y(dim, shape) ((dim) > 1 && !HAS_CORNERS(dim, shape) ? ACROSS : 1)
+#define ROWS_Z(dim, shape) ((dim) > 2 && !HAS_CORNERS(dim, shape) ? ACROSS : 1)
 #define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
 
 /* True if only those rows of nodes are visited that a point touches: in 3D for shapes with three nodes per direction.
@@ -114,7 +114,7 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
 
 /* Loop over the nodes k of a row; leaves out the two outer nodes of linear shapes, whose weights are 0. */
-#define ROW_END(dim, shape) ((shape) == SHAPE_LINEAR && !IS_FACE(dim, shape) ? 1 : 0)
+#define ROW_END(dim, shape) ((shape) == SHAPE_LINEAR && !HAS_CORNERS(dim, shape) ? 1 : 0)
 #define FOR_NODES(dim, shape) for (int k = ROW_END(dim, shape); k < ROW - ROW_END(dim, shape); k++)
 
 /* Loops over the rows of nodes k1 (along y), k2 (along z) around a cell: FOR_ROWS over all rows, FOR_TOUCHED over the
@@ -147,7 +147,7 @@ static ALWAYS_INLINE struct cell cell_containing_point(const struct grid *g, con
     for (int d = 0; d < dim; d++) {
         const int64_t k = grid_cell_index_at(g, d, p->x[d][i]);
         c.place[d] = (real)k;
-        c.node += (k - (IS_FACE(dim, shape) ? 0 : 1) - g->first[d]) * g->stride[d];
+        c.node += (k - (HAS_CORNERS(dim, shape) ? 0 : 1) - g->first[d]) * g->stride[d];
     }
     return c;
 }
@@ -162,19 +162,60 @@ static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const str
 /* Returns the index of node k of a row of four nodes, relative to the index of the first node of the row. */
 static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const int dim, const enum shape shape)
 {
-    return IS_FACE(dim, shape) ? k % 2 + k / 2 * g->stride[1] : k;
+    return HAS_CORNERS(dim, shape) ? k % 2 + k / 2 % 2 * g->stride[1] + k / 4 * g->stride[2] : k;
 }
 
 /* Adds the values a of the four nodes of a row to a nodal array. to: its entry of the first node of the row. */
 static ALWAYS_INLINE void nodes_add_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
                                         const enum shape shape)
 {
-    if (IS_FACE(dim, shape)) {
-        *(pair_anywhere *)to += (pair_of_nodes){a[0], a[1]};
-        *(pair_anywhere *)(to + g->stride[1]) += (pair_of_nodes){a[2], a[3]};
-    } else {
+    if (!HAS_CORNERS(dim, shape)) {
         *(row_anywhere *)to += a;
+        return;
     }
+    for (int k = 0; k < ROW; k += 2)
+        *(pair_anywhere *)(to + row_node_offset(g, k, dim, shape)) += (pair_of_nodes){a[k], a[k + 1]};
+}
+
+/* Returns the eight or four corners of a cell in lanes: 1 on the upper side in direction d, 0 on the lower. */
+static ALWAYS_INLINE row_of_nodes corner_sides(int d)
+{
+#if ROW_NODES == 8
+    return d == 0   ? (row_of_nodes){0, 1, 0, 1, 0, 1, 0, 1}
+           : d == 1 ? (row_of_nodes){0, 0, 1, 1, 0, 0, 1, 1}
+                    : (row_of_nodes){0, 0, 0, 0, 1, 1, 1, 1};
+#else
+    return d == 0 ? (row_of_nodes){0, 1, 0, 1} : (row_of_nodes){0, 0, 1, 1};
+#endif
+}
+
+/* Computes the coefficients c[2^dim] of the polynomial that interpolates a nodal field linearly between the corners of
+ * a cell: c[k] is that of the product of those coordinates t_d whose bits d are set in k. at: entry of the field at the
+ * lowest corner. */
+static ALWAYS_INLINE void corner_polynomial(real *c, const struct grid *g, const real *at, const int dim)
+{
+#pragma GCC unroll 8
+    for (int k = 0; k < 1 << dim; k++) c[k] = at[row_node_offset(g, k, dim, SHAPE_LINEAR)];
+#pragma GCC unroll 3
+    for (int side = 1; side < 1 << dim; side *= 2)
+#pragma GCC unroll 8
+        for (int k = 0; k < 1 << dim; k++)
+            if (k & side) c[k] -= c[k - side];
+}
+
+/* Returns the value of the polynomial c (corner_polynomial) at a few points, and stores its derivatives by t_d in
+ * slope[dim]. t: positions of the points in the cell, in node distances. */
+static ALWAYS_INLINE row_of_points corner_interpolate(const real *c, const row_of_points *t, row_of_points *slope,
+                                                      const int dim)
+{
+    if (dim == 2) {
+        slope[0] = c[1] + t[1] * c[3], slope[1] = c[2] + t[0] * c[3];
+        return (c[0] + t[1] * c[2]) + t[0] * slope[0];
+    }
+    const row_of_points y = c[2] + t[2] * c[6], xy = c[3] + t[2] * c[7];
+    slope[0] = (c[1] + t[2] * c[5]) + t[1] * xy, slope[1] = y + t[0] * xy;
+    slope[2] = (c[4] + t[1] * c[6]) + t[0] * (c[5] + t[1] * c[7]);
+    return (c[0] + t[2] * c[4]) + t[1] * y + t[0] * slope[0];
 }
 
 /* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
@@ -182,10 +223,10 @@ static ALWAYS_INLINE void nodes_add_row(const struct grid *g, real *to, row_of_n
 /* Weights and slopes of the shape functions of a few points of a cell, one point per lane. Weights of a node are the
  * product of N of its place in the row and the factors A of the row. */
 struct cell_stencil {
-    int32_t point[POINTS];           /* padded with the last point */
-    row_of_points x[DIM_MAX];        /* position [m] */
-    row_of_points t[DIM_MAX];        /* place in the cell [1] */
-    row_of_points N[ROW], D[2][ROW]; /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
+    int32_t point[POINTS];                       /* padded with the last point */
+    row_of_points x[DIM_MAX];                    /* position [m] */
+    row_of_points t[DIM_MAX];                    /* place in the cell [1] */
+    row_of_points N[ROW], D[DIM_MAX][ROW];       /* of the nodes of a row: weights [1], slopes along it [1/m] */
     row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D by point, of maps to nodes */
     /* factors of the rows by direction across: weights [1], slopes [1/m] */
     row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS];
@@ -195,27 +236,26 @@ struct cell_stencil {
 
 /* Weights N [1] of the nodes of a row at one point, and their slopes D in the directions along the row [1/m]. */
 struct touch {
-    row_of_nodes N, D[2];
+    row_of_nodes N, D[DIM_MAX];
 };
 
 /* Largest half width of a cpGIMP particle in node distances: the four nodes of a row allow no more. A particle that is
  * stretched further keeps this width, and numerical fracture begins: with two particles per cell at a stretch of 4. */
 #define HALF_WIDTH_MOST 1
 
-/* Computes the weights and slopes in s of linear shape functions in 2D and 3D, where the four nodes of a "row" are the
- * corners of a cell face z = const: products of two hat functions, and in 3D the factors along z. inverse: 1/h
- * [1/m]. */
-static ALWAYS_INLINE void stencil_compute_face_weights(struct cell_stencil *s, real inverse, const int dim)
+/* Computes the weights and slopes in s of linear shape functions in 2D and 3D, where a row holds the corners of the
+ * cell: products of hat functions. inverse: 1/h [1/m]. */
+static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s, real inverse, const int dim)
 {
-    const row_of_points X[2] = {1 - s->t[0], s->t[0]}, Y[2] = {1 - s->t[1], s->t[1]};
     for (int k = 0; k < ROW; k++) {
-        s->N[k] = X[k % 2] * Y[k / 2];
-        s->D[0][k] = Y[k / 2] * (k % 2 ? inverse : -inverse);
-        s->D[1][k] = X[k % 2] * (k / 2 ? inverse : -inverse);
+        s->N[k] = points_broadcast(1);
+        for (int d = 0; d < dim; d++) {
+            s->N[k] *= k >> d & 1 ? s->t[d] : 1 - s->t[d];
+            s->D[d][k] = points_broadcast(k >> d & 1 ? inverse : -inverse);
+            for (int e = 0; e < dim; e++)
+                if (e != d) s->D[d][k] *= k >> e & 1 ? s->t[e] : 1 - s->t[e];
+        }
     }
-    if (dim < 3) return;
-    s->A[2][0] = 1 - s->t[2], s->A[2][1] = s->t[2];
-    s->B[2][0] = points_broadcast(-inverse), s->B[2][1] = points_broadcast(inverse);
 }
 
 /* Finds which rows of nodes the points of s touch in direction d, for shapes with three nodes per direction: a point
@@ -262,8 +302,8 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
         s->x[d] = points_load(p->x[d], s->point, dim);
         s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d]; /* grid_cell_coordinate */
     }
-    if (IS_FACE(dim, shape))
-        stencil_compute_face_weights(s, inverse, dim);
+    if (HAS_CORNERS(dim, shape))
+        stencil_compute_corner_weights(s, inverse, dim);
     else
         for (int d = 0; d < dim; d++) stencil_compute_direction(s, p, inverse, half_width, d, dim, shape);
 }
@@ -272,22 +312,35 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
  * maps that add to nodes. */
 static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int dim, const enum shape shape)
 {
-    if (IS_FACE(dim, shape)) return;
+#if ROW_NODES == 4
+    if (HAS_CORNERS(dim, shape)) return;
     rows_transpose(s->N, s->from_N);
     rows_transpose(s->D[0], s->from_D);
+#else
+    (void)s, (void)dim, (void)shape;
+#endif
 }
 
-/* Returns weights and slopes of the four nodes of a row at point `at` of the stencil, one lane per node.
- * stencil_transpose must have been called. h: node distance [m]. For linear shapes in 2D and 3D they are computed
- * again, which is cheaper than transposing. */
+/* Returns weights and slopes of the nodes of a row at point `at` of the stencil, one lane per node. stencil_transpose
+ * must have been called. h: node distance [m]. For linear shapes in 2D and 3D they are computed again, which is cheaper
+ * than transposing. */
 static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil *s, int at, real h, const int dim,
                                                       const enum shape shape)
 {
-    if (!IS_FACE(dim, shape)) return (struct touch){s->from_N[at], {s->from_D[at]}};
-    const row_of_nodes right = {-1, 1, -1, 1}, up = {-1, -1, 1, 1};
-    const row_of_nodes X = (row_of_nodes){1, 0, 1, 0} + s->t[0][at] * right,
-                       Y = (row_of_nodes){1, 1, 0, 0} + s->t[1][at] * up;
-    return (struct touch){X * Y, {Y * (right * (1 / h)), X * (up * (1 / h))}};
+    if (!HAS_CORNERS(dim, shape)) return (struct touch){s->from_N[at], {s->from_D[at]}};
+    struct touch own = {.N = row_broadcast(1)};
+    row_of_nodes hat[DIM_MAX], sign[DIM_MAX];
+    for (int d = 0; d < dim; d++) {
+        sign[d] = 2 * corner_sides(d) - 1;
+        hat[d] = (1 - corner_sides(d)) + s->t[d][at] * sign[d];
+    }
+    for (int d = 0; d < dim; d++) {
+        own.N *= hat[d];
+        own.D[d] = sign[d] * (1 / h);
+        for (int e = 0; e < dim; e++)
+            if (e != d) own.D[d] *= hat[e];
+    }
+    return own;
 }
 
 /* Returns the factor by which the weights N of a row are multiplied in row k1 (along y), k2 (along z), one lane per
@@ -296,8 +349,8 @@ static ALWAYS_INLINE row_of_points stencil_row_factors(const struct cell_stencil
                                                        const enum shape shape)
 {
     row_of_points weight = points_broadcast(1);
-    if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1];
-    if (dim > 2) weight *= s->A[2][k2];
+    if (dim > 1 && !HAS_CORNERS(dim, shape)) weight *= s->A[1][k1];
+    if (dim > 2 && !HAS_CORNERS(dim, shape)) weight *= s->A[2][k2];
     return weight;
 }
 
@@ -307,8 +360,8 @@ static ALWAYS_INLINE row_of_points stencil_row_factor_slopes(const struct cell_s
                                                              const int dim, const enum shape shape)
 {
     row_of_points slope = points_broadcast(1);
-    if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1] : s->A[1][k1];
-    if (dim > 2) slope *= d == 2 ? s->B[2][k2] : s->A[2][k2];
+    if (dim > 1 && !HAS_CORNERS(dim, shape)) slope *= d == 1 ? s->B[1][k1] : s->A[1][k1];
+    if (dim > 2 && !HAS_CORNERS(dim, shape)) slope *= d == 2 ? s->B[2][k2] : s->A[2][k2];
     return slope;
 }
 
@@ -318,8 +371,8 @@ static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int a
                                              const enum shape shape)
 {
     real weight = 1;
-    if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1][at];
-    if (dim > 2) weight *= s->A[2][k2][at];
+    if (dim > 1 && !HAS_CORNERS(dim, shape)) weight *= s->A[1][k1][at];
+    if (dim > 2 && !HAS_CORNERS(dim, shape)) weight *= s->A[2][k2][at];
     return weight;
 }
 
@@ -329,8 +382,8 @@ static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s,
                                                    const int dim, const enum shape shape)
 {
     real slope = 1;
-    if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1][at] : s->A[1][k1][at];
-    if (dim > 2) slope *= d == 2 ? s->B[2][k2][at] : s->A[2][k2][at];
+    if (dim > 1 && !HAS_CORNERS(dim, shape)) slope *= d == 1 ? s->B[1][k1][at] : s->A[1][k1][at];
+    if (dim > 2 && !HAS_CORNERS(dim, shape)) slope *= d == 2 ? s->B[2][k2][at] : s->A[2][k2][at];
     return slope;
 }
 
@@ -339,27 +392,27 @@ static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s,
 static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_stencil *s, int at, real h, int d,
                                                            const int dim, const enum shape shape)
 {
-    const row_of_nodes nodes = !IS_FACE(dim, shape) ? (row_of_nodes){-1, 0, 1, 2}
-                               : d == 0             ? (row_of_nodes){0, 1, 0, 1}
-                                                    : (row_of_nodes){0, 0, 1, 1};
+#if ROW_NODES == 4
+    const row_of_nodes nodes = HAS_CORNERS(dim, shape) ? corner_sides(d) : (row_of_nodes){-1, 0, 1, 2};
+#else
+    const row_of_nodes nodes = corner_sides(d);
+    (void)shape, (void)dim;
+#endif
     return (nodes - s->t[d][at]) * h;
 }
 
 /* Returns the signed distances along axis d from all points of the stencil, one per lane, to node k of a row, or, if d
- * is across the rows, to row k [m]. h: node distance [m]. */
-static ALWAYS_INLINE row_of_points stencil_distances_of_points(const struct cell_stencil *s, int k, real h, int d,
-                                                               const int dim, const enum shape shape)
+ * is across the rows, to row k [m]; not for linear shapes in 2D and 3D. h: node distance [m]. */
+static ALWAYS_INLINE row_of_points stencil_distances_of_points(const struct cell_stencil *s, int k, real h, int d)
 {
-    const int node = !IS_FACE(dim, shape) ? k - 1 : d == 0 ? k % 2 : d == 1 ? k / 2 : k;
-    return (node - s->t[d]) * h;
+    return (k - 1 - s->t[d]) * h;
 }
 
 /* Returns the signed distance along axis d from point `at` of the stencil to row k [m]. d: an axis across the rows; h:
  * node distance [m]. */
-static ALWAYS_INLINE real stencil_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k,
-                                                  const int dim, const enum shape shape)
+static ALWAYS_INLINE real stencil_distance_to_row(const struct cell_stencil *s, int at, real h, int d, int k)
 {
-    return (k - (IS_FACE(dim, shape) ? 0 : 1) - s->t[d][at]) * h;
+    return (k - 1 - s->t[d][at]) * h;
 }
 
 #endif

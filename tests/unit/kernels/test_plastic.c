@@ -55,7 +55,7 @@ static struct metal steel(enum space space, real hardening)
     return constants(&m, space);
 }
 
-/* Performs a step of strain L dt, as in g2p.c. Returns the increment of plastic strain. */
+/* Performs a step of strain L dt, as in g2p.h. Returns the increment of plastic strain. */
 static real step(struct point *p, const struct metal *metal, const real *L)
 {
     const struct elastic *m = &metal->elastic;

@@ -1,12 +1,15 @@
 /* The second map of MUSL: points receive the change of the nodal velocities (FLIP), then their new momentum is mapped
  * back to the nodes with the same weights:  v_p += sum N dv_I,   P_I = sum m v_p N  (Zeng et al. 2022, eqs. 39, 42). */
+#ifndef CLEAVE_KERNELS_REMAP
+#define CLEAVE_KERNELS_REMAP
+
 #include "kernels/kernels.h"
+#include "maps.h"
 #include "scatter.h"
 #include "shape.h"
-#include "kernels/simd/variants.h"
 
 /* Sums of momentum over the points of a cell for every node that they reach, by rows of four nodes [kg m/s]. */
-typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
+typedef row_of_nodes remap_rows[DIM_MAX][ROWS_MAX];
 
 /* Interpolates the change of the nodal velocities (g->force) to the points of stencil s and adds it to their
  * velocities. momentum[dim]: receives their new momentum, one lane per point [kg m/s]. */
@@ -15,16 +18,24 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
 {
     row_of_points gain[DIM_MAX];
     for (int d = 0; d < dim; d++) gain[d] = points_broadcast(0);
-    FOR_ANY_TOUCHED(s, dim, shape)
-    {
-        const row_of_points weight = stencil_row_factors(s, k1, k2, dim, shape);
+    if (HAS_CORNERS(dim, shape))
         for (int d = 0; d < dim; d++) {
-            const real *change = g->force[d] + cell_row_first_node(c, g, k1, k2, dim);
-            row_of_points sum = points_broadcast(0);
-            FOR_NODES(dim, shape) sum += s->N[k] * change[row_node_offset(g, k, dim, shape)];
-            gain[d] += weight * sum;
+            real polynomial[ROW];
+            row_of_points slope[DIM_MAX];
+            corner_polynomial(polynomial, g, g->force[d] + c->node, dim);
+            gain[d] = corner_interpolate(polynomial, s->t, slope, dim);
         }
-    }
+    else
+        FOR_ANY_TOUCHED(s, dim, shape)
+        {
+            const row_of_points weight = stencil_row_factors(s, k1, k2, dim, shape);
+            for (int d = 0; d < dim; d++) {
+                const real *change = g->force[d] + cell_row_first_node(c, g, k1, k2, dim);
+                row_of_points sum = points_broadcast(0);
+                FOR_NODES(dim, shape) sum += s->N[k] * change[row_node_offset(g, k, dim, shape)];
+                gain[d] += weight * sum;
+            }
+        }
     const row_of_points mass = points_load(p->mass, s->point, dim);
     for (int d = 0; d < dim; d++) {
         const row_of_points v = points_load(p->v[d], s->point, dim) + gain[d];
@@ -33,19 +44,9 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
     }
 }
 
-/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which remap_gather will read; once
- * per cache line. */
-static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
-{
-    int64_t i;
-    if (!prefetch_is_due(list, k, &i)) return;
-    prefetch_line(p->mass + i);
-    for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i), prefetch_line(p->v[d] + i);
-}
-
 /* Updates the velocities of n listed points (n <= AT_ONCE) of cell c by the change of the nodal velocities, and adds
- * their new momentum to the sums `sum` over the points of the cell. */
-static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
+ * their new momentum to the sums of the cell. */
+static ALWAYS_INLINE void remap_points(remap_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
                                        const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                        const enum shape shape)
 {
@@ -57,7 +58,7 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
     for (int at = 0; at < n; at++) {
         const row_of_nodes N = stencil_row_weights(&s, at, g->h, dim, shape).N;
         row_of_nodes given[DIM_MAX];
-        remap_fetch(p, list, at, dim);
+        motion_fetch(p, t->turn, list, at, dim);
         for (int d = 0; d < dim; d++) given[d] = momentum[d][at] * N;
         FOR_TOUCHED(&s, at, dim, shape)
         {
@@ -73,7 +74,7 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
                                      const int32_t *list, int n, const int dim, const enum shape shape)
 {
     const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
-    cell_rows sum;
+    remap_rows sum;
     FOR_ROWS(dim, shape)
     for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_broadcast(0);
     for (int k = 0; k < n; k += AT_ONCE(dim))
@@ -85,11 +86,11 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
 }
 
 #define INSTANCE(D, S)                                                                                                 \
-    static void remap_##D##d_##S(struct grid *g, struct particles *p, const struct transfer_data *t)                   \
+    void remap_##D##d_##S(struct grid *g, struct particles *p, const struct transfer_data *t)                          \
     {                                                                                                                  \
         SCATTER(D, t, g, p, remap_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));                                \
     }
-SHAPE_VARIANTS(INSTANCE)
+MAP_VARIANTS(INSTANCE)
+#undef INSTANCE
 
-#define ENTRY(D, S) [D][SHAPE_##S] = remap_##D##d_##S,
-musl_remap_fn *const remap_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS(ENTRY)};
+#endif

@@ -10,13 +10,16 @@
  * from the stress. For points without bonds no linear term depends on their positions, but the weights follow the
  * positions in long runs: a free rotating plate with GIMP shapes loses a tenth of its energy in 1e5 steps with v_I, and
  * gains 40 % with v2 (bench/stability/limits_motion.c). Each point is written by one thread. */
+#ifndef CLEAVE_KERNELS_G2P
+#define CLEAVE_KERNELS_G2P
+
 #include "kernels/kernels.h"
 #include "dilatation.h"
+#include "maps.h"
 #include "points_flow.h"
 #include "scatter.h"
 #include "shape.h"
 #include "stress.h"
-#include "kernels/simd/variants.h"
 
 /* Returns the elastic constants of a few points, one per lane [Pa]. point: their numbers. Usually all points have one
  * material; those of other materials are filled in lane by lane. */
@@ -50,8 +53,10 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
     for (int c = 0; c < n; c++) stress[c] = points_load(p->stress[c], point, dim);
     const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim);
     points_store(p->volume, point, volume + volume * trace, dim);
-    for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
-    if (__builtin_expect(t->laws, 0)) flow_add(due, point, points, L, dim);
+    if (__builtin_expect(t->laws, 0))
+        flow_add(due, point, points, L, stress, volume + volume * trace, dim);
+    else
+        for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) {
             const row_of_points stretch = points_load(p->stretch[d], point, dim);
@@ -96,23 +101,8 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* Adds the displacements `step` [m] to the positions of the points of stencil s and stores them. Returns a bit mask:
- * bit k is set if point k has left cell c of the grid. */
-static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
-                                     const struct cell_stencil *s, const row_of_points *step, const int dim)
-{
-    points_mask inside = (points_mask){0} - 1;
-    for (int d = 0; d < dim; d++) {
-        const row_of_points x = s->x[d] + step[d];
-        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_cell_coordinate */
-        points_store(p->x[d], s->point, x, dim);
-        inside &= (place >= c->place[d]) & (place < c->place[d] + 1);
-    }
-    return points_sign_bits((row_of_points)~inside);
-}
-
-/* Returns for a few points, in each lane, -1 if the point moves with the velocities of the second map (remap.c), else
- * 1. Points with bonds do; if t->momentum_only or t->second_map is set, all do. point: numbers of the points. */
+/* Returns in each lane -1 if the point moves with the velocities of the second map (remap.h), else 1. Points with bonds
+ * do; if momentum_only or second_map is set, all do. point: numbers of the points. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     const bool all = t->momentum_only || t->second_map;
@@ -156,81 +146,141 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
     }
 }
 
-/* Computes the rate of dilatation tr L at the points of stencil s of cell c [1/s], with the velocity gradient L that
- * points_gather computes. */
-static ALWAYS_INLINE row_of_points points_dilate(const struct grid *g, const struct cell *c,
-                                                 const struct cell_stencil *s, const int dim, const enum shape shape,
-                                                 const enum transfer transfer)
+/* As points_gather for linear shapes in 2D and 3D. */
+static ALWAYS_INLINE void points_gather_corners(const struct grid *g, const struct cell *c,
+                                                const struct cell_stencil *s, const row_of_points bonded,
+                                                row_of_points *velocity, row_of_points *L, const int dim,
+                                                const enum transfer transfer)
 {
-    row_of_points trace = points_broadcast(0);
-    FOR_ANY_TOUCHED(s, dim, shape)
-    {
-        const row_of_points weight = stencil_row_factors(s, k1, k2, dim, shape);
-        const int64_t I = cell_row_first_node(c, g, k1, k2, dim);
-        for (int d = 0; d < dim; d++) {
-            const real *at = (transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d]) + I;
-            row_of_points sum = points_broadcast(0);
-            FOR_NODES(dim, shape)
-            sum += (d < ROW_DIMS(dim, shape) ? s->D[d][k] : s->N[k]) * at[row_node_offset(g, k, dim, shape)];
-            trace += sum * (d < ROW_DIMS(dim, shape) ? weight : stencil_row_factor_slopes(s, k1, k2, d, dim, shape));
-        }
+    const int strained = transfer == TRANSFER_APIC ? (1 << POINTS) - 1 : points_sign_bits(bonded);
+    for (int d = 0; d < dim; d++) {
+        real polynomial[ROW];
+        row_of_points slope[DIM_MAX];
+        corner_polynomial(polynomial, g, (transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d]) + c->node, dim);
+        velocity[d] = corner_interpolate(polynomial, s->t, slope, dim);
+        for (int e = 0; e < dim; e++) L[d * dim + e] = slope[e] * (1 / g->h);
+        if (strained == (1 << POINTS) - 1) continue;
+        corner_polynomial(polynomial, g, g->velocity[d] + c->node, dim);
+        velocity[d] = points_choose(bonded, velocity[d], corner_interpolate(polynomial, s->t, slope, dim));
     }
-    return trace;
 }
 
-/* Computes by how much the rate of dilatation of n <= MEAN_POINTS listed points of a cell changes by averaging over the
- * points of one body and material (dilatation.h), change[k] for point list[k] [1/s]. */
-static NEVER_INLINE void means_of_dilatation(const struct grid *g, const struct particles *p,
-                                             const struct transfer_data *t, const int32_t *list, int n, real *change,
-                                             const int dim, const enum shape shape, const enum transfer transfer)
-{
-    const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
-    for (int k = 0; k < n; k += AT_ONCE(dim)) {
-        struct cell_stencil s;
-        const int points = points_at_once(n - k, dim);
-        cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
-        const row_of_points trace = points_dilate(g, &c, &s, dim, shape, transfer);
-        for (int at = 0; at < points; at++) change[k + at] = trace[at];
-    }
-    differences_from_mean(p, t, list, n, change);
-}
+/* Points of a cell between interpolation and update: numbers, positions [m], velocities [m/s] and their gradients
+ * [1/s]. */
+struct points_motion {
+    int32_t point[POINTS]; /* padded with the last point */
+    row_of_points x[DIM_MAX], velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
+};
 
-/* Adds a third, in 2D half, of the changes of the rate of dilatation of n points, change[], to the diagonal of their
- * velocity gradients L [1/s]. */
-static ALWAYS_INLINE void points_dilate_more(row_of_points *L, const real *change, int n, const int dim)
-{
-    row_of_points more;
-    for (int k = 0; k < POINTS; k++) more[k] = change[int_min(k % AT_ONCE(dim), n - 1)] / dim;
-    for (int d = 0; d < dim; d++) L[d * dim + d] += more;
-}
-
-/* Updates the n listed points (n <= AT_ONCE) of cell c: position, stress, volume, and with APIC velocity and its
- * gradient. due: receives the points where materials yield; dilatation: change of the rate of dilatation of each point
- * [1/s], NULL: none. Returns the number of points that have left the cell. */
-static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, struct particles *p,
-                                    const struct transfer_data *t, struct flow_points *due, const int32_t *list, int n,
-                                    const real *dilatation, const int dim, const enum shape shape,
-                                    const enum transfer transfer)
+/* Interpolates the motion m of n listed points (n <= AT_ONCE) of cell c from the nodes. */
+static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid *g, const struct cell *c,
+                                     const struct particles *p, const struct transfer_data *t, const int32_t *list,
+                                     int n, const int dim, const enum shape shape, const enum transfer transfer)
 {
     struct cell_stencil s;
-    row_of_points velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
     cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
-    points_gather(g, c, &s, points_bonded(t, s.point, dim), velocity, L, dim, shape, transfer);
-    if (transfer == TRANSFER_APIC) {
-        for (int d = 0; d < dim; d++) points_store(p->v[d], s.point, velocity[d], dim);
-        for (int k = 0; k < dim * dim; k++) points_store(p->gradient[k], s.point, L[k], dim);
+    const row_of_points bonded = points_bonded(t, s.point, dim);
+    if (HAS_CORNERS(dim, shape))
+        points_gather_corners(g, c, &s, bonded, m->velocity, m->L, dim, transfer);
+    else
+        points_gather(g, c, &s, bonded, m->velocity, m->L, dim, shape, transfer);
+    for (int k = 0; k < POINTS; k++) m->point[k] = s.point[k];
+    for (int d = 0; d < dim; d++) m->x[d] = s.x[d];
+}
+
+/* Returns the rate of dilatation tr L of a few points [1/s]. */
+static ALWAYS_INLINE row_of_points dilatation_rate(const struct points_motion *m, const int dim)
+{
+    row_of_points rate = m->L[0];
+    for (int d = 1; d < dim; d++) rate += m->L[d * dim + d];
+    return rate;
+}
+
+/* Adds a third, in 2D half, of a change of the rate of dilatation to the diagonal of the velocity gradients [1/s]. */
+static ALWAYS_INLINE void points_dilate_more(struct points_motion *m, row_of_points change, const int dim)
+{
+    for (int d = 0; d < dim; d++) m->L[d * dim + d] += change * (1.0 / dim);
+}
+
+/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell that differ in body or material. motion:
+ * of AT_ONCE points each. */
+static NEVER_INLINE void rates_average_mixed(const struct particles *p, const struct transfer_data *t,
+                                             const int32_t *list, struct points_motion *motion, int n, const int dim)
+{
+    real change[MEAN_POINTS];
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        const row_of_points rate = dilatation_rate(&motion[k / AT_ONCE(dim)], dim);
+        for (int l = 0; l < points_at_once(n - k, dim); l++) change[k + l] = rate[l];
     }
-    if (dilatation) points_dilate_more(L, dilatation, n, dim);
-    const struct elastic_points m = elastic_of(p, t, s.point, dim);
-    if (!t->momentum_only) points_strain(p, t, due, &m, s.point, n, L, dim, shape);
-    if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, s.point, L, t->dt, dim);
-    for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
-    const int moved = points_move(g, c, p, &s, velocity, dim);
+    differences_from_mean(p, t, list, n, change);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        row_of_points more;
+        for (int l = 0; l < POINTS; l++) more[l] = change[int_min(k + l % AT_ONCE(dim), n - 1)];
+        points_dilate_more(&motion[k / AT_ONCE(dim)], more, dim);
+    }
+}
+
+/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell (dilatation.h). motion: of AT_ONCE
+ * points each. */
+static ALWAYS_INLINE void rates_average(const struct particles *p, const struct transfer_data *t, const int32_t *list,
+                                        struct points_motion *motion, int n, const int dim)
+{
+    row_of_points sum = points_broadcast(0), volume = points_broadcast(0);
+    if (!mean_of_all(p, list, n)) {
+        rates_average_mixed(p, t, list, motion, n, dim);
+        return;
+    }
+    if (!t->elastic[p->material[list[0]]].mean_dilatation) return;
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        const struct points_motion *m = &motion[k / AT_ONCE(dim)];
+        const row_of_points own = points_first(points_load(p->volume, m->point, dim), points_at_once(n - k, dim));
+        volume += own, sum += own * dilatation_rate(m, dim);
+    }
+    const real mean = points_sum(sum) / points_sum(volume);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        struct points_motion *m = &motion[k / AT_ONCE(dim)];
+        points_dilate_more(m, mean - dilatation_rate(m, dim), dim);
+    }
+}
+
+/* Adds the displacements m->velocity, multiplied by the time step [m], to the positions of the points of m. Returns a
+ * bit mask: bit k is set if point k has left cell c. */
+static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
+                                     const struct points_motion *m, const int dim)
+{
+    points_mask inside = (points_mask){0} - 1;
+    for (int d = 0; d < dim; d++) {
+        const row_of_points x = m->x[d] + m->velocity[d];
+        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_cell_coordinate */
+        points_store(p->x[d], m->point, x, dim);
+        inside &= (place >= c->place[d]) & (place < c->place[d] + 1);
+    }
+    return points_sign_bits((row_of_points)~inside);
+}
+
+/* Updates n points (n <= AT_ONCE) of cell c by their motion m: position, stress, volume, stretch, rotation. due:
+ * receives the points where materials yield. Returns the number of points that have left the cell. */
+static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
+                                    const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
+                                    int n, const int dim, const enum shape shape)
+{
+    const struct elastic_points e = elastic_of(p, t, m->point, dim);
+    if (!t->momentum_only) points_strain(p, t, due, &e, m->point, n, m->L, dim, shape);
+    if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, m->point, m->L, t->dt, dim);
+    for (int d = 0; d < dim; d++) m->velocity[d] *= t->dt;
+    const int moved = points_move(g, c, p, m, dim);
     if (__builtin_expect(due->n >= LANES, 0)) flow_return(p, t, due, dim);
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
-/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which g2p_points will read; once per
+/* Stores velocities and velocity gradients of a few points, with APIC. */
+static ALWAYS_INLINE void points_keep_gradient(struct particles *p, const struct points_motion *m, const int dim)
+{
+    for (int d = 0; d < dim; d++) points_store(p->v[d], m->point, m->velocity[d], dim);
+    for (int k = 0; k < dim * dim; k++) points_store(p->gradient[k], m->point, m->L[k], dim);
+}
+
+/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which g2p_cell will read; once per
  * cache line. */
 static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
@@ -245,22 +295,30 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
     if (__builtin_expect(p->temperature != NULL, 0)) prefetch_line(p->temperature + i);
 }
 
-/* Updates the n listed points of one cell of the grid at the end of the step (g2p_points). Returns the number of points
- * that have left the cell. due: receives the points where materials yield; averaged: result of mean_dilatation. The
- * cell is computed again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. */
+/* Updates the n listed points of one cell. Returns the number of points that have left the cell. The cell is computed
+ * again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. averaged: result of
+ * mean_dilatation; up to MEAN_POINTS points are then interpolated before they are updated. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       struct flow_points *due, const int32_t *list, int n, const int dim,
                                       const enum shape shape, const enum transfer transfer, const bool averaged)
 {
-    real change[MEAN_POINTS];
+    enum { MOST = MEAN_POINTS / POINTS };
+    struct points_motion motion[MOST];
+    const int most = averaged ? MEAN_POINTS : AT_ONCE(dim);
     int64_t moved = 0;
     for (int k = 0; k < n; k++) g2p_fetch(p, list, k, dim);
-    for (int k = 0; k < n; k += AT_ONCE(dim)) {
-        const struct cell c = cell_containing_point(g, p, list[k], dim, shape);
-        if (averaged && k % MEAN_POINTS == 0)
-            means_of_dilatation(g, p, t, list + k, int_min(n - k, MEAN_POINTS), change, dim, shape, transfer);
-        moved += g2p_points(g, &c, p, t, due, list + k, points_at_once(n - k, dim),
-                            averaged ? &change[k % MEAN_POINTS] : NULL, dim, shape, transfer);
+    for (int from = 0; from < n; from += most) {
+        const struct cell c = cell_containing_point(g, p, list[from], dim, shape);
+        const int some = int_min(n - from, most);
+        struct points_motion *m = motion;
+        for (int k = 0; k < some; k += AT_ONCE(dim), m++) {
+            g2p_gather(m, g, &c, p, t, list + from + k, points_at_once(some - k, dim), dim, shape, transfer);
+            if (transfer == TRANSFER_APIC) points_keep_gradient(p, m, dim);
+        }
+        if (averaged) rates_average(p, t, list + from, motion, some, dim);
+        m = motion;
+        for (int k = 0; k < some; k += AT_ONCE(dim), m++)
+            moved += g2p_update(g, &c, p, t, due, m, points_at_once(some - k, dim), dim, shape);
     }
     return moved;
 }
@@ -288,13 +346,13 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
 #define INSTANCE(D, S, T)                                                                                              \
     CELLS(g2p_plain_##D##d_##S##_##T, D, S, T, false)                                                                  \
     CELLS(g2p_averaged_##D##d_##S##_##T, D, S, T, true)                                                                \
-    static int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)      \
+    int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)             \
     {                                                                                                                  \
         return mean_dilatation(t, D) ? g2p_averaged_##D##d_##S##_##T(g, p, t) : g2p_plain_##D##d_##S##_##T(g, p, t);   \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
-SHAPE_VARIANTS(BOTH)
+MAP_VARIANTS(BOTH)
+#undef BOTH
+#undef INSTANCE
 
-#define ENTRY(D, S, T) [D][SHAPE_##S][TRANSFER_##T] = g2p_##D##d_##S##_##T,
-#define ENTRIES(D, S) TRANSFER_VARIANTS(ENTRY, D, S)
-g2p_fn *const g2p_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIES)};
+#endif

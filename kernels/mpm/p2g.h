@@ -8,15 +8,18 @@
  *
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
  * of a block stay in cache. */
+#ifndef CLEAVE_KERNELS_P2G
+#define CLEAVE_KERNELS_P2G
+
 #include <string.h>
 
 #include "kernels/kernels.h"
 #include "dilatation.h"
+#include "maps.h"
 #include "scatter.h"
 #include "shape.h"
 #include "stress.h"
 #include "turn.h"
-#include "kernels/simd/variants.h"
 
 /* Sums over the points of a cell for every node that they reach, by rows of four nodes: mass [kg], components of
  * momentum [kg m/s], components of force [N]. */
@@ -85,6 +88,8 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     row_of_nodes momentum[DIM_MAX], force[DIM_MAX], pull[SYM_MAX];
     real slope[DIM_MAX][DIM_MAX] = {{0}};
     const bool continued = continues(t, dim, transfer);
+    row_of_nodes far[DIM_MAX];
+    for (int e = 0; e < along && continued; e++) far[e] = stencil_distances_in_row(s, at, g->h, e, dim, shape);
     for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = stress[k] * row.N;
 #pragma GCC unroll 3
     for (int d = 0; d < dim; d++) {
@@ -92,7 +97,7 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
 #pragma GCC unroll 3
         for (int e = 0; e < dim && continued; e++) {
             slope[d][e] = transfer == TRANSFER_APIC ? p->gradient[d * dim + e][i] : turn[d * dim + e][at];
-            if (e < along) speed += slope[d][e] * stencil_distances_in_row(s, at, g->h, e, dim, shape);
+            if (e < along) speed += slope[d][e] * far[e];
         }
         momentum[d] = mass * speed;
         force[d] = p->f[d][i] * row.N;
@@ -107,8 +112,7 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
             row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
             for (int e = along; e < dim; e++) {
                 if (continued)
-                    carried +=
-                        slope[d][e] * mass * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
+                    carried += slope[d][e] * mass * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2);
                 pushed -= pull[symmetric_place(d, e, dim)] * stencil_row_factor_slope(s, at, k1, k2, e, dim, shape);
             }
             sum[1 + d][k] += carried * weight;
@@ -120,22 +124,45 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
 
 /* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which p2g_particle will read; once
  * per cache line. */
-static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *list, int k, const int dim,
-                                    const enum transfer transfer)
+static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const struct transfer_data *t, const int32_t *list,
+                                    int k, const int dim, const enum transfer transfer)
 {
     int64_t i;
+    motion_fetch(p, t->turn, list, k, dim);
     if (!prefetch_is_due(list, k, &i)) return;
-    prefetch_line(p->mass + i), prefetch_line(p->volume + i);
-    for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i), prefetch_line(p->v[d] + i), prefetch_line(p->f[d] + i);
+    prefetch_line(p->volume + i);
+    for (int d = 0; d < dim; d++) prefetch_line(p->f[d] + i);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_line(p->stress[c] + i);
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
 }
 
-/* Computes by how much the mean stress of n <= MEAN_POINTS listed points of a cell changes by averaging over the points
- * of one body and material (dilatation.h), change[k] for point list[k] [Pa]. */
+/* Computes by how much the mean stress of n <= MEAN_POINTS listed points of a cell changes by averaging (dilatation.h)
+ * [Pa]. change: [MEAN_POINTS]. */
 static NEVER_INLINE void means_of_stress(const struct particles *p, const struct transfer_data *t, const int32_t *list,
-                                         int n, real *change, int dim)
+                                         int n, real *change, const int dim)
 {
+    const bool alike = mean_of_all(p, list, n) && !(t->partial && t->partial->index);
+    row_of_points sum = points_broadcast(0), volume = points_broadcast(0);
+    if (alike && !t->elastic[p->material[list[0]]].mean_dilatation) {
+        for (int k = 0; k < n; k++) change[k] = 0;
+        return;
+    }
+    for (int k = 0; k < n && alike; k += AT_ONCE(dim)) {
+        const int points = points_at_once(n - k, dim);
+        int32_t point[POINTS];
+        for (int l = 0; l < POINTS; l++) point[l] = list[k + int_min(l, points - 1)];
+        row_of_points mean = points_broadcast(0);
+        for (int d = 0; d < dim; d++) mean += points_load(p->stress[d], point, dim);
+        mean *= 1.0 / dim;
+        const row_of_points own = points_first(points_load(p->volume, point, dim), points);
+        volume += own, sum += own * mean;
+        *(points_anywhere *)(change + k) = mean;
+    }
+    if (alike) {
+        const real mean = points_sum(sum) / points_sum(volume);
+        for (int k = 0; k < n; k++) change[k] = mean - change[k];
+        return;
+    }
     for (int k = 0; k < n; k++) {
         real stress[SYM_MAX];
         point_stress_on_grid(p, t->partial, list[k], stress, dim);
@@ -165,7 +192,7 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
         if (transfer == TRANSFER_FLIP && continues(t, dim, transfer))
             rotating_velocity_gradients(t, s.point, 0.5 * t->dt, turn, dim);
         for (int at = 0; at < points; at++) {
-            p2g_fetch(p, list, k + at, dim, transfer);
+            p2g_fetch(p, t, list, k + at, dim, transfer);
             p2g_particle(sum, g, p, t, &s, turn, averaged ? &change[(k + at) % MEAN_POINTS] : NULL, at, dim, shape,
                          transfer);
         }
@@ -184,7 +211,7 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
 
 /* Points with the mean dilatation of their cells have a loop of their own, so that the other one has no code of it. */
 #define INSTANCE(D, S, T)                                                                                              \
-    static void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)         \
+    void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)                \
     {                                                                                                                  \
         if (mean_dilatation(t, D)) {                                                                                   \
             SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, true));          \
@@ -193,11 +220,9 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
         }                                                                                                              \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
-SHAPE_VARIANTS(BOTH)
-
-#define ENTRY(D, S, T) [D][SHAPE_##S][TRANSFER_##T] = p2g_##D##d_##S##_##T,
-#define ENTRIES(D, S) TRANSFER_VARIANTS(ENTRY, D, S)
-p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIES)};
+MAP_VARIANTS(BOTH)
+#undef BOTH
+#undef INSTANCE
 
 /* ---- single field of a few points -------------------------------------------------------------------------------- */
 
@@ -217,12 +242,12 @@ static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct par
 }
 
 #define SPREAD(D, S)                                                                                                   \
-    static void spread_##D##d_##S(const struct grid *g, const struct particles *p, real half_width,                    \
-                                  const int32_t *list, int64_t n, const real *value, real *field)                      \
+    void spread_##D##d_##S(const struct grid *g, const struct particles *p, real half_width, const int32_t *list,      \
+                           int64_t n, const real *value, real *field)                                                  \
     {                                                                                                                  \
         for (int64_t k = 0; k < n; k++) spread_particle(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);     \
     }
-SHAPE_VARIANTS(SPREAD)
+MAP_VARIANTS(SPREAD)
+#undef SPREAD
 
-#define SPREAD_ENTRY(D, S) [D][SHAPE_##S] = spread_##D##d_##S,
-spread_to_nodes_fn *const spread_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS(SPREAD_ENTRY)};
+#endif

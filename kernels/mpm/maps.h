@@ -1,0 +1,32 @@
+/* The maps between points and grid, one function for each instance of simd/variants.h. Their bodies are headers (p2g.h,
+ * remap.h, remap_turn.h, g2p.h), which three files compile with the widths of vectors that suit their instances:
+ * maps_plane.c, maps_solid.c, maps_corners.c. */
+#ifndef CLEAVE_KERNELS_MAPS
+#define CLEAVE_KERNELS_MAPS
+
+#include "kernels/kernels.h"
+#include "kernels/simd/variants.h"
+
+#define DECLARE(D, S, T)                                                                                               \
+    KERNEL(void, p2g_##D##d_##S##_##T,                                                                                 \
+           (struct grid *g, const struct particles *p, const struct transfer_data *t));    \
+    KERNEL(int64_t, g2p_##D##d_##S##_##T,                                                                              \
+           (const struct grid *g, struct particles *p, const struct transfer_data *t));
+#define DECLARE_SHAPE(D, S)                                                                                            \
+    TRANSFER_VARIANTS(DECLARE, D, S)                                                                                   \
+    KERNEL(void, remap_##D##d_##S, (struct grid *g, struct particles *p, const struct transfer_data *t));              \
+    KERNEL(void, spread_##D##d_##S,                                                                                    \
+           (const struct grid *g, const struct particles *p, real half_width, const int32_t *list, int64_t n,          \
+            const real *value, real *field));
+#define DECLARE_TURNING(D, S)                                                                                          \
+    KERNEL(void, turn_gather_##D##d_##S,                                                                               \
+           (const struct grid *g, struct particles *p, const struct transfer_data *t));  \
+    KERNEL(void, turn_scatter_##D##d_##S,                                                                              \
+           (struct grid *g, const struct particles *p, const struct transfer_data *t));
+SHAPE_VARIANTS(DECLARE_SHAPE)
+SHAPE_VARIANTS_TURNING(DECLARE_TURNING)
+#undef DECLARE
+#undef DECLARE_SHAPE
+#undef DECLARE_TURNING
+
+#endif

@@ -1,0 +1,10 @@
+/* The maps of points with linear shapes in 3D: a cell has eight corners, and usually eight points. */
+#define ROW_NODES 8
+#define POINTS_MOST 8
+#define MAP_VARIANTS_TURNING(X) X(3, LINEAR)
+#define MAP_VARIANTS MAP_VARIANTS_TURNING
+
+#include "g2p.h"
+#include "p2g.h"
+#include "remap.h"
+#include "remap_turn.h"

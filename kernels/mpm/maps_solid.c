@@ -1,0 +1,9 @@
+/* The maps of points in 3D with shapes that reach beyond their cell, which usually has eight points. */
+#define POINTS_MOST 8
+#define MAP_VARIANTS_TURNING(X) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
+#define MAP_VARIANTS MAP_VARIANTS_TURNING
+
+#include "g2p.h"
+#include "p2g.h"
+#include "remap.h"
+#include "remap_turn.h"

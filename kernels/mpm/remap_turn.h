@@ -1,0 +1,178 @@
+/* The second map of MUSL for points in rotating groups (data/turning.h), in two halves. First points receive the change
+ * of the nodal velocities, and the angular momentum that this interpolation loses is stored for each point. The caller
+ * then distributes the angular momentum of each group to its points. At last nodes receive the momentum of the points,
+ * whose velocity is extrapolated to the node with the spin of the group. */
+#ifndef CLEAVE_KERNELS_REMAP_TURN
+#define CLEAVE_KERNELS_REMAP_TURN
+
+#include "kernels/kernels.h"
+#include "maps.h"
+#include "scatter.h"
+#include "shape.h"
+#include "turn.h"
+
+/* Component c of a vector product a x b is a_FIRST b_SECOND - a_SECOND b_FIRST. */
+#define FIRST(c) (((c) + 1) % 3)
+#define SECOND(c) (((c) + 2) % 3)
+/* Index of the first component of a spin: in 2D spins have the component z only. */
+#define SPIN_FROM(dim) ((dim) == 2 ? 2 : 0)
+
+/* ---- nodes to points --------------------------------------------------------------------------------------------- */
+
+/* Computes the change of velocity gain[dim] [m/s] of the points of stencil s of cell c, sum N dv_I, and
+ * arm[e][d] = sum N (x_I - x_p)_e dv_d [m^2/s], from the change dv_I of the nodal velocities (g->force). */
+static ALWAYS_INLINE void turn_gather_arms(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
+                                           row_of_points *gain, row_of_points arm[DIM_MAX][DIM_MAX], const int dim,
+                                           const enum shape shape)
+{
+    for (int d = 0; d < dim; d++) {
+        gain[d] = points_broadcast(0);
+        for (int e = 0; e < dim; e++) arm[e][d] = points_broadcast(0);
+    }
+    FOR_ANY_TOUCHED(s, dim, shape)
+    {
+        const row_of_points weight = stencil_row_factors(s, k1, k2, dim, shape);
+        for (int d = 0; d < dim; d++) {
+            const real *change = g->force[d] + cell_row_first_node(c, g, k1, k2, dim);
+            row_of_points sum = points_broadcast(0), far = points_broadcast(0);
+            FOR_NODES(dim, shape)
+            {
+                const row_of_points part = s->N[k] * change[row_node_offset(g, k, dim, shape)];
+                sum += part;
+                far += part * stencil_distances_of_points(s, k, g->h, 0);
+            }
+            gain[d] += weight * sum;
+            arm[0][d] += weight * far;
+            for (int e = 1; e < dim; e++)
+                arm[e][d] += weight * sum * stencil_distances_of_points(s, e == 1 ? k1 : k2, g->h, e);
+        }
+    }
+}
+
+/* As turn_gather_arms for linear shapes, where sum N (x_I - x_p)_e dv = h t_e (1 - t_e) d dv/dt_e at the position t in
+ * the cell. */
+static ALWAYS_INLINE void turn_gather_corner_arms(const struct grid *g, const struct cell *c,
+                                                  const struct cell_stencil *s, row_of_points *gain,
+                                                  row_of_points arm[DIM_MAX][DIM_MAX], const int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        real polynomial[ROW];
+        row_of_points slope[DIM_MAX];
+        corner_polynomial(polynomial, g, g->force[d] + c->node, dim);
+        gain[d] = corner_interpolate(polynomial, s->t, slope, dim);
+        for (int e = 0; e < dim; e++) arm[e][d] = g->h * (s->t[e] * (1 - s->t[e])) * slope[e];
+    }
+}
+
+/* Interpolates the change dv_I of the nodal velocities (g->force) to n listed points (n <= AT_ONCE) of cell c and adds
+ * it to their velocities. Stores in t->turn the angular momentum m sum N (x_I - x_p) x dv_I of each point, which this
+ * interpolation loses [kg m^2/s]. */
+static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct cell *c, struct particles *p,
+                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
+                                             const enum shape shape)
+{
+    struct cell_stencil s;
+    row_of_points gain[DIM_MAX], arm[DIM_MAX][DIM_MAX];
+    cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
+    if (HAS_CORNERS(dim, shape))
+        turn_gather_corner_arms(g, c, &s, gain, arm, dim);
+    else
+        turn_gather_arms(g, c, &s, gain, arm, dim, shape);
+    const row_of_points mass = points_load(p->mass, s.point, dim);
+    for (int d = 0; d < dim; d++) points_store(p->v[d], s.point, points_load(p->v[d], s.point, dim) + gain[d], dim);
+    for (int e = SPIN_FROM(dim); e < 3; e++)
+        points_store(t->turn[e], s.point, mass * (arm[FIRST(e)][SECOND(e)] - arm[SECOND(e)][FIRST(e)]), dim);
+}
+
+#define GATHER(D, S)                                                                                                   \
+    void turn_gather_##D##d_##S(const struct grid *g, struct particles *p, const struct transfer_data *t)              \
+    {                                                                                                                  \
+        const struct transfer_order *o = t->order;                                                                     \
+        _Pragma("omp parallel")                                                                                        \
+        {                                                                                                              \
+            const struct grid nodes = *g; /* as in scatter.h */                                                        \
+            struct particles points = *p;                                                                              \
+            const struct transfer_data data = *t;                                                                      \
+            _Pragma("omp for schedule(static)") for (int32_t k = 0; k < o->cells; k++)                                 \
+            {                                                                                                          \
+                const int32_t *list = o->particle + o->cell_start[k], n = o->cell_start[k + 1] - o->cell_start[k];     \
+                const struct cell c = cell_containing_point(&nodes, &points, list[0], D, SHAPE_##S);                   \
+                for (int m = 0; m < n; m++) motion_fetch(&points, data.turn, list, m, D);                              \
+                for (int m = 0; m < n; m += AT_ONCE(D))                                                                \
+                    turn_gather_points(&nodes, &c, &points, &data, list + m, points_at_once(n - m, D), D, SHAPE_##S);  \
+            }                                                                                                          \
+        }                                                                                                              \
+    }
+MAP_VARIANTS_TURNING(GATHER)
+#undef GATHER
+
+/* ---- points to nodes --------------------------------------------------------------------------------------------- */
+
+/* Sums of momentum over the points of a cell for every node that they reach, by rows of four nodes [kg m/s]. */
+typedef row_of_nodes turn_rows[DIM_MAX][ROWS_MAX];
+
+/* Adds the momentum m N (v + L (x_I - x_p)) of point `at` of stencil s to the sums of its cell. slope: velocity
+ * gradients L of the points of the stencil, from rotating_velocity_gradients [1/s]. */
+static ALWAYS_INLINE void turn_scatter_point(turn_rows sum, const struct grid *g, const struct particles *p,
+                                             const row_of_points *slope, const struct cell_stencil *s, int at,
+                                             const int dim, const enum shape shape)
+{
+    const int along = ROW_DIMS(dim, shape);
+    const int64_t i = s->point[at];
+    const row_of_nodes mass = p->mass[i] * stencil_row_weights(s, at, g->h, dim, shape).N;
+    row_of_nodes momentum[DIM_MAX];
+    for (int d = 0; d < dim; d++) {
+        row_of_nodes speed = row_broadcast(p->v[d][i]);
+        for (int e = 0; e < along; e++)
+            speed += slope[d * dim + e][at] * stencil_distances_in_row(s, at, g->h, e, dim, shape);
+        momentum[d] = mass * speed;
+    }
+    FOR_TOUCHED(s, at, dim, shape)
+    {
+        const real weight = stencil_row_factor(s, at, k1, k2, dim, shape);
+        for (int d = 0; d < dim; d++) {
+            row_of_nodes given = momentum[d];
+            for (int e = along; e < dim; e++)
+                given += mass * (slope[d * dim + e][at] * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2));
+            sum[d][PATCH(dim, shape)] += weight * given;
+        }
+    }
+}
+
+/* Adds the momentum of the n listed points of one cell to the nodes of the grid, with their velocity extrapolated to
+ * each node (turn_scatter_point). */
+static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
+                                            const struct transfer_data *t, const int32_t *list, int n, const int dim,
+                                            const enum shape shape)
+{
+    const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
+    turn_rows sum;
+    FOR_ROWS(dim, shape)
+    for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_broadcast(0);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        struct cell_stencil s;
+        const int points = points_at_once(n - k, dim);
+        cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
+        stencil_transpose(&s, dim, shape);
+        row_of_points slope[DIM_MAX * DIM_MAX];
+        rotating_velocity_gradients(t, s.point, -0.5 * t->dt, slope, dim);
+        for (int at = 0; at < points; at++) {
+            motion_fetch(p, t->turn, list, k + at, dim);
+            turn_scatter_point(sum, g, p, slope, &s, at, dim, shape);
+        }
+    }
+    FOR_ROWS(dim, shape)
+    for (int d = 0; d < dim; d++)
+        nodes_add_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
+                      shape);
+}
+
+#define TURN_SCATTER(D, S)                                                                                             \
+    void turn_scatter_##D##d_##S(struct grid *g, const struct particles *p, const struct transfer_data *t)             \
+    {                                                                                                                  \
+        SCATTER(D, t, g, p, turn_scatter_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));                         \
+    }
+MAP_VARIANTS_TURNING(TURN_SCATTER)
+#undef TURN_SCATTER
+
+#endif
