@@ -37,9 +37,9 @@ static ALWAYS_INLINE bool mean_of_all(const struct particles *p, const int32_t *
     return same;
 }
 
-/* Replaces value[k] of the n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of its
- * body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined, so
- * that the code for other materials contains none of it. */
+/* Replaces value[k] of the n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of
+ * its body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined,
+ * so that the code for other materials contains none of it. */
 static NEVER_INLINE void differences_from_mean(const struct particles *p, const struct transfer_data *t,
                                                const int32_t *list, int n, real *value)
 {
