@@ -39,8 +39,8 @@ struct archive {
  * elements of particles that were not stored keep their value. Returns the status of a->exchange. */
 status archive_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size);
 
-/* Replaces each of n particle indices that have been restored by the new index of that particle, a->now[index]; -1 if
- * it no longer exists. Does nothing while saving, or if a->now is NULL (equal particles). */
-void archive_renumber(const struct archive *a, int32_t *index, int64_t n);
+/* Replaces each of the n indices in `particle`, which have been restored by the new index of that particle,
+ * a->now[particle[k]]; -1 if it no longer exists. Does nothing while saving, or if a->now is NULL (equal particles). */
+void archive_renumber(const struct archive *a, int32_t *particle, int64_t n);
 
 #endif

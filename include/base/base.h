@@ -37,21 +37,21 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 /* Returns the number of components of a symmetric tensor. */
 static inline int symmetric_component_count(int dim) { return dim * (dim + 1) / 2; }
 
-/* Computes row and column (0 .. 2) of component s of a symmetric tensor. Order of the components: xx, yy, zz, xy, yz,
- * zx in 3D; xx, yy, xy in 2D. */
-static inline void symmetric_component_axes(int dim, int s, int *row, int *column)
+/* Computes row and column (0 .. 2) of component number `component` of a symmetric tensor. Order of the components: xx,
+ * yy, zz, xy, yz, zx in 3D; xx, yy, xy in 2D. */
+static inline void symmetric_component_axes(int dim, int component, int *row, int *column)
 {
-    *row = s < dim ? s : s == dim ? 0 : s == dim + 1 ? 1 : 2;
-    *column = s < dim ? s : (*row + 1) % DIM_MAX;
+    *row = component < dim ? component : component == dim ? 0 : component == dim + 1 ? 1 : 2;
+    *column = component < dim ? component : (*row + 1) % DIM_MAX;
 }
 
-/* Returns the hash of z extended by a word, by one step of Splitmix64 (Steele, Lea, Flood 2014). */
-static inline uint64_t hash_add_word(uint64_t z, uint64_t word)
+/* Returns the hash `hash` extended by a word, by one step of Splitmix64 (Steele, Lea, Flood 2014). */
+static inline uint64_t hash_add_word(uint64_t hash, uint64_t word)
 {
-    z += (word + 1) * UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return z ^ z >> 31;
+    hash += (word + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    hash = (hash ^ hash >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    hash = (hash ^ hash >> 27) * UINT64_C(0x94d049bb133111eb);
+    return hash ^ hash >> 31;
 }
 
 /* Result of a function that can fail; the values are the exit statuses of the program. */
@@ -68,9 +68,10 @@ const char *status_message(void);
  * position is unknown. */
 enum { PLACE_LENGTH = 512 };
 
-/* Prepends `place`, a position in the scene file such as `file:line:column: key: `, to the message set by status_set.
- * Does nothing if s is not REFUSED, if the message has a position already, or if `place` is empty. Returns s. */
-status status_prepend_location(const char *place, status s);
+/* Prepends `location`, a position in the scene file such as `file:line:column: key: `, to the message set by
+ * status_set. Does nothing if s is not REFUSED, if the message has a position already, or if `location` is empty.
+ * Returns s. */
+status status_prepend_location(const char *location, status s);
 
 /* Ends the program by invariant_broken if `condition` is false. For conditions that hold in every run of a correct
  * program; unlike assert of C it is part of every build. What a scene, a file or the system can cause is a status
@@ -85,7 +86,7 @@ _Noreturn void invariant_broken(const char *condition, const char *file, int lin
 
 /* Sets the function that invariant_broken calls before the program ends, in the thread that has found the fault; it
  * removes half-written files. NULL: none. */
-void invariant_set_cleanup(void (*remove)(void));
+void invariant_set_cleanup(void (*cleanup)(void));
 
 /* Replaces every control character of a text from outside (names of files, columns, scenes) by `?`, so that a terminal
  * does not act on it. */
@@ -107,9 +108,9 @@ struct printable_name printable_name(const char *name);
 /* Compares two numbers (double), for array_sort in ascending order. */
 int double_order(const void *a, const void *b);
 
-/* Sorts the n > 0 numbers in `value`, in place, and returns their median; for even n the upper of the two middle
- * ones. */
-double median_of(double *value, int64_t n);
+/* Sorts the `count` numbers in `value`, at least one, in place, and returns their median; for even `count` the upper of
+ * the two middle ones. */
+double median_of(double *value, int64_t count);
 
 /* Returns from the calling function with the status of `call` if it is not OK. */
 #define TRY(call)                                                                                                      \
@@ -148,10 +149,10 @@ static inline real dot(const real *a, const real *b, int dim)
     return sum;
 }
 
-/* Computes the vector product to = a x b of vectors with three components. `to` must be neither a nor b. */
-static inline void vector_product(const real *a, const real *b, real *to)
+/* Computes the vector product a x b of vectors with three components. `product` must be neither a nor b. */
+static inline void vector_product(const real *a, const real *b, real *product)
 {
-    for (int d = 0; d < 3; d++) to[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
+    for (int d = 0; d < 3; d++) product[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
 }
 
 /* Returns name and version of the compiler of this program. */

@@ -14,8 +14,8 @@ typedef void matrix_product_fn(void *context, const real *x, real *y);
  * suffice for a bounded spectrum without gaps. */
 real largest_eigenvalue(int64_t n, matrix_product_fn *apply, void *context);
 
-/* Returns the largest eigenvalue of the symmetric tridiagonal matrix with a[n] on its diagonal and b[k] between a[k]
- * and a[k + 1]; n > 0. */
-real tridiagonal_largest_eigenvalue(const real *a, const real *b, int n);
+/* Returns the largest eigenvalue of the symmetric tridiagonal matrix with diagonal[size] on its diagonal and
+ * off_diagonal[k] between diagonal[k] and diagonal[k + 1]; `size` > 0. */
+real tridiagonal_largest_eigenvalue(const real *diagonal, const real *off_diagonal, int size);
 
 #endif

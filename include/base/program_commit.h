@@ -3,8 +3,8 @@
 #ifndef CLEAVE_PROGRAM_COMMIT
 #define CLEAVE_PROGRAM_COMMIT
 
-/* Sets the commit of the source tree. name: kept by reference. */
-void program_commit_set(const char *name);
+/* Sets the commit of the source tree. commit_id: kept by reference. */
+void program_commit_set(const char *commit_id);
 
 /* Returns the commit of the source tree, "" if it is unknown. */
 const char *program_commit(void);

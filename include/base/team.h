@@ -75,9 +75,9 @@ struct timers {
 };
 
 /* Sets the time spent in every section to 0 and starts timing the first one. */
-void timers_start(struct timers *l);
+void timers_start(struct timers *timers);
 
 /* Adds the time since the last call of timer_add_elapsed (or timers_start) to section `which`. */
-void timer_add_elapsed(struct timers *l, enum timer which);
+void timer_add_elapsed(struct timers *timers, enum timer which);
 
 #endif

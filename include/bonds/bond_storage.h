@@ -244,16 +244,16 @@ static inline struct bond_softness bond_softness_closed(struct softening_range r
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST))};
 }
 
-/* Returns the state of the bond with index q. */
-static inline struct bond_softness bond_softness_get(const struct softened *s, int64_t q)
+/* Returns the state of the bond with index `bond`. */
+static inline struct bond_softness bond_softness_get(const struct softened *softened, int64_t bond)
 {
-    return (struct bond_softness){s->most[q], s->onset[q], s->end[q]};
+    return (struct bond_softness){softened->most[bond], softened->onset[bond], softened->end[bond]};
 }
 
-/* Stores the state of the bond with index q. */
-static inline void bond_softness_put(struct softened *s, int64_t q, struct bond_softness state)
+/* Stores the state of the bond with index `bond`. */
+static inline void bond_softness_put(struct softened *softened, int64_t bond, struct bond_softness state)
 {
-    s->most[q] = state.most, s->onset[q] = state.onset, s->end[q] = state.end;
+    softened->most[bond] = state.most, softened->onset[bond] = state.onset, softened->end[bond] = state.end;
 }
 
 /* State of an entry without a bond. */
@@ -265,30 +265,30 @@ static inline bool row_block_softens(const struct bonds *b, int64_t row_block)
     return b->soft.curve && b->soft.begun[row_block];
 }
 
-/* Returns true if the bond with index q, in row block `row_block`, has begun to soften or may do so without question.
- */
-static inline bool bond_softens(const struct bonds *b, int64_t row_block, int64_t q)
+/* Returns true if the bond with index `bond`, in row block `row_block`, has begun to soften or may do so without
+ * question. */
+static inline bool bond_softens(const struct bonds *b, int64_t row_block, int64_t bond)
 {
-    return row_block_softens(b, row_block) && b->soft.onset[q] < SOFTENING_NEVER;
+    return row_block_softens(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
 }
 
-/* Returns the share 1 - d of its stiffness that the bond with index q, in row block `row_block`, has at the stretch
- * `stretch` [1]. */
-static inline real bond_kept_share(const struct bonds *b, int64_t row_block, int64_t q, real stretch)
+/* Returns the share 1 - d of its stiffness that the bond with index `bond`, in row block `row_block`, has at the
+ * stretch `stretch` [1]. */
+static inline real bond_kept_share(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
-    if (stretch <= 0 || !bond_softens(b, row_block, q)) return 1;
-    const real most = b->soft.settled ? b->soft.most[q] : real_max(b->soft.most[q], stretch);
-    return softening_kept(b->soft.curve, b->soft.onset[q], b->soft.end[q], most);
+    if (stretch <= 0 || !bond_softens(b, row_block, bond)) return 1;
+    const real most = b->soft.settled ? b->soft.most[bond] : real_max(b->soft.most[bond], stretch);
+    return softening_kept(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], most);
 }
 
-/* Returns half the energy that the softening of the bond with index q, in row block `row_block`, has dissipated so far
- * [J], the share of one of its two rows; 0 if the bond is broken. */
-static inline real bond_half_spent(const struct bonds *b, int64_t row_block, int64_t q)
+/* Returns half the energy that the softening of the bond with index `bond`, in row block `row_block`, has dissipated so
+ * far [J], the share of one of its two rows; 0 if the bond is broken. */
+static inline real bond_half_spent(const struct bonds *b, int64_t row_block, int64_t bond)
 {
-    if (!bond_softens(b, row_block, q) || b->w[q] == 0) return 0;
-    return 0.5 * b->stiffness * b->w[q] *
-           softening_spent(b->soft.curve, b->soft.onset[q], b->soft.end[q], b->soft.most[q]) /
-           fabs(b->inverse_length[q]);
+    if (!bond_softens(b, row_block, bond) || b->w[bond] == 0) return 0;
+    return 0.5 * b->stiffness * b->w[bond] *
+           softening_spent(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], b->soft.most[bond]) /
+           fabs(b->inverse_length[bond]);
 }
 
 /* Marks particle i, of which a bond begins to soften, for conversion if it is a material point: its stress does not
@@ -319,13 +319,13 @@ void row_block_open_softness(struct bonds *b, const struct particles *p, const s
  * called by several threads at once. */
 void row_block_write_columns(struct bonds *b, int64_t row_block);
 
-/* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond k of the particle in lane `lane` (0 to 7)
- * of a row block, so that the caller may write to it. Expands the row block first if its columns are not written. After
- * a change of w or of the sign of inverse_length the caller calls bonds_update_common_of_bond. */
-static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t k, int lane)
+/* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond `number` of the particle in lane `lane` (0
+ * to 7) of a row block, so that the caller may write to it. Expands the row block first if its columns are not written.
+ * After a change of w or of the sign of inverse_length the caller calls bonds_update_common_of_bond. */
+static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t number, int lane)
 {
     if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_write_columns(b, row_block);
-    return (b->column[row_block] + k) * LANES + lane;
+    return (b->column[row_block] + number) * LANES + lane;
 }
 
 #endif

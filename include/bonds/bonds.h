@@ -15,25 +15,26 @@ struct spring_bound {
     real block[DIM_MAX][DIM_MAX], total; /* sum K n n; sum K [N/m] */
 };
 
-/* Adds a spring of stiffness K [N/m] and direction n (unit vector, dim components) to the sums of the bound s. */
-static inline void spring_bound_add_spring(struct spring_bound *s, real K, const real *n, int dim)
+/* Adds a spring of stiffness `stiffness` [N/m] and direction `direction` (unit vector, dim components) to the sums of
+ * `bound`. */
+static inline void spring_bound_add_spring(struct spring_bound *bound, real stiffness, const real *direction, int dim)
 {
     for (int a = 0; a < dim; a++)
-        for (int c = 0; c < dim; c++) s->block[a][c] += K * n[a] * n[c];
-    s->total += K;
+        for (int c = 0; c < dim; c++) bound->block[a][c] += stiffness * direction[a] * direction[c];
+    bound->total += stiffness;
 }
 
-/* Returns the block-Gershgorin upper bound of the largest eigenvalue of the springs added to s: the maximum row sum of
- * the matrix sum K n n, plus the sum of all K [N/m]. */
-static inline real spring_bound_eigenvalue(const struct spring_bound *s, int dim)
+/* Returns the block-Gershgorin upper bound of the largest eigenvalue of the springs added to `bound`: the maximum row
+ * sum of the matrix sum K n n, plus the sum of all K [N/m]. */
+static inline real spring_bound_eigenvalue(const struct spring_bound *bound, int dim)
 {
     real norm = 0;
     for (int a = 0; a < dim; a++) {
         real sum = 0;
-        for (int c = 0; c < dim; c++) sum += fabs(s->block[a][c]);
+        for (int c = 0; c < dim; c++) sum += fabs(bound->block[a][c]);
         norm = real_max(norm, sum);
     }
-    return norm + s->total;
+    return norm + bound->total;
 }
 
 /* Returns true if one of the `cracks` pre-cracks in the array `crack` cuts the segment between the reference positions
@@ -41,19 +42,19 @@ static inline real spring_bound_eigenvalue(const struct spring_bound *s, int dim
 bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
 
 /* Returns an upper bound of the number of neighbours of any particle within the cutoff, from counts of particles in
- * search cells. Computed once at set-up, because reference positions do not change. s: inputs of the bonds. */
-int bonds_neighbour_count_bound(const struct bond_source *s);
+ * search cells. Computed once at set-up, because reference positions do not change. source: inputs of the bonds. */
+int bonds_neighbour_count_bound(const struct bond_source *source);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
  * V_j is the volume of neighbour j and beta its fraction within the horizon. volume: [p->n_all] [m^3]; source: inputs
  * of the bonds. */
 void bonds_compute_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *source);
 
-/* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs `source`. old:
- * NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; parts of its
- * storage move to b, so that afterwards only bonds_free may be called with `old`. Bonds cut by a pre-crack get weight w
- * = 0 and count as damage. Sets the damage of all peridynamic particles. Release with bonds_free. */
-void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *source);
+/* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs `source`.
+ * previous: NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; parts
+ * of its storage move to b, so that afterwards only bonds_free may be called with `previous`. Bonds cut by a pre-crack
+ * get weight w = 0 and count as damage. Sets the damage of all peridynamic particles. Release with bonds_free. */
+void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, const struct bond_source *source);
 
 /* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. source:
  * inputs, of which the list of images is used. */
@@ -163,12 +164,13 @@ static inline int64_t row_block_column_count(const struct bonds *b, int64_t row_
     return b->column_count[row_block];
 }
 
-/* Returns the neighbour in lane 0 of column k of a row block (column: the k-th bonds of eight particles), if the eight
- * neighbours of the column are consecutive particles; else -1. */
-static inline int64_t column_first_if_consecutive(const struct bonds *b, int64_t row_block, int64_t k)
+/* Returns the neighbour in lane 0 of column `column` of a row block (the `column`-th bonds of eight particles), if the
+ * eight neighbours of the column are consecutive particles; else -1. */
+static inline int64_t column_first_if_consecutive(const struct bonds *b, int64_t row_block, int64_t column)
 {
     const struct stencil *stencil = b->stencil[row_block];
-    return stencil ? b->particle[row_block * LANES] + stencil->column[k].offset : b->first[b->column[row_block] + k];
+    return stencil ? b->particle[row_block * LANES] + stencil->column[column].offset
+                   : b->first[b->column[row_block] + column];
 }
 
 /* A column as it is stored, or would be if the row block were not implicit. */
@@ -189,15 +191,15 @@ struct bond {
     real inverse_length, w;
 };
 
-/* Returns the k-th bond of the particle in lane `lane` (0 to 7) of a row block. Lanes without a k-th bond return
- * inverse_length 0. Does not change b. */
-static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t k, int lane)
+/* Returns the `number`-th bond of the particle in lane `lane` (0 to 7) of a row block. Lanes without a `number`-th bond
+ * return inverse_length 0. Does not change b. */
+static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t number, int lane)
 {
-    const int64_t q = (b->column[row_block] + k) * LANES + lane;
+    const int64_t q = (b->column[row_block] + number) * LANES + lane;
     if (!__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE))
         return (struct bond){q, b->nbr[q], b->inverse_length[q], b->w[q]};
-    const struct stencil_column *of = &b->stencil[row_block]->column[k];
-    const real w = b->stencil[row_block]->w[k][lane];
+    const struct stencil_column *of = &b->stencil[row_block]->column[number];
+    const real w = b->stencil[row_block]->w[number][lane];
     return (struct bond){q, b->particle[row_block * LANES] + of->offset + lane, w == 0 ? 0 : of->inverse_length, w};
 }
 

@@ -90,12 +90,13 @@ struct state_modulus {
     real A, B;
 };
 
-/* Returns the moduli A and B [Pa] of a state-based model (kernels/pd/state_laws.h) for material m. rotates: true for
- * the model with particle rotations (PD_MOSPD). */
-static inline struct state_modulus state_modulus_of(const struct material *m, enum space space, bool rotates)
+/* Returns the moduli A and B [Pa] of a state-based model (kernels/pd/state_laws.h) for material m. with_rotations: true
+ * for the model with particle rotations (PD_MOSPD). */
+static inline struct state_modulus state_modulus_of(const struct material *m, enum space space, bool with_rotations)
 {
     const real D = space_dim(space);
-    return (struct state_modulus){D * D * (rotates ? m->c12 : m->c12 - m->shear), (rotates ? 2 : D + 2) * D * m->shear};
+    return (struct state_modulus){D * D * (with_rotations ? m->c12 : m->c12 - m->shear),
+                                  (with_rotations ? 2 : D + 2) * D * m->shear};
 }
 
 /* Inputs of bonds_make besides the particles; all pointers are borrowed. */
@@ -155,7 +156,7 @@ static inline bool family_has_equal_weights(const struct family *f)
 }
 
 /* Returns the weight of a bond in the reference state, the product of volume fraction beta, influence function omega
- * and weight by direction [1]. xi: bond vector, dim components [m]; r: its length [m]. */
-real family_bond_weight(const struct family *f, const real *xi, real r);
+ * and weight by direction [1]. bond_vector: reference vector, dim components [m]; length: of this vector [m]. */
+real family_bond_weight(const struct family *f, const real *bond_vector, real length);
 
 #endif

@@ -22,31 +22,31 @@ struct site_map {
     bool uniform;               /* exact positions, one volume, mass and material: bonds follow from sites */
 };
 
-/* Returns the index of the lattice site at which particle i is, -1 if its position is not a lattice site of the map
- * l. */
-int64_t lattice_site_of(const struct site_map *l, const struct particles *p, int64_t i);
+/* Returns the index of the lattice site at which particle i is, -1 if its position is not a lattice site of `map`. */
+int64_t lattice_site_of(const struct site_map *map, const struct particles *p, int64_t i);
 
-/* Creates the map l from lattice sites to the particles and images of p. source: inputs of the bonds (spacing, cutoff).
- * Returns false, with nothing to release, if the particles are not on a lattice. Release with site_map_free. */
-bool site_map_make(struct site_map *l, const struct bond_source *source, const struct particles *p);
+/* Creates the map `map` from lattice sites to the particles and images of p. source: inputs of the bonds (spacing,
+ * cutoff). Returns false, with nothing to release, if the particles are not on a lattice. Release with
+ * site_map_free. */
+bool site_map_make(struct site_map *map, const struct bond_source *source, const struct particles *p);
 
-/* Releases the arrays of the map l. */
-void site_map_free(struct site_map *l);
+/* Releases the arrays of `map`. */
+void site_map_free(struct site_map *map);
 
 /* Returns a site map (from lattice sites to particles) for use by rebuilt bonds: `existing` with one more user if it is
  * not NULL, else a new map of p. Release with site_map_release. */
 struct site_map *site_map_share(struct site_map *existing, const struct bond_source *source, const struct particles *p);
 
-/* Removes one user of a site map shared by several sets of bonds; the last user releases it. Does nothing if l is
+/* Removes one user of a site map shared by several sets of bonds; the last user releases it. Does nothing if `map` is
  * NULL. */
-void site_map_release(struct site_map *l);
+void site_map_release(struct site_map *map);
 
 /* Lists the particles and images within the cutoff that belong to the body of particle i, ascending, by means of the
- * site map l, in `found` (at least l->most entries). Returns their number, or -1 if images are among them, so that the
- * list cannot be made in ascending order and a search is required. */
-int site_map_find_neighbours(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found);
+ * site map `map`, in `found` (at least map->most entries). Returns their number, or -1 if images are among them, so
+ * that the list cannot be made in ascending order and a search is required. */
+int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *found);
 
-/* Returns true if a pre-crack of s may cut a bond of particle i; false if all are too far away. */
-bool cracks_near_particle(const struct bond_source *s, const struct particles *p, int64_t i);
+/* Returns true if a pre-crack of `source` may cut a bond of particle i; false if all are too far away. */
+bool cracks_near_particle(const struct bond_source *source, const struct particles *p, int64_t i);
 
 #endif

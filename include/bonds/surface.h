@@ -34,12 +34,12 @@ struct surface_weights {
 };
 
 /* Computes the factors on the weights of bonds near faces, for particles on a lattice, by least squares with bounds.
- * source: inputs of the bonds; rotates: true for the model with particle rotations, whose factors differ because
+ * source: inputs of the bonds; with_rotations: true for the model with particle rotations, whose factors differ because
  * relative rotations of neighbours store energy there. Returns REFUSED, with a message, if the particles are not on a
- * lattice; to->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was found).
- * Release with surface_weights_free. */
-status surface_weights_make(struct surface_weights *to, const struct particles *p, const struct bond_source *source,
-                            bool rotates);
+ * lattice; weights->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was
+ * found). Release with surface_weights_free. */
+status surface_weights_make(struct surface_weights *weights, const struct particles *p,
+                            const struct bond_source *source, bool with_rotations);
 
 /* Releases all arrays of w. */
 void surface_weights_free(struct surface_weights *w);
@@ -47,20 +47,22 @@ void surface_weights_free(struct surface_weights *w);
 /* Returns the integer nearest to a number of spacings; quicker than nearbyint. */
 static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
 
-/* Returns the factor on the weight of the bond of particle i < n with reference vector xi (dim components [m]) [1]; 1
- * if the particle is far from faces or xi is longer than any bond. Both particles of a bond obtain bitwise equal
- * factors. */
-static inline real surface_weight_factor(const struct surface_weights *w, int64_t i, const real *xi)
+/* Returns the factor on the weight of the bond of particle i < n with reference vector `bond_vector` (dim components
+ * [m]) [1]; 1 if the particle is far from faces or `bond_vector` is longer than any bond. Both particles of a bond
+ * obtain bitwise equal factors. */
+static inline real surface_weight_factor(const struct surface_weights *weights, int64_t i, const real *bond_vector)
 {
     int at = 0;
-    if (w->class_of[i] == 0) return 1;
-    for (int d = w->dim - 1; d >= 0; d--) {
-        const real place = xi[d] / w->spacing;
-        if (!(fabs(place) < w->reach + 0.5)) return 1;
+    if (weights->class_of[i] == 0) return 1;
+    for (int d = weights->dim - 1; d >= 0; d--) {
+        const real place = bond_vector[d] / weights->spacing;
+        if (!(fabs(place) < weights->reach + 0.5)) return 1;
         const int step = nearest_integer(place);
-        at = at * (2 * w->reach + 1) + w->reach + (w->mirrors[i] >> d & 1 ? -step : step);
+        at = at * (2 * weights->reach + 1) + weights->reach + (weights->mirrors[i] >> d & 1 ? -step : step);
     }
-    return w->offset_at[at] < 0 ? 1 : w->factor[(int64_t)w->class_of[i] * w->offsets + w->offset_at[at]];
+    return weights->offset_at[at] < 0
+               ? 1
+               : weights->factor[(int64_t)weights->class_of[i] * weights->offsets + weights->offset_at[at]];
 }
 
 #endif

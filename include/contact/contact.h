@@ -145,26 +145,27 @@ struct contact {
 
 /* Initialises the contact of a run; no pairs are searched yet. between: which bodies can be in contact; law: form,
  * contact distance and friction, whose stiffness array is computed here from the elastic constants of the bonds times
- * `stiffness` [1]; source: bond law with spacing and pre-cracks; shape: region of each body; rigid: `rigids` rigid
- * bodies. shape and rigid are kept by reference and must outlive c. Release with contact_free. */
-void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness,
+ * `stiffness_factor` [1]; source: bond law with spacing and pre-cracks; shape: region of each body; rigid: `rigids`
+ * rigid bodies. shape and rigid are kept by reference and must outlive c. Release with contact_free. */
+void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids);
 
 /* Frees the arrays of c; rigid bodies and shapes stay with the caller. */
 void contact_free(struct contact *c);
 
-/* Returns the critical time step of particles that contact forces push on one side and bonds hold on the other [s]. m:
- * array of the materials; bonds: critical time step of the bonds alone [s]. */
-real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds);
+/* Returns the critical time step of particles that contact forces push on one side and bonds hold on the other [s].
+ * material: array of the materials; bonds_time_step: critical time step of the bonds alone [s]. */
+real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *material,
+                           real bonds_time_step);
 
 /* Updates the list of pairs of particles that may come into contact, before a step. A new search is done if particles
  * have moved farther than the list allows since the last search, if bonds have been broken since that search and it was
  * at least BREAKS_WAIT steps ago, or if a search was requested (c->due). Particles on which contact forces may act are
  * marked as loaded in `loads`, and their bonds as active in b. family: horizon and lattice; step: number of the step;
- * broken_bonds: number of directed bonds broken so far; changed: number of conversions and reversions so far. */
+ * broken_bonds: number of directed bonds broken so far; conversions: number of conversions and reversions so far. */
 void contact_update_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
-                         const struct family *family, int64_t step, int64_t broken_bonds, int64_t changed);
+                         const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions);
 
 /* Requests a search for pairs before the next step if one of n listed particles is at the surface of a body, i.e.
  * lacks a part of its family. list: indices of particles that have become peridynamic; family: horizon and lattice.
@@ -193,9 +194,9 @@ void contact_update_times(struct contact *c, real t);
  * springs included [J]. A pair with a mirror image of a particle counts half. */
 real contact_energy(const struct contact *c, const struct particles *p);
 
-/* Returns the diagonal of the bounding box of all particles in contact with rigid body number `body` [m], or 0 if
+/* Returns the diagonal of the bounding box of all particles in contact with rigid body number `rigid_body` [m], or 0 if
  * there is none. */
-real contact_patch_diameter(const struct contact *c, const struct particles *p, int body);
+real contact_patch_diameter(const struct contact *c, const struct particles *p, int rigid_body);
 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
 real contact_friction_work(const struct contact *c);

@@ -46,11 +46,11 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
  * the particles in `region` (NULL: none). */
 void convert_cut_particles(struct particles *p, const struct bond_source *source, const struct region *region);
 
-/* Computes the region `to` that is peridynamic from step 0 on: the region of the scene (`given`, NULL: none), and a
- * ball of `radius` [m] round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller
- * frees to->solid; a region without solids is empty. */
-void initial_pd_region_make(struct region *to, const struct region *given, const struct particles *p,
-                            const struct bond_source *source, real radius);
+/* Computes the region that is peridynamic from step 0 on, and stores it in `region`: the region of the scene
+ * (`scene_region`, NULL: none), and a ball of `tip_radius` [m] round each end of a pre-crack inside the body (in 3D a
+ * cylinder round each edge). The caller frees region->solid; a region without solids is empty. */
+void initial_pd_region_make(struct region *region, const struct region *scene_region, const struct particles *p,
+                            const struct bond_source *source, real tip_radius);
 
 /* Computes the partial stress of each material point whose cell is crossed by PD-MPM bonds, the part of its stress that
  * it leaves to these bonds, as a matrix that maps the stress of the point to it: M = T C^-1 with the elastic stiffness

@@ -29,11 +29,11 @@ struct notches {
 };
 
 /* Decides for each pre-crack of the source whether it becomes a slit of the mesh: it does if it runs through material
- * points of the mesh and ends inside the body; otherwise it cuts bonds along all its length. radius: of the peridynamic
- * zones at the ends of slits [m]; obstacle: reason why no pre-crack may be a slit, NULL: none. Also finds the particles
- * beside slits and narrow voids. Release with notches_free. */
-void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real radius,
-                  const char *obstacle);
+ * points of the mesh and ends inside the body; otherwise it cuts bonds along all its length. tip_radius: radius of the
+ * peridynamic zones at the ends of slits [m]; reason_against_slits: why no pre-crack may be a slit, NULL if slits are
+ * allowed. Also finds the particles beside slits and narrow voids. Release with notches_free. */
+void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real tip_radius,
+                  const char *reason_against_slits);
 
 /* Makes particles peridynamic, before step 0, that are within n->radius of an end of a slit and whose family the slit
  * divides. */

@@ -38,13 +38,13 @@ struct box_search {
     } wait[BOXES_WAITING];
 };
 
-/* Starts a search for the boxes of the tree t near the point X (dim components [m]); box_search_next then returns them
- * one by one. t and X are kept by reference. */
-void box_search_start(struct box_search *q, const struct box_tree *t, const real *X, int dim);
+/* Starts a search for the boxes of the tree `tree` near `point` (dim components [m]); box_search_next then returns them
+ * one by one. `tree` and `point` are kept by reference. */
+void box_search_start(struct box_search *search, const struct box_tree *tree, const real *point, int dim);
 
-/* Returns the number of another box that is at most `reach` [m] away from the point of the search q, or -1 if there are
- * no more. The distance is the largest over the coordinate directions, negative inside the box. The caller may reduce
+/* Returns the number of another box that is at most `reach` [m] away from the point of `search`, or -1 if there are no
+ * more. The distance is the largest over the coordinate directions, negative inside the box. The caller may reduce
  * `reach` between calls. */
-int box_search_next(struct box_search *q, real reach);
+int box_search_next(struct box_search *search, real reach);
 
 #endif

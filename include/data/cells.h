@@ -39,14 +39,14 @@ struct neighbour_list {
 };
 
 /* Lists the particles and mirror images within `radius` [m] of particle i in near->at, in ascending order, and their
- * number in near->n. itself: true to include particle i. */
+ * number in near->n. include_itself: true to include particle i. */
 void particles_find_near(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
-                         real radius, bool itself);
+                         real radius, bool include_itself);
 
 /* Lists the particles and mirror images within `radius` [m] of particle i in near->at, and their number in near->n, in
  * the order of the search cells: slightly faster than the ascending order of particles_find_near if there are images.
- * itself: true to include particle i. */
+ * include_itself: true to include particle i. */
 void particles_find_near_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
-                                   int64_t i, real radius, bool itself);
+                                   int64_t i, real radius, bool include_itself);
 
 #endif

@@ -70,11 +70,11 @@ struct wall {
     real reaction;           /* impulse in this step, without that of the prescribed change [N s] */
 };
 
-/* Enlarges the box of nodes of g, if necessary, so that it covers the positions between the corners `from` and `to` [m]
- * with a margin of three cells. The box grows in steps of several nodes and never shrinks. *changed receives true if
- * the box changed; all nodal values are then 0. Returns FAILED, with a message, if a position is not finite or too far
- * away, or if the box would have more than `max_nodes` nodes. */
-status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t max_nodes, bool *changed);
+/* Enlarges the box of nodes of g, if necessary, so that it covers the positions between the corners `lower` and `upper`
+ * [m] with a margin of three cells. The box grows in steps of several nodes and never shrinks. *changed receives true
+ * if the box changed; all nodal values are then 0. Returns FAILED, with a message, if a position is not finite or too
+ * far away, or if the box would have more than `max_nodes` nodes. */
+status grid_extend_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes, bool *changed);
 
 /* Releases all arrays. */
 void grid_free(struct grid *g);
@@ -106,40 +106,44 @@ void grid_clear_constraints(struct grid *g);
  * times its depth bent by a quarter. */
 #define GRID_MASS_STATIC 1e-3
 
-/* Returns coordinate d of the k-th node along direction d of the box of g [m]. */
-static inline real grid_position(const struct grid *g, int d, int64_t k)
+/* Returns coordinate `axis` of the `node`-th node along direction `axis` of the box of g [m]. */
+static inline real grid_position(const struct grid *g, int axis, int64_t node)
 {
-    return g->anchor[d] + g->h * (real)(g->first[d] + k);
+    return g->anchor[axis] + g->h * (real)(g->first[axis] + node);
 }
 
-/* Returns the coordinate of position x [m] in direction d in units of the node distance, counted from node 0 at
+/* Returns the coordinate of position x [m] in direction `axis` in units of the node distance, counted from node 0 at
  * g->anchor; its floor is the index of the cell that contains x. All callers use this function, so that they round
  * alike. */
-static inline real grid_cell_coordinate(const struct grid *g, int d, real x) { return (x - g->anchor[d]) * (1 / g->h); }
-
-/* Returns the index in direction d of the cell that contains position x [m], counted from node 0 at g->anchor: the
- * floor of grid_cell_coordinate, without a library call. */
-static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int d, real x)
+static inline real grid_cell_coordinate(const struct grid *g, int axis, real x)
 {
-    const real place = grid_cell_coordinate(g, d, x);
+    return (x - g->anchor[axis]) * (1 / g->h);
+}
+
+/* Returns the index in direction `axis` of the cell that contains position x [m], counted from node 0 at g->anchor: the
+ * floor of grid_cell_coordinate, without a library call. */
+static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, real x)
+{
+    const real place = grid_cell_coordinate(g, axis, x);
     const int64_t k = (int64_t)place;
     return k - (place < (real)k);
 }
 
-/* Returns coordinate d of one of the 2^dim particles of cell I, which are at a quarter and three quarters of each edge
- * [m]. corner: corner of the cell nearest to the particle; bit d is set on the upper side in direction d. */
-static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t I, int corner, int d)
+/* Returns coordinate `axis` of one of the 2^dim particles of cell `cell`, which are at a quarter and three quarters of
+ * each edge [m]. corner: corner of the cell nearest to the particle; bit `axis` is set on the upper side in direction
+ * `axis`. */
+static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t cell, int corner, int axis)
 {
-    return grid_position(g, d, I / g->stride[d] % g->count[d]) + (corner >> d & 1 ? 0.75 : 0.25) * g->h;
+    return grid_position(g, axis, cell / g->stride[axis] % g->count[axis]) + (corner >> axis & 1 ? 0.75 : 0.25) * g->h;
 }
 
-/* Returns the index in grid `to` of the cell that has index I in grid `from`; -1 if the box of `to` does not contain
- * the cell. Both grids must have the same node positions, but may have different boxes. */
-static inline int64_t grid_cell_in_other_grid(const struct grid *from, int64_t I, const struct grid *to)
+/* Returns the index in grid `to` of the cell that has index `cell` in grid `from`; -1 if the box of `to` does not
+ * contain the cell. Both grids must have the same node positions, but may have different boxes. */
+static inline int64_t grid_cell_in_other_grid(const struct grid *from, int64_t cell, const struct grid *to)
 {
     int64_t J = 0;
     for (int d = 0; d < from->dim; d++) {
-        const int64_t k = I / from->stride[d] % from->count[d] + from->first[d] - to->first[d];
+        const int64_t k = cell / from->stride[d] % from->count[d] + from->first[d] - to->first[d];
         if (k < 0 || k >= to->count[d]) return -1;
         J += k * to->stride[d];
     }
@@ -147,8 +151,8 @@ static inline int64_t grid_cell_in_other_grid(const struct grid *from, int64_t I
 }
 
 /* Sets the box of g (first, count, n, stride) to the nodes of all cells that contain positions between the corners
- * `from` and `to` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns false if the box would
- * have more than `max_nodes` nodes. */
-bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t max_nodes);
+ * `lower` and `upper` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns false if the box
+ * would have more than `max_nodes` nodes. */
+bool grid_compute_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes);
 
 #endif

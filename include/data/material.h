@@ -84,11 +84,11 @@ static inline bool material_viscous(const struct material *m)
  * plane strain and in 3D, NAN in 1D, where there is none. */
 real bond_based_poisson_ratio(enum space space);
 
-/* Returns the micro-modulus c of bond-based peridynamics, for a family of discrete particles [N/m^6]: 2 k/sigma in 1D,
- * 8 k/sigma in 2D, 18 k/sigma in 3D, with k = m->bulk. Bonds then have the energy of the continuum under uniform
- * dilatation (Silling & Askari 2005). sigma: sum of r V_j beta over a full family [m^4], where beta is the fraction of
- * the volume of neighbour j within the horizon. */
-real material_micro_modulus(const struct material *m, enum space space, real sigma);
+/* Returns the micro-modulus c of bond-based peridynamics, for a family of discrete particles [N/m^6]: 2 k/family_sum in
+ * 1D, 8 k/family_sum in 2D, 18 k/family_sum in 3D, with k = m->bulk. Bonds then have the energy of the continuum under
+ * uniform dilatation (Silling & Askari 2005). family_sum: sum of r V_j beta over a full family [m^4], where beta is the
+ * fraction of the volume of neighbour j within the horizon. */
+real material_micro_modulus(const struct material *m, enum space space, real family_sum);
 
 /* Returns the micro-modulus c of bond-based peridynamics, for a continuous family [N/m^6]: 2 k/(A d^2) in 1D, 12 k/(pi
  * h d^3) in 2D, 18 k/(pi d^4) in 3D, with k = m->bulk (Silling & Askari 2005). horizon: d [m]; section: cross-section A

@@ -118,20 +118,20 @@ struct mesh {
     real match;        /* alpha, share of consistent inertia in matched cells [1] */
 };
 
-/* Returns the array of the 2^dim nodes at the corners of cell I if one of them is an extra node (a node that a slit
- * doubles); NULL otherwise: the corners are then the nodes I + mesh->corner[c] of the grid. */
-static inline const int32_t *mesh_cell_slit_corners(const struct mesh *mesh, int64_t I)
+/* Returns the array of the 2^dim nodes at the corners of cell `cell` if one of them is an extra node (a node that a
+ * slit doubles); NULL otherwise: the corners are then the nodes `cell` + mesh->corner[c] of the grid. */
+static inline const int32_t *mesh_cell_slit_corners(const struct mesh *mesh, int64_t cell)
 {
     const struct mesh_slits *s = &mesh->slits;
-    return s->cell && s->cell[I] >= 0 ? s->corner + ((int64_t)s->cell[I] << mesh->grid.dim) : NULL;
+    return s->cell && s->cell[cell] >= 0 ? s->corner + ((int64_t)s->cell[cell] << mesh->grid.dim) : NULL;
 }
 
-/* Returns the index of the node at corner c of cell I, also if it is an extra node at a slit. c: 0 .. 2^dim - 1, bit d
- * is set on the upper side in direction d. */
-static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t I, int c)
+/* Returns the index of the node at corner `corner` of cell `cell`, also if it is an extra node at a slit. corner: 0 ..
+ * 2^dim - 1, bit d is set on the upper side in direction d. */
+static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cell, int corner)
 {
-    const int32_t *own = mesh_cell_slit_corners(mesh, I);
-    return own ? own[c] : I + mesh->corner[c];
+    const int32_t *own = mesh_cell_slit_corners(mesh, cell);
+    return own ? own[corner] : cell + mesh->corner[corner];
 }
 
 /* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of a group of partial cells, if one
@@ -142,20 +142,20 @@ static inline const int32_t *mesh_group_slit_corners(const struct mesh *mesh, in
     return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
 }
 
-/* Returns the node of the regular grid at the position of node I: for an extra node at a slit the node that it doubles,
- * for all other nodes I itself. */
-static inline int64_t mesh_regular_node_of(const struct mesh *mesh, int64_t I)
+/* Returns the node of the regular grid at the position of `node`: for an extra node at a slit the node that it doubles,
+ * for all other nodes `node` itself. */
+static inline int64_t mesh_regular_node_of(const struct mesh *mesh, int64_t node)
 {
     const struct mesh_slits *s = &mesh->slits;
-    return s->cell && I >= s->first && s->base[I - s->first] >= 0 ? s->base[I - s->first] : I;
+    return s->cell && node >= s->first && s->base[node - s->first] >= 0 ? s->base[node - s->first] : node;
 }
 
-/* Returns the cell of the regular grid whose corner c is at the position of node I; -1 if there is none. Where slits
- * divide this cell, mesh_cell_next_part lists its further parts, and mesh_node shows which of the parts has node I
- * itself. */
-static inline int64_t mesh_cell_at_node(const struct mesh *mesh, int64_t I, int c)
+/* Returns the cell of the regular grid whose corner `corner` is at the position of node `node`; -1 if there is none.
+ * Where slits divide this cell, mesh_cell_next_part lists its further parts, and mesh_node shows which of the parts has
+ * node `node` itself. */
+static inline int64_t mesh_cell_at_node(const struct mesh *mesh, int64_t node, int corner)
 {
-    const int64_t cell = mesh_regular_node_of(mesh, I) - mesh->corner[c];
+    const int64_t cell = mesh_regular_node_of(mesh, node) - mesh->corner[corner];
     return cell >= 0 ? cell : -1;
 }
 
@@ -194,11 +194,11 @@ static inline bool mesh_exceeds_conversion_stress(const struct mesh *mesh)
     return any;
 }
 
-/* Returns the index of the block that contains node I: eight nodes of a row along x, which are skipped together while
- * they are at rest (active_set.h). */
-static inline int64_t mesh_block_of_node(const struct mesh *mesh, int64_t I)
+/* Returns the index of the block that contains node `node`: eight nodes of a row along x, which are skipped together
+ * while they are at rest (active_set.h). */
+static inline int64_t mesh_block_of_node(const struct mesh *mesh, int64_t node)
 {
-    return I / mesh->grid.count[0] * mesh->segments + I % mesh->grid.count[0] / LANES;
+    return node / mesh->grid.count[0] * mesh->segments + node % mesh->grid.count[0] / LANES;
 }
 
 /* Returns a pointer to the activity levels (active_set.h) of the blocks of eight nodes in row number `row`, a row of
@@ -208,11 +208,11 @@ static inline const uint8_t *mesh_row_activity_levels(const struct mesh *mesh, i
     return mesh->active.level + row * mesh->segments;
 }
 
-/* Returns true if the eight consecutive nodes, or cells, of a row from the k-th one on are at rest, so that they can be
- * skipped. levels: activity levels of the blocks of this row (mesh_levels). */
-static inline bool mesh_nodes_are_at_rest(const uint8_t *levels, int64_t k)
+/* Returns true if the eight consecutive nodes, or cells, of a row from the `first`-th one on are at rest, so that they
+ * can be skipped. levels: activity levels of the blocks of this row (mesh_levels). */
+static inline bool mesh_nodes_are_at_rest(const uint8_t *levels, int64_t first)
 {
-    return (levels[k / LANES] | levels[(k + LANES - 1) / LANES]) == 0;
+    return (levels[first / LANES] | levels[(first + LANES - 1) / LANES]) == 0;
 }
 
 /* Returns the value of the linear shape function of a corner node at a quadrature point of its cell [1]. corner, point:
@@ -230,12 +230,12 @@ static inline real mesh_shape_function_value(int dim, int corner, int point)
 }
 
 /* Returns the derivative of the linear shape function of a corner node at a quadrature point of its cell along
- * direction d, in units of 1/h with h the edge of the cell. corner, point: as for mesh_shape_function_value. */
-static inline real mesh_shape_function_slope(int dim, int corner, int point, int d)
+ * direction `axis`, in units of 1/h with h the edge of the cell. corner, point: as for mesh_shape_function_value. */
+static inline real mesh_shape_function_slope(int dim, int corner, int point, int axis)
 {
-    real slope = corner >> d & 1 ? 1 : -1;
+    real slope = corner >> axis & 1 ? 1 : -1;
     for (int b = 0; b < dim; b++)
-        if (b != d) slope *= (corner ^ point) >> b & 1 ? 0.25 : 0.75;
+        if (b != axis) slope *= (corner ^ point) >> b & 1 ? 0.25 : 0.75;
     return slope;
 }
 

@@ -109,16 +109,16 @@ static inline uint64_t load_eight_bytes(const uint8_t *from)
 /* Returns true if the eight bytes from[0] .. from[7] are all equal. */
 static inline bool eight_bytes_are_equal(const uint8_t *from) { return load_eight_bytes(from) == EIGHT_TIMES(from[0]); }
 
-/* Returns the index of the first entry of mark[n], from `first` on, that is not 0, or n if there is none. mark must
- * have LANES more entries, all 0, because eight entries are tested at a time. */
-static inline int64_t next_marked_index(const uint8_t *mark, int64_t first, int64_t n)
+/* Returns the index of the first entry of mark[count], from `first` on, that is not 0, or `count` if there is none.
+ * mark must have LANES more entries, all 0, because eight entries are tested at a time. */
+static inline int64_t next_marked_index(const uint8_t *mark, int64_t first, int64_t count)
 {
-    while (first < n && !mark[first])
+    while (first < count && !mark[first])
         if (load_eight_bytes(mark + first))
             first++;
         else
             first += LANES;
-    return first < n ? first : n;
+    return first < count ? first : count;
 }
 
 /* Sets bit i. */
@@ -130,10 +130,10 @@ static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((u
 /* Returns true if bit i is set. */
 static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i / 64] >> i % 64 & 1; }
 
-/* Returns how many of the eight indices from `first` on are below n. */
-static inline int count_of_eight_below(int64_t first, int64_t n)
+/* Returns how many of the eight indices from `first` on are below `limit`. */
+static inline int count_of_eight_below(int64_t first, int64_t limit)
 {
-    return n - first < LANES ? (int)(n - first) : LANES;
+    return limit - first < LANES ? (int)(limit - first) : LANES;
 }
 
 /* Returns the particle of the body of which entry i is a mirror image, possibly through images of images; i itself if
@@ -177,9 +177,9 @@ extern const int particle_fields_count;
 void *particle_field_array(const struct particles *p, const struct particle_field *f, int component);
 
 /* Saves the fields of all particles, mirror images included, to the archive if a->saving, else restores them; only
- * their plastic state unless a->scope is ARCHIVE_ALL. optional: optional arrays of p, sum of WITH_*. Returns FAILED if
- * the archive cannot be read or written or a stored size differs. */
-status particles_save_or_load(struct particles *p, int optional, struct archive *a);
+ * their plastic state unless a->scope is ARCHIVE_ALL. optional_arrays: optional arrays of p, sum of WITH_*. Returns
+ * FAILED if the archive cannot be read or written or a stored size differs. */
+status particles_save_or_load(struct particles *p, int optional_arrays, struct archive *a);
 
 /* Copies the reference position of particle i to X (dim components [m]). */
 static inline void particle_reference_position(const struct particles *p, int64_t i, real *X)
@@ -235,29 +235,31 @@ static inline real particle_plane_strain_stress(const struct particles *p, int64
     return p->plane_strain[p->material[i]].poisson * (p->stress[0][i] + p->stress[1][i]) + flow;
 }
 
-/* Allocates n particles without mirror images, with all values 0, in dim dimensions. optional: arrays that are
+/* Allocates n particles without mirror images, with all values 0, in dim dimensions. optional_arrays: arrays that are
  * allocated in addition, sum of WITH_*. Release with particles_free. */
-void particles_make(struct particles *p, int dim, int64_t n, int optional);
+void particles_make(struct particles *p, int dim, int64_t n, int optional_arrays);
 
 /* Extends every array of p by `images` zeroed entries for mirror images, behind those of the body; pointers to the
- * arrays change. optional: optional arrays of p, sum of WITH_*. Called once, at set-up. */
-void particles_add_images(struct particles *p, int64_t images, int optional);
+ * arrays change. optional_arrays: optional arrays of p, sum of WITH_*. Called once, at set-up. */
+void particles_add_images(struct particles *p, int64_t images, int optional_arrays);
 
 /* Releases all arrays. */
 void particles_free(struct particles *p);
 
-/* Copies all fields of the particles of `old` to p, which has other particles. new_index: [old->n] new index of each
- * particle in p, -1: the particle is not in p. optional: optional arrays of both, sum of WITH_*. */
-void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *new_index, int optional);
+/* Copies all fields of the particles of `previous` to p, which has other particles. new_index: [previous->n] new index
+ * of each particle in p, -1: the particle is not in p. optional_arrays: optional arrays of both, sum of WITH_*. */
+void particles_copy_fields(struct particles *p, const struct particles *previous, const int32_t *new_index,
+                           int optional_arrays);
 
 /* Sorts the particles of the body row by row: by z, then y, then x, where z and y are rounded to rows of thickness
- * `spacing` [m]; equal positions by id. optional: optional arrays of p, sum of WITH_*. Called at set-up, before mirror
- * images are added. */
-void particles_sort(struct particles *p, real spacing, int optional);
+ * `spacing` [m]; equal positions by id. optional_arrays: optional arrays of p, sum of WITH_*. Called at set-up, before
+ * mirror images are added. */
+void particles_sort(struct particles *p, real spacing, int optional_arrays);
 
-/* Computes the smallest and the largest coordinate d of the reference positions of the first n particles [m]; INFINITY
- * and -INFINITY if n = 0. If n is p->n, particles of the body that were not created (data/hollow.h) are included. */
-void particles_coordinate_range(const struct particles *p, int64_t n, int d, real *low, real *high);
+/* Computes the smallest and the largest coordinate `axis` of the reference positions of the first `count` particles
+ * [m]; INFINITY and -INFINITY if `count` = 0. If `count` is p->n, particles of the body that were not created
+ * (data/hollow.h) are included. */
+void particles_coordinate_range(const struct particles *p, int64_t count, int axis, real *low, real *high);
 
 /* Returns the index of the particle whose reference position is nearest to X (dim components [m]), the lowest one of
  * several; mirror images are not considered. */
@@ -276,11 +278,11 @@ static inline real lattice_volume(real section, real spacing, int dim)
     return volume;
 }
 
-/* Returns true if the coordinate X is a whole number of spacings from `origin`, up to LATTICE_NEAR spacings; *site
- * receives the nearest whole number in any case. X, origin, spacing in one unit. */
-static inline bool lattice_contains_coordinate(real X, real origin, real spacing, real *site)
+/* Returns true if `coordinate` is a whole number of spacings from `origin`, up to LATTICE_NEAR spacings; *site receives
+ * the nearest whole number in any case. `coordinate`, origin, spacing in one unit. */
+static inline bool lattice_contains_coordinate(real coordinate, real origin, real spacing, real *site)
 {
-    const real k = (X - origin) / spacing;
+    const real k = (coordinate - origin) / spacing;
     *site = nearbyint(k);
     return fabs(k - *site) <= LATTICE_NEAR;
 }

@@ -19,9 +19,9 @@ bool region_contains(const struct region *r, const real *X, int dim, real tolera
  * inside the region, 0 on its surface, positive outside. */
 real region_level_set_value(const struct region *r, const real *X, int dim);
 
-/* Computes a box between the corners `from` and `to` [m] that contains the region. It may be too large, because
+/* Computes a box between the corners `lower` and `upper` [m] that contains the region. It may be too large, because
  * intersections and differences are ignored. Returns false if the box is infinite. */
-bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX]);
+bool region_bounds(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* Returns the signed distance of the point X (dim components [m]) from the surface of the region, negative inside [m].
  * normal: receives the outward unit normal of the nearest surface. For a single solid, exact outside and beside flat
@@ -36,9 +36,9 @@ bool region_has_endless_box(const struct region *r, int dim);
  * vector, dim components. */
 real region_support_bound(const struct region *r, const real *direction, int dim);
 
-/* Returns the volume of the part of the region within the box between the corners `from` and `to` [m^dim], by
+/* Returns the volume of the part of the region within the box between the corners `lower` and `upper` [m^dim], by
  * quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
-real region_volume(const struct region *r, int dim, const real *from, const real *to);
+real region_volume(const struct region *r, int dim, const real *lower, const real *upper);
 
 /* Builds search trees over the solids of a long list, so that later queries of the region examine only solids near the
  * point; results stay bitwise equal. The list must not change afterwards. */
@@ -76,9 +76,9 @@ real time_function_value(const struct time_function *f, real t);
 /* Returns the integral of the time function f, a dimensionless factor, from time 0 to t >= 0 [s]. */
 real time_function_integral(const struct time_function *f, real t);
 
-/* Returns the largest magnitude of the slope of the time function f between the times 0 and t [1/s], INFINITY if f
- * jumps there. */
-real time_function_largest_slope(const struct time_function *f, real t);
+/* Returns the largest magnitude of the slope of the time function f between the times 0 and `t_end` [1/s], INFINITY if
+ * f jumps there. */
+real time_function_largest_slope(const struct time_function *f, real t_end);
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
@@ -94,9 +94,9 @@ struct crack {
  * exactly through the crack's end is cut. */
 bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
 
-/* Returns false if the crack certainly cuts no bond of length `reach` [m] or less of a particle at X; true if it may
- * cut one. A fast test, by which particles far from the crack are skipped. */
-bool crack_may_cut_near(const struct crack *c, const real *X, real reach, int dim);
+/* Returns false if the crack certainly cuts no bond of length `bond_length` [m] or less of a particle at X; true if it
+ * may cut one. A fast test, by which particles far from the crack are skipped. */
+bool crack_may_cut_near(const struct crack *c, const real *X, real bond_length, int dim);
 
 /* Computes the area of a crack in 3D as a vector along its normal [m^2]: half of the sum of cross products of
  * consecutive vectors from its first corner to the others (Newell). */
@@ -108,10 +108,10 @@ struct mirror_plane {
     real at;           /* position along the axis [m] */
 };
 
-/* Returns true if the end X of crack c is on or beyond one of the planes of symmetry m[mirrors] and a corner of the
- * crack is inside: the mirror image continues the crack there, so that X is no crack tip. tolerance: distance from a
- * plane up to which a point is on it [m]. */
-bool mirrors_continue_crack(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X,
+/* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror[mirrors] and a corner
+ * of the crack is inside: the mirror image continues the crack there, so that `end` is no crack tip. tolerance:
+ * distance from a plane up to which a point is on it [m]. */
+bool mirrors_continue_crack(const struct mirror_plane *mirror, int mirrors, const struct crack *c, const real *end,
                             real tolerance);
 
 /* Cracks; of[k]: index of the crack of which crack k is a part or an image. */
@@ -121,18 +121,18 @@ struct crack_list {
     int *of;
 };
 
-/* Computes the parts of the cracks on the body's side of all planes of symmetry m[mirrors], and their mirror images
- * within `reach` [m] of these planes, so that a bond across a plane and its image are cut alike. tolerance: distance
- * from a plane up to which a point is on it [m]. Release with crack_list_free. */
-void cracks_make_mirror_images(struct crack_list *to, const struct crack *crack, int cracks,
-                               const struct mirror_plane *m, int mirrors, real reach, real tolerance);
+/* Computes the parts of the cracks on the body's side of all planes of symmetry mirror[mirrors], and their mirror
+ * images within `reach` [m] of these planes, so that a bond across a plane and its image are cut alike. tolerance:
+ * distance from a plane up to which a point is on it [m]. Release with crack_list_free. */
+void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int cracks,
+                               const struct mirror_plane *mirror, int mirrors, real reach, real tolerance);
 
 /* Releases the cracks. */
 void crack_list_free(struct crack_list *l);
 
-/* Returns the distance of the point X from the segment between the points `from` and `to` (dim components each [m])
- * [m]. */
-real segment_distance(const real *from, const real *to, const real *X, int dim);
+/* Returns the distance of the point `point` from the segment between the points `from` and `to` (dim components each
+ * [m]) [m]. */
+real segment_distance(const real *from, const real *to, const real *point, int dim);
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
@@ -154,7 +154,7 @@ struct wave_state {
 };
 
 /* Returns velocity, displacement and strain of the plane wave w at time 0 and the position X (dim components [m]), in
- * material with the wave speed [m/s]. */
-struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real speed, int dim);
+ * material with the wave speed `wave_speed` [m/s]. */
+struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real wave_speed, int dim);
 
 #endif

@@ -75,20 +75,21 @@ static inline real softening_level(const struct softening_curve *c, real x)
     return level;
 }
 
-/* Returns 1 - d(k), the share of its stiffness that a bond keeps in tension [1]. most: its largest stretch k, at least
- * the onset [1]. */
-static inline real softening_kept(const struct softening_curve *c, real onset, real end, real most)
+/* Returns 1 - d(k), the share of its stiffness that a bond keeps in tension [1]. largest_stretch: its largest stretch
+ * k, at least the onset [1]. */
+static inline real softening_kept(const struct softening_curve *c, real onset, real end, real largest_stretch)
 {
-    return onset * softening_level(c, (most - onset) / (end - onset)) / most;
+    return onset * softening_level(c, (largest_stretch - onset) / (end - onset)) / largest_stretch;
 }
 
-/* Returns the energy that a bond has dissipated, over stiffness, weight and length [1]. most: as in softening_kept. */
-real softening_spent(const struct softening_curve *c, real onset, real end, real most);
+/* Returns the energy that a bond has dissipated, over stiffness, weight and length [1]. largest_stretch: as in
+ * softening_kept. */
+real softening_spent(const struct softening_curve *c, real onset, real end, real largest_stretch);
 
-/* Computes the peaks of stress of uniformly strained bonds of all directions, over s_0 E', from the curve and the ratio
- * kappa of critical stretch to onset, squared [1], by quadrature over directions. Each bond is taken to be at its
- * largest stretch. */
-struct softening_strength softening_strength_of(const struct softening_curve *c, enum space space, real kappa);
+/* Computes the peaks of stress of uniformly strained bonds of all directions, over s_0 E', from the curve, by
+ * quadrature over directions. squared_ratio: square of the ratio of critical stretch to onset [1]. Each bond is taken
+ * to be at its largest stretch. */
+struct softening_strength softening_strength_of(const struct softening_curve *c, enum space space, real squared_ratio);
 
 /* Returns the onset s_0 at which the tensile strength of bonds is m->tensile_strength [1], by fixed-point iteration:
  * s_0 = strength/(E' tension(kappa)). m->critical_stretch must be set. The result exceeds m->critical_stretch where the

@@ -160,8 +160,8 @@ void solid_free(struct solid *s);
 enum polygon_fault { POLYGON_FINE, POLYGON_SHORT, POLYGON_FLAT, POLYGON_CROSSED, POLYGON_TIGHT };
 
 /* Checks the polygon p and computes its orientation (p->sense) and the arcs of its rounded corners (p->bend) from its
- * corners and corner radius. Returns POLYGON_FINE, or the fault that was found; *corner then receives the number of the
- * corner at which it is, if it is at one. */
-enum polygon_fault polygon_make(struct polygon *p, int *corner);
+ * corners and corner radius. Returns POLYGON_FINE, or the fault that was found; *faulty_corner then receives the number
+ * of the corner at which it is, if it is at one. */
+enum polygon_fault polygon_make(struct polygon *p, int *faulty_corner);
 
 #endif

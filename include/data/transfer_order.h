@@ -15,8 +15,8 @@ enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 /* Padding of the order in entries, so that prefetching may read beyond its end. */
 enum { ORDER_AHEAD = 64 };
 
-/* Returns the length of a block in direction d [cells]. */
-static ALWAYS_INLINE int64_t transfer_block_edge_length(int d) { return d == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
+/* Returns the length of a block in direction `axis` [cells]. */
+static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 
 /* The order. All arrays are owned. */
 struct transfer_order {

@@ -56,8 +56,8 @@ status engine_run_mpm_baseline(struct run *e);
 void engine_warn_of_input(struct run *e);
 
 /* Writes summary.json, and fragments.csv if bodies can break into fragments, for the steps done so far. Does nothing
- * for a run without files. s: status with which the run ended; threads: number of threads. Returns FAILED if a file
- * cannot be written. */
-status summary_write(const struct run *e, status s, int threads);
+ * for a run without files. end_status: status with which the run ended; threads: number of threads. Returns FAILED if a
+ * file cannot be written. */
+status summary_write(const struct run *e, status end_status, int threads);
 
 #endif

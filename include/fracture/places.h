@@ -11,14 +11,14 @@ struct place {
     bool beside;
 };
 
-/* Divides n positions into groups and computes a representative position of one group. Two positions are in one group
- * if a chain of positions connects them in steps of at most `reach` [m], measured perpendicular to the unit vector
- * `along` (dim components; zero vector: in all directions). Positions with `beside` connect others, but no result is
- * computed from them. middle: receives the mean of the other positions of a group or, if none of them is within `reach`
- * of the mean, the one nearest to it (dim components [m]). Of several groups, that of the last position by x, then y,
- * then z is used. Returns the number of groups, or 0, without a result, if all positions have `beside`. At most the
- * first 16384 positions are examined. */
-int64_t positions_cluster_centre(const struct place *place, int64_t n, int dim, real reach, const real *along,
-                                 real *middle);
+/* Divides `positions` positions into groups and computes a representative position of one group. Two positions are in
+ * one group if a chain of positions connects them in steps of at most `reach` [m], measured perpendicular to the unit
+ * vector `along` (dim components; zero vector: in all directions). Positions with `beside` connect others, but no
+ * result is computed from them. centre: receives the mean of the other positions of a group or, if none of them is
+ * within `reach` of the mean, the one nearest to it (dim components [m]). Of several groups, that of the last position
+ * by x, then y, then z is used. Returns the number of groups, or 0, without a result, if all positions have `beside`.
+ * At most the first 16384 positions are examined. */
+int64_t positions_cluster_centre(const struct place *position, int64_t positions, int dim, real reach,
+                                 const real *along, real *centre);
 
 #endif

@@ -94,28 +94,29 @@ struct sif {
     real K[MODES], J;
 }; /* [Pa m^(1/2)], [J/m^2] */
 
-/* Computes the weight q of the interaction integral at distance r from the crack tip [m]: *q receives the weight, 1
- * inside contour->inner and 0 outside contour->outer; *slope receives dq/dr [1/m]. form: function that decreases
- * between the two radii. */
-void sif_weight_function(enum sif_weight form, const struct contour *contour, real r, real *q, real *slope);
+/* Computes the weight `weight` of the interaction integral at distance `distance` from the crack tip [m]: *weight
+ * receives the weight, 1 inside contour->inner and 0 outside contour->outer; *slope receives dq/dr [1/m]. form:
+ * function that decreases between the two radii. */
+void sif_weight_function(enum sif_weight form, const struct contour *contour, real distance, real *weight, real *slope);
 
 /* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
  * frame of the crack tip, x[0] ahead of the tip [m]; contour: contour with the weight q; actual, auxiliary: the two
- * motions at the point, in the same frame; inside: factor 0 to 1 on the second sum of I, which has the inertia terms
- * [1]. */
+ * motions at the point, in the same frame; inertia_factor: factor 0 to 1 on the second sum of I, which has the inertia
+ * terms [1]. */
 real sif_integrand(const struct sif_tip *tip, const struct contour *contour, const real x[2],
-                   const struct crack_state *actual, const struct crack_state *auxiliary, real inside);
+                   const struct crack_state *actual, const struct crack_state *auxiliary, real inertia_factor);
 
-/* Computes the stress-intensity factors and J of a crack tip by the interaction integral, for n contours in one pass
- * over the particles. motion: displacement, velocity, acceleration and loads of all particles; rule: how gradients are
- * computed; c: neighbour search over the reference positions. found: receives n results, K [Pa m^(1/2)] and J [J/m^2].
- */
-void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int n, const struct sif_motion *motion,
-                   const struct gradient_rule *rule, const struct particles *p, const struct cells *c,
-                   struct sif *found);
+/* Computes the stress-intensity factors and J of a crack tip by the interaction integral, for `contours` contours in
+ * one pass over the particles. motion: displacement, velocity, acceleration and loads of all particles; rule: how
+ * gradients are computed; c: neighbour search over the reference positions. result: receives `contours` results, K [Pa
+ * m^(1/2)] and J [J/m^2]. */
+void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int contours,
+                   const struct sif_motion *motion, const struct gradient_rule *rule, const struct particles *p,
+                   const struct cells *c, struct sif *result);
 
-/* Returns the largest relative difference between the results of n contours [1]: of K_I or K_II over |K|, or of J over
- * J, with means over the contours in the denominators; NAN if one of them is 0. found: n results of sif_integrate. */
-real sif_contour_spread(const struct sif *found, int n);
+/* Returns the largest relative difference between the results of `contours` contours [1]: of K_I or K_II over |K|, or
+ * of J over J, with means over the contours in the denominators; NAN if one of them is 0. result: `contours` results of
+ * sif_integrate. */
+real sif_contour_spread(const struct sif *result, int contours);
 
 #endif

@@ -45,40 +45,42 @@ void crack_hooke_stress(const struct crack_medium *m, real gradient[2][2], real 
 void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2],
                              struct crack_field *f);
 
-/* Computes the field at x round the tip of a crack that moves at constant speed v with K = 1 Pa m^(1/2) in one mode
- * (Freund 1990, chapter 4). v: 0 < v < c_R, the Rayleigh speed [m/s]; the formulas are ill-conditioned as v -> 0. x:
- * position in the frame of the tip, x[0] ahead of the tip [m]. f: receives displacement and motion. */
-void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
+/* Computes the field at x round the tip of a crack that moves at constant speed `speed` with K = 1 Pa m^(1/2) in one
+ * mode (Freund 1990, chapter 4). speed: 0 < `speed` < c_R, the Rayleigh speed [m/s]; the formulas are ill-conditioned
+ * as `speed` -> 0. x: position in the frame of the tip, x[0] ahead of the tip [m]. f: receives displacement and
+ * motion. */
+void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
                             struct crack_field *f);
 
-/* Computes the field at x round a crack tip of speed v with K = 1 Pa m^(1/2) in one mode, for 0 <= v < c_R, the
- * Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at rest is used
+/* Computes the field at x round a crack tip of speed `speed` with K = 1 Pa m^(1/2) in one mode, for 0 <= `speed` < c_R,
+ * the Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at rest is used
  * (crack_tip_field_at_rest), which differs there by 1e-4, else that of a moving crack. x: position in the frame of the
  * tip [m]; f: receives the field. */
-void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
+void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
                      struct crack_field *f);
 
 /* Returns the universal function A_I(v) or A_II(v) of the energy release rate G = (A_I K_I^2 + A_II K_II^2)/E* (Freund
- * 1990, chapter 5) [1]; 1 at v = 0. v: speed of the tip [m/s]. A_II contains the factor 1 - a_s^2, as A_I does; with 1
+ * 1990, chapter 5) [1]; 1 at rest. speed: speed v of the tip [m/s]. A_II contains the factor 1 - a_s^2, as A_I does;
+ * with 1
  * - a_d^2, as sometimes printed, A_II would not tend to 1 at rest. */
-real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real v);
+real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed);
 
 /* Form of k(v) = K_I/K_I at rest of a semi-infinite crack that grows at constant speed under a time-independent load:
  * exact (Freund 1990, eq. 6.4.26), the formula of Rose (1976), or the approximation (1 - v/c_R)/sqrt(1 - v/c_d). */
 enum speed_factor { SPEED_EXACT, SPEED_ROSE, SPEED_APPROXIMATE };
 
-/* Returns k(v), the ratio of K_I of a semi-infinite crack growing at constant speed v [m/s] to K_I of the crack at
- * rest under the same load [1]. form: exact solution or one of two approximations. */
-real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real v);
+/* Returns k(v), the ratio of K_I of a semi-infinite crack growing at the constant speed v = `speed` [m/s] to K_I of the
+ * crack at rest under the same load [1]. form: exact solution or one of two approximations. */
+real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real speed);
 
 /* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_speed_factor) equals `factor`
  * [m/s], limited to `max_speed` [m/s], which must be below the Rayleigh speed. Returns 0 if factor >= 1. */
 real crack_speed_from_factor(const struct crack_medium *m, real factor, real max_speed);
 
 /* Returns K_I of a semi-infinite crack at rest in plane strain after the arrival of a plane wave [Pa m^(1/2)] (Freund
- * 1990). stress: normal stress of the wave on the plane of the crack [Pa]; age: time since its arrival [s].
- */
-real crack_sif_after_wave(const struct crack_medium *m, real stress, real age);
+ * 1990). stress: normal stress of the wave on the plane of the crack [Pa]; time_since_arrival: time since its arrival
+ * [s]. */
+real crack_sif_after_wave(const struct crack_medium *m, real stress, real time_since_arrival);
 
 /* Returns the angle between a crack and the direction of the largest circumferential stress ahead of its tip [rad]
  * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. K: K_I and K_II [Pa m^(1/2)]. */

@@ -52,9 +52,9 @@ struct crack_tips {
 };
 
 /* Excludes particles that pre-cracks have damaged from all cracks, so that crack tips do not grow through them. For
- * pre-cracks represented as slits of the mesh. lost: for each particle, the share of its bonds that pre-cracks cut
- * once the particle has bonds [1]. */
-void tips_exclude_precracks(struct crack_tips *t, const real *lost);
+ * pre-cracks represented as slits of the mesh. cut_fraction: for each particle, the share of its bonds that pre-cracks
+ * cut once the particle has bonds [1]. */
+void tips_exclude_precracks(struct crack_tips *t, const real *cut_fraction);
 
 /* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already
  * include the pre-cracks; c: neighbour search over the reference positions; crack: `cracks` pre-cracks; spacing: of

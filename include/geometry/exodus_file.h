@@ -22,9 +22,9 @@ struct exodus_file {
     int64_t nodes, blocks, node_sets, side_sets, element_sets;
 };
 
-/* Opens the content of the file `path`: text[length], which must outlive f. Returns REFUSED, with a message, if it is
- * no Exodus II file; then nothing need be closed. Close with exodus_close. */
-status exodus_open(struct exodus_file *f, const char *path, const char *text, int64_t length);
+/* Opens the content of the file `path`: content[length], which must outlive f. Returns REFUSED, with a message, if it
+ * is no Exodus II file; then nothing need be closed. Close with exodus_close. */
+status exodus_open(struct exodus_file *f, const char *path, const char *content, int64_t length);
 
 /* Reads the file `path` into memory, registers it as an input and opens it as exodus_open does. Close with
  * exodus_close. */
@@ -46,25 +46,27 @@ int64_t exodus_dimension(const struct exodus_file *f, const char *name, int64_t 
 /* Returns true if the file has an array that is called `name` followed by `number` (0: without a number). */
 bool exodus_has(const struct exodus_file *f, const char *name, int64_t number);
 
-/* Reads the array that is called `name` followed by `number` (0: without a number) into *value, allocated, of n finite
- * numbers in all; the caller frees it with memory_free. Returns REFUSED, with a message and *value NULL, if it is
- * missing, is not one of numbers, or has another size. */
-status exodus_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t n, real **value);
+/* Reads the array that is called `name` followed by `number` (0: without a number) into *value, allocated, of `count`
+ * finite numbers in all; the caller frees it with memory_free. Returns REFUSED, with a message and *value NULL, if it
+ * is missing, is not one of numbers, or has another size. */
+status exodus_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t count, real **value);
 
-/* Reads an array of n whole numbers, as exodus_reals does. */
-status exodus_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t n, int64_t **value);
+/* Reads an array of `count` whole numbers, as exodus_reals does. */
+status exodus_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t count, int64_t **value);
 
 /* Reads the coordinates of all nodes [unit of the file] into axis[d], d below f->dim, allocated, f->nodes numbers each;
  * the caller frees them with memory_free, also after a failure. axis[d] are NULL before. Returns REFUSED, with a
  * message, if they are missing or not finite. */
 status exodus_coordinates(const struct exodus_file *f, real *axis[DIM_MAX]);
 
-/* Reads row `row` of n rows of text in the array that is called `name` followed by `number` into text[NAME_MAX_LENGTH],
- * without blanks at its end; "" if the file has no such array. */
-void exodus_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t n, char *text);
+/* Reads row `row` of `rows` rows of text in the array that is called `name` followed by `number` into
+ * text[NAME_MAX_LENGTH], without blanks at its end; "" if the file has no such array. */
+void exodus_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t rows, char *text);
 
-/* Reads the type, the number of elements and of nodes per element of block `number` (from 1). type[NAME_MAX_LENGTH]: in
- * capital letters. Returns REFUSED, with a message, if the block has no list of nodes for each element. */
-status exodus_block(const struct exodus_file *f, int64_t number, char *type, int64_t *elements, int64_t *nodes);
+/* Reads the type, the number of elements and the number of nodes per element of block `number` (from 1).
+ * type[NAME_MAX_LENGTH]: in capital letters. Returns REFUSED, with a message, if the block has no list of nodes for
+ * each element. */
+status exodus_block(const struct exodus_file *f, int64_t number, char *type, int64_t *elements,
+                    int64_t *nodes_per_element);
 
 #endif

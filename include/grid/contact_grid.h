@@ -45,9 +45,9 @@ struct grid_contact {
  * set by the caller. Release with grid_contact_free. */
 void grid_contact_make(struct grid_contact *c, int sides);
 
-/* Initialises *a with the background grid g of one body, the cell order of its points, and the range of nodes that the
- * points reach. g and order are kept by reference. */
-void grid_contact_side_make(struct grid_contact_side *a, struct grid *g, const struct transfer_order *order,
+/* Initialises *side with the background grid g of one body, the cell order of its points, and the range of nodes that
+ * the points reach. g and order are kept by reference. */
+void grid_contact_side_make(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
                             const struct particles *p);
 
 /* Lists the nodes that material points of two bodies reach, with the normal from one body to the other and the

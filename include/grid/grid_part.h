@@ -46,23 +46,23 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
 void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
                                const struct scene *s, enum coupling coupling);
 
-/* Computes the position of one node of the background grid, from which all others follow, into `anchor`, dim
- * components [m]. from: lower corner of the first body [m]; site: position of one particle of its lattice [m]; meshed:
- * true to place nodes midway between particles. */
-void grid_choose_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
+/* Computes the position of one node of the background grid, from which all others follow, into `anchor`, dim components
+ * [m]. body_corner: lower corner of the first body [m]; site: position of one particle of its lattice [m]; meshed: true
+ * to place nodes midway between particles. */
+void grid_choose_anchor(const struct scene *s, const real *body_corner, const real *site, bool meshed, real *anchor);
 
-/* Returns the number in the scene of body `number` = 0, 1, ..., where bodies joined to each other count once, under the
- * first of them. Returns -1 if there are no more than `number` bodies. */
-int joined_group_first_body(const struct scene *s, int number);
+/* Returns the number in the scene of body `group` = 0, 1, ..., where bodies joined to each other count once, under the
+ * first of them. Returns -1 if there are no more than `group` bodies. */
+int joined_group_first_body(const struct scene *s, int group);
 
 /* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits and voids then
  * cannot divide a mesh on these nodes, because the doubled nodes have no mirror nodes. */
 bool grid_mirror_off_nodes(const struct grid *g, const struct scene *s);
 
 /* Sorts the material points into the cells of their background grids, extends the grids as needed, and selects the
- * peridynamic particles that a grid moves. lost: receives true if the position of a point is not finite; nothing is
- * sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
-status grid_sort_points(struct run *e, bool *lost);
+ * peridynamic particles that a grid moves. not_finite: receives true if the position of a point is not finite; nothing
+ * is sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
+status grid_sort_points(struct run *e, bool *not_finite);
 
 /* Maps mass, momentum and forces of the material points to the nodes of the background grids. kernels: compiled loops
  * for the vector instructions of this machine; timers: receives the time spent. */

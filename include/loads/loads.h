@@ -186,9 +186,9 @@ status load_find_particles(struct load *l, const struct boundary *b, struct part
 bool load_mark_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
                                    uint8_t *selected);
 
-/* Sets the particle list of load l to the particles i with taken[i] > 0, ascending, and allocates their shares if the
- * load applies forces. Sets FLAG_DRIVEN on these particles if the load prescribes motion. taken: [p->n]. */
-void load_set_particles(struct load *l, const uint8_t *taken, struct particles *p);
+/* Sets the particle list of load l to the particles i with selected[i] > 0, ascending, and allocates their shares if
+ * the load applies forces. Sets FLAG_DRIVEN on these particles if the load prescribes motion. selected: [p->n]. */
+void load_set_particles(struct load *l, const uint8_t *selected, struct particles *p);
 
 /* Exposed face for a traction (loads_columns.c): areas of particles. Of each column along the normal, the first
  * particle that no other one hides gets its area; for tangential components together with the next one if `two`. */
@@ -205,36 +205,35 @@ void exposed_face_make(struct exposed_face *f, const struct boundary *b, const s
 /* Releases both arrays of areas of a face. */
 void exposed_face_free(struct exposed_face *f);
 
-/* Sets taken[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and leaves
- * other entries unchanged; a gap in a column of particles normal to the face ends the layer there. selected, taken:
- * [p->n]; spacing: lattice spacing [m]. */
+/* Sets in_layer[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and
+ * leaves other entries unchanged; a gap in a column of particles normal to the face ends the layer there. selected,
+ * in_layer: [p->n]; spacing: lattice spacing [m]. */
 void face_mark_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                     uint8_t *taken);
+                     uint8_t *in_layer);
 
 /* Function that face_visit_surface_particles calls for each free end of a column of particles normal to a face.
  * particle: index of the particle at that end; area: cross-section of the column [m^2]; context: data of the caller. */
 typedef void face_particle_fn(void *context, int32_t particle, real area);
 
-/* Calls found(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
- * particles along its normal; walls of holes are free ends too. selected: [p->n] 1: selected; spacing: lattice spacing
- * [m]. */
+/* Calls visit(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
+ * particles along its normal; also at walls of holes. selected: [p->n]; spacing: lattice spacing [m]. */
 void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
-                                  real spacing, face_particle_fn *found, void *context);
+                                  real spacing, face_particle_fn *visit, void *context);
 
-/* Finds the particles with a free face on which the pressure boundary[which] acts, and stores them in l with the areas
- * of these faces. boundary: all n boundaries of the scene, because other boundaries may cover a face. spacing: lattice
- * spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free face. */
-status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
-                                real spacing);
+/* Finds the particles with a free face on which the pressure boundary[number] acts, and stores them in l with the areas
+ * of these faces. boundary: all `boundaries` of the scene, because others may cover a face. spacing: lattice spacing
+ * [m]. Returns REFUSED, with a message, if the region has no particles or no free face. */
+status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int number,
+                                struct particles *p, real spacing);
 
 /* Function that pressure_visit_faces calls for each free face of a particle. axis: axis of its outward normal, side: -1
  * or 1 for its direction along the axis; area: of the face [m^2]; context: data of the caller. */
 typedef void pressure_face_fn(void *context, int32_t particle, int axis, int side, real area);
 
-/* Calls found(context, particle, axis, side, area) for every free face of a selected particle on which the pressure
- * all[which] acts. all: the n boundaries of the scene; spacing: lattice spacing [m]; selected: [p->n] 1: selected. */
-void pressure_visit_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
-                          const uint8_t *selected, pressure_face_fn *found, void *context);
+/* Calls visit(context, particle, axis, side, area) for every free face of a selected particle on which the pressure
+ * boundary[number] acts. boundary: all `boundaries` of the scene; spacing: lattice spacing [m]; selected: [p->n]. */
+void pressure_visit_faces(const struct boundary *boundary, int boundaries, int number, const struct particles *p,
+                          real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context);
 
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
  * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that change.
@@ -257,9 +256,9 @@ void loads_update_shares_for_work(struct loads *l, const struct particles *p, re
 /* Releases the arrays that load_prepare_shares has allocated for load l. */
 void load_time_shares_free(struct load *l);
 
-/* Computes the force of load l on its particle number `number` at time t [s], from the reference position of the
+/* Computes the force of load l on its particle number `load_particle` at time t [s], from the reference position of the
  * particle. force: dim components [N]. In load steps the force is that at full load. */
-void load_force_at(const struct load *l, const struct particles *p, int64_t number, real t, real *force);
+void load_force_at(const struct load *l, const struct particles *p, int64_t load_particle, real t, real *force);
 
 /* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
  * its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean displacement is
@@ -267,16 +266,16 @@ void load_force_at(const struct load *l, const struct particles *p, int64_t numb
 void load_sum_force_and_motion(struct load *l, const struct particles *p, real t);
 
 /* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its particle
- * number `number` at time t [s], without areas and without the profile. value: dim components, unit as boundary.value.
- * Not defined for prescribed rotations. */
-void load_value_at(const struct load *l, const struct particles *p, int64_t number, real t, real *value);
+ * number `load_particle` at time t [s], without areas and without the profile. value: dim components, unit as
+ * boundary.value. Not defined for prescribed rotations. */
+void load_value_at(const struct load *l, const struct particles *p, int64_t load_particle, real t, real *value);
 
-/* Creates the loads of n boundary conditions: finds the particles of each, sets FLAG_DRIVEN, and appends mirror images
- * of the particles within `reach` [m] of mirror planes to p. Bonds must be made afterwards. boundary: borrowed;
- * spacing: lattice spacing [m]; optional: optional particle arrays, as in particles_make. Returns REFUSED, with a
- * message, if a boundary has no particles or no free face, or a mirror is misplaced. Release with loads_free. */
-status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
-                  real reach, int optional);
+/* Creates the loads of `boundaries` boundary conditions: finds the particles of each, sets FLAG_DRIVEN, and appends
+ * mirror images of the particles within `mirror_reach` [m] of mirror planes to p. Make the bonds afterwards. boundary:
+ * borrowed; spacing: lattice spacing [m]; optional_arrays: as in particles_make. Returns REFUSED, with a message, if a
+ * boundary has no particles or no free face, or a mirror is misplaced. Release with loads_free. */
+status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
+                  real mirror_reach, int optional_arrays);
 
 /* Releases all arrays of all loads. */
 void loads_free(struct loads *l);
@@ -288,8 +287,7 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads that have equal lists of particles, so that each list is traversed once; last part of loads_make. dim:
- * dimension of the body. */
+/* Combines loads that have equal lists of particles, so that each list is traversed once; last part of loads_make. */
 void loads_merge_equal_lists(struct loads *l, int dim);
 
 /* Releases the shares (areas, volumes, masses) of all loads, also those that several loads have in common. */
@@ -305,8 +303,8 @@ void loads_add_work(struct loads *l, struct particles *p, real t, real dt);
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
 
-/* Checks the absorbing boundaries. Returns REFUSED, with a message, if two of them act on one part of a face, or if one
- * lies in a mirror plane. */
+/* Checks the absorbing boundaries. Returns REFUSED, with a message, if two act on one part of a face, or one lies in a
+ * mirror plane. */
 status absorbing_boundaries_check(const struct loads *l, const struct particles *p);
 
 /* Creates the dashpots on the particles of all absorbing faces; call after loads_make. impedance[m]: wave impedances of
@@ -327,13 +325,13 @@ void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velo
 void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
                              real half_width);
 
-/* Appends the absorbing dashpots of mesh nodes to mesh->grid, distributed from the particles of absorbing faces; part
- * of loads_find_driven_mesh_nodes. */
+/* Appends the absorbing dashpots of mesh nodes to mesh->grid, from the particles of absorbing faces; part of
+ * loads_find_driven_mesh_nodes. */
 void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Adds the energy and impulse in `by`, the effect of the dashpots of one grid or mesh in a step, to the sums of the run
- * in l. */
-void loads_add_absorbed(struct loads *l, const struct absorbed *by);
+/* Adds the energy and impulse in `absorbed`, the effect of the dashpots of one grid or mesh in a step, to the sums in
+ * l. */
+void loads_add_absorbed(struct loads *l, const struct absorbed *absorbed);
 
 /* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For
  * `displacement` its value, for a velocity its integral from 0, for a rotation the rotation by the accumulated angle;
@@ -351,13 +349,14 @@ struct prescribed_displacement {
  * borrowed. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
 
-/* Returns component d of the prescribed displacement at the reference position X (dim components [m]) [m]. d must be
- * one of the components that the boundary prescribes. */
-real prescribed_displacement_at(const struct prescribed_displacement *s, const real *X, int d);
+/* Returns component `component` of the prescribed displacement at the reference position X (dim components [m]) [m].
+ * The boundary must prescribe this component. */
+real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
 
-/* Computes the displacement that load l prescribes for its particle number `number` at time t [s]. u: dim components
- * [m], 0 in components that are not prescribed. */
-void load_displacement_at(const struct load *l, const struct particles *p, int64_t number, real t, real *u);
+/* Computes the displacement that load l prescribes for its particle number `load_particle` at time t [s]. displacement:
+ * dim components [m], 0 where not prescribed. */
+void load_displacement_at(const struct load *l, const struct particles *p, int64_t load_particle, real t,
+                          real *displacement);
 
 /* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a
  * formula of t), so that its displacements are unknown; else OK. */
@@ -375,56 +374,57 @@ struct prescribed_motion {
  * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body; b: borrowed. */
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
-/* Returns the motion that boundary number `which` of l prescribes in the step of size dt about t [s], as
+/* Returns the motion that boundary number `number` of l prescribes in the step of size dt about t [s], as
  * prescribed_motion_make. After the last step of a run (l->ended) a prescribed displacement continues as in the
  * previous step; otherwise half of a change of motion after the end would enter the work of the run. */
-struct prescribed_motion loads_prescribed_motion(const struct loads *l, int which, int dim, real t, real dt);
+struct prescribed_motion loads_prescribed_motion(const struct loads *l, int number, int dim, real t, real dt);
 
-/* Returns component d of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for a
- * prescribed displacement its difference over the step divided by dt. placed: true if X is the position of the material
- * at the start of the step, false if it is its reference position. */
-real prescribed_velocity_at(const struct prescribed_motion *s, const real *X, int d, bool placed);
+/* Returns component `component` of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for
+ * a prescribed displacement its difference over the step divided by dt. at_present_position: true if X is the position
+ * of the material at the start of the step, false if it is its reference position. */
+real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,
+                            bool at_present_position);
 
-/* Returns true if the motion that boundary b prescribes differs between positions: it rotates, or a formula contains x,
- * y or z. */
+/* Returns true if the motion that boundary b prescribes differs between positions: it rotates or depends on x, y or
+ * z. */
 static inline bool boundary_motion_varies_in_space(const struct boundary *b)
 {
     return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
 }
 
-/* Returns the largest speed of the displacement that load l prescribes between the times 0 and t [s] [m/s], INFINITY if
- * the displacement jumps. Formulas are sampled at MOMENTS times and at some of the load's particles. */
-real load_displacement_speed(const struct load *l, const struct particles *p, real t);
+/* Returns the largest speed of the displacement that load l prescribes between the times 0 and `t_end` [s] [m/s],
+ * INFINITY if the displacement jumps. Formulas are sampled at MOMENTS times and at some of the load's particles. */
+real load_displacement_speed(const struct load *l, const struct particles *p, real t_end);
 
-/* Returns the largest difference between the velocity that load l prescribes between the times 0 and t [s] and the
- * velocity of its particles in p, the state at time 0 [m/s]. Sampled at MOMENTS times and some particles. For rotations
- * the difference of speeds; 0 for prescribed displacements. */
-real load_velocity_jump(const struct load *l, const struct particles *p, real t);
+/* Returns the largest difference between the velocity that load l prescribes between the times 0 and `t_end` [s] and
+ * the velocity of its particles in p, the state at time 0 [m/s]. Sampled at MOMENTS times and some particles. For
+ * rotations the difference of speeds; 0 for prescribed displacements. */
+real load_velocity_jump(const struct load *l, const struct particles *p, real t_end);
 
-/* Returns the largest speed that load l gives to its particles in p between the times 0 and t [s] [m/s]:
+/* Returns the largest speed that load l gives to its particles in p between the times 0 and `t_end` [s] [m/s]:
  * load_displacement_speed for a prescribed displacement, else load_velocity_jump. */
-real load_driven_speed(const struct load *l, const struct particles *p, real t);
+real load_driven_speed(const struct load *l, const struct particles *p, real t_end);
 
-/* Returns the largest change, within any time span of length `within` [s], of the velocity that load l (velocity or
- * displacement) prescribes between the times 0 and t [s] [m/s]. Before time 0 the particles of the load have the
+/* Returns the largest change, within any time span of length `time_span` [s], of the velocity that load l (velocity or
+ * displacement) prescribes between the times 0 and `t_end` [s] [m/s]. Before time 0 the particles of the load have the
  * velocity in p. Sampled at MOMENTS times and some particles; a span shorter than the sampling interval is extended to
  * that interval. */
-real load_velocity_change(const struct load *l, const struct particles *p, real t, real within);
+real load_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span);
 
-/* Returns the largest difference between the velocities that loads a and b prescribe between the times 0 and t [s],
- * each less the velocity of its particles in p, over the components that both prescribe [m/s]. 0 if no component is
- * prescribed by both; INFINITY if one load rotates or depends on position. */
-real loads_velocity_difference(const struct load *a, const struct load *b, const struct particles *p, real t);
+/* Returns the largest difference between the velocities that loads a and b prescribe between the times 0 and `t_end`
+ * [s], each less the velocity of its particles in p, over the components that both prescribe [m/s]. 0 if no component
+ * is prescribed by both; INFINITY if one load rotates or depends on position. */
+real loads_velocity_difference(const struct load *a, const struct load *b, const struct particles *p, real t_end);
 
 /* tolerance of region membership, over the spacing: points on the border belong to the region */
 #define LOADS_TOLERANCE ON_SURFACE
 
 /* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */
 
-/* Checks all mirror boundaries and appends mirror images of the particles within `reach` [m] of their planes to p.
- * optional: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED, with a message, if a
- * mirror plane is inside its body or two mirrors coincide. */
-status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional);
+/* Checks all mirror boundaries and appends mirror images of the particles within `mirror_reach` [m] of their planes to
+ * p. optional_arrays: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED, with a
+ * message, if a mirror plane is inside its body or two mirrors coincide. */
+status loads_mirrors_make(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
 
 /* Sets the flag MOVES_LATER in l->loaded for particles whose bonds may cross a clamped mirror plane: the reactions of
  * such bonds are added after all bond forces, so these particles must not be moved before. */
@@ -447,9 +447,9 @@ void loads_finish_particle_forces(struct loads *l, struct particles *p, real t, 
 /* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]: nodes in a driven
  * region, nodes on a mirror plane, and nodes at least half of whose mass belongs to driven points. Nodes beyond a
  * mirror plane move as mirror images if the plane is on a node or midway between two, else they are constrained like
- * nodes on the plane. held: constrained nodes of this grid, kept between calls, zeroed at first. half_width: half the
- * reference edge of a particle [m]. Call after the first particle-to-grid map. */
-void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *held, struct grid *g,
+ * nodes on the plane. driven_nodes: constrained nodes of this grid, kept between calls, zeroed at first. half_width:
+ * half the reference edge of a particle [m]. Call after the first particle-to-grid map. */
+void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                      const struct particles *p, const struct kernels *kernels, real half_width, real t,
                                      real dt);
 
@@ -462,14 +462,14 @@ void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const stru
 void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt);
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion is prescribed, by their positions: nodes in
- * driven regions and on mirror planes. Stores them in `held`. */
-void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set *held, struct grid *g,
+ * driven regions and on mirror planes. Stores them in `driven_nodes`. */
+void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                    const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the nodes in `held`, found by loads_find_driven_level_nodes, on grid g of a
- * mesh of coarse cells, for the step of size dt about t [s]. */
-void loads_prescribe_level_velocities(const struct loads *l, const struct constrained_set *held, struct grid *g, real t,
-                                      real dt);
+/* Sets the prescribed velocities (walls) of the nodes in `driven_nodes`, found by loads_find_driven_level_nodes, on
+ * grid g of a mesh of coarse cells, for the step of size dt about t [s]. */
+void loads_prescribe_level_velocities(const struct loads *l, const struct constrained_set *driven_nodes, struct grid *g,
+                                      real t, real dt);
 
 /* Sets the velocity of driven material points and the position of particles with prescribed displacement exactly, after
  * the grid-to-particle transfer of the step of size dt about t [s], and adds the work of applied forces to l->work.
@@ -480,23 +480,23 @@ bool loads_impose_motion(struct loads *l, struct particles *p, real t, real dt);
  * reactions of their loads. dt_velocity: duration of the velocity update [s]. */
 void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity);
 
-/* Returns true if the plane of mirror b is on a node of grid g or midway between two nodes. spacing: lattice spacing,
- * to which the tolerance refers [m]. */
+/* Returns true if the plane of mirror b is on a node of grid g or midway between two nodes. spacing: lattice spacing
+ * [m]. */
 bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spacing);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 
-/* Converts n boundary conditions `from` to those of a static problem in pseudo-time, copied into `to`: forces have
- * their value at time `duration` [s], prescribed motion its displacement until then. Both grow linearly from 0 at
- * pseudo-time 0 to full size at `ramp_time` [s] and stay constant. */
-void loads_make_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration,
-                                  real ramp_time);
+/* Converts the `boundaries` boundary conditions in `boundary` to those of a static problem in pseudo-time, copied into
+ * `static_boundary`: forces have their value at time `duration` [s], prescribed motion its displacement until then.
+ * Both grow linearly from 0 at pseudo-time 0 to full size at `ramp_time` [s] and stay constant. */
+void loads_make_static_boundaries(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
+                                  real duration, real ramp_time);
 
 /* Computes the displacement of every driven component at full load (pseudo-time `ramp_time` [s]). displacement:
- * [dim][p->n] [m]; held: [p->n], bit d: component d is driven. Where loads overlap, the later load in the scene is
- * used, as in a dynamic run. */
+ * [dim][p->n] [m]; driven_components: [p->n], bit d: component d is driven. Of overlapping loads the later one in the
+ * scene is used, as in dynamic runs. */
 void static_displacements_compute(struct loads *l, const struct particles *p, real ramp_time, real *const *displacement,
-                                  uint8_t *held);
+                                  uint8_t *driven_components);
 
 /* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
  * loads with a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns that moment

@@ -92,11 +92,11 @@ static inline const struct mesh *level_mesh_read_only(const struct mesh_levels *
  * coarse levels. */
 static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1 << l->n; }
 
-/* Makes n coarse refinement levels over the mesh `fine`; at first they have no cells. fine: finest mesh with material
- * points, kept by reference; source: material constants, slits and voids; density: mass density of each material
- * [kg/m^3]. n = 0 makes no levels. Returns FAILED, with a message, if a level would have too many nodes. Release with
- * levels_free. */
-status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct particles *p,
+/* Makes `coarse_levels` coarse refinement levels over the mesh `fine`; at first they have no cells. fine: finest mesh
+ * with material points, kept by reference; source: material constants, slits and voids; density: mass density of each
+ * material [kg/m^3]. `coarse_levels` = 0 makes no levels. Returns FAILED, with a message, if a level would have too
+ * many nodes. Release with levels_free. */
+status levels_make(struct mesh_levels *l, int coarse_levels, struct mesh *fine, const struct particles *p,
                    const struct mesh_source *source, const real *density);
 
 /* Frees the arrays of l; the finest mesh stays with the caller. */
@@ -113,19 +113,20 @@ void levels_set_distances(struct mesh_levels *l, int postpone_distance, int refi
 void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
 /* Computes the coarsest admissible refinement level of each cell. A coarse cell must be completely filled with one
- * material and contain no cell of level 0 (the finest) marked in `demand`; levels of adjacent cells differ by at most
- * one. demand: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required; limit: highest
- * level of each cell, NULL for all levels; to: receives the level of the cell to which each cell of level 0 shall
- * belong. */
-void levels_coarsest_admissible(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand,
-                                const uint8_t *limit, uint8_t *to);
+ * material and contain no cell of level 0 (the finest) marked in `finest_required`; levels of adjacent cells differ by
+ * at most one. finest_required: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required;
+ * highest_level: highest level of each cell, NULL for all levels; admissible: receives the level of the cell to which
+ * each cell of level 0 shall belong. */
+void levels_coarsest_admissible(const struct mesh_levels *l, const struct particles *p, const uint8_t *finest_required,
+                                const uint8_t *highest_level, uint8_t *admissible);
 
 /* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
  * present, the motion of the nodes inside is compared with the interpolation from its corners; if the energy of the
- * difference exceeds `max_energy` [J/kg], `limit` is set to one level less there. level, limit: a byte for each cell of
- * level 0, the finest. The motion of the nodes of level 0 must be up to date (levels_prolong_motion). Returns true if a
- * limit was lowered. */
-bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level, real max_energy, uint8_t *limit);
+ * difference exceeds `max_energy` [J/kg], `highest_level` is set to one level less there. level, highest_level: a byte
+ * for each cell of level 0, the finest. The motion of the nodes of level 0 must be up to date (levels_prolong_motion).
+ * Returns true if a limit was lowered. */
+bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level, real max_energy,
+                               uint8_t *highest_level);
 
 /* Extends marks to complete coarse cells: if one cell of level 0 (the finest) in a coarse cell is marked, all cells of
  * level 0 in it become marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each
@@ -165,17 +166,18 @@ void levels_prolong_motion_to_points(struct mesh_levels *l);
 /* Returns the highest refinement level whose forces act in step number `step`; level L acts every 2^L steps. */
 int levels_highest_acting(const struct mesh_levels *l, int64_t step);
 
-/* Computes the forces of coarse cells of levels 1 to `due` on their nodes and on nodes of finer levels at the
+/* Computes the forces of coarse cells of levels 1 to `highest_level` on their nodes and on nodes of finer levels at the
  * interfaces. The forces of level 0 (the finest) must be complete before. elastic: array of the elastic constants of
  * all materials; finite: true if strains are finite, false if small. */
 void levels_compute_forces(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic, bool finite,
-                           int due);
+                           int highest_level);
 
-/* Integrates the motion of the nodes of levels 0 (the finest) to `due`, level L over 2^L steps. dt: time step of level
- * 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]; impulse, work: impulse [N s] and work
- * [J] of nodes with prescribed velocity, whose velocities must be set before, are added to these. Returns the largest
- * component of a nodal velocity [m/s]. */
-real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int due, real impulse[DIM_MAX], real *work);
+/* Integrates the motion of the nodes of levels 0 (the finest) to `highest_level`, level L over 2^L steps. dt: time step
+ * of level 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]; impulse, work: impulse [N s]
+ * and work [J] of nodes with prescribed velocity, whose velocities must be set before, are added to these. Returns the
+ * largest component of a nodal velocity [m/s]. */
+real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX],
+                 real *work);
 
 /* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
 real levels_kinetic_energy(const struct mesh_levels *l);

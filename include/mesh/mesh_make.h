@@ -75,9 +75,10 @@ bool mesh_cell_has_body(const struct mesh *mesh, int64_t cell);
 void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *loads);
 
 /* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega of the largest frequency of
- * one cell, a lower bound for the mesh. any: true to include cells that have lost any subset of their points by
- * conversion, false for the present cells. density: mass density of each material [kg/m^3]. */
-real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any);
+ * one cell, a lower bound for the mesh. after_any_conversion: true to include cells that have lost any subset of their
+ * points by conversion, false for the present cells. density: mass density of each material [kg/m^3]. */
+real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
+                        bool after_any_conversion);
 
 /* Computes the stiffness matrix of the cell for displacements of its corners in the undeformed state [N/m], from the
  * points that the cell still has, without partial stresses. elastic: array of the elastic constants of all materials;

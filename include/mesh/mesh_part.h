@@ -65,10 +65,10 @@ bool reference_frame_in_use(const struct reference_frame *r);
 bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p,
                                  const struct grid_method *mpm);
 
-/* Makes the mesh of the bodies in the reference frame, and finds exposed points and loaded nodes. cuts: partial
+/* Makes the mesh of the bodies in the reference frame, and finds exposed points and loaded nodes. source: partial
  * stresses and slits of this mesh, its other members are ignored; motion_set_later: true if the caller sets
  * displacement and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
-status reference_frame_make(struct run *e, const struct mesh_source *cuts, bool motion_set_later);
+status reference_frame_make(struct run *e, const struct mesh_source *source, bool motion_set_later);
 
 /* Returns the critical time step of the cells of the reference frame [s], INFINITY if there are none. With the
  * adaptive method and without partial stress (coupling), cells that have lost any of their points by conversion are
@@ -173,9 +173,9 @@ struct levels_choice frame_levels_choice(const struct reference_frame *r, const 
 void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity);
 
 /* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
- * the reason to `text` (`capacity` bytes). c: result of frame_levels_choice. */
+ * why to `reason` (`capacity` bytes). c: result of frame_levels_choice. */
 bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
-                               const struct scene *s, char *text, size_t capacity);
+                               const struct scene *s, char *reason, size_t capacity);
 
 /* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels; restored: true if
  * the levels follow from a checkpoint instead. Returns FAILED, with a message, if a level would have too many nodes. */

@@ -20,9 +20,10 @@ struct folder_kind {
 bool file_name_is_ignored(const char *name);
 
 /* Checks that a command may write its files into `folder`: the folder does not exist, holds nothing but hidden and
- * temporary files, or is of the given kind. text: text of the scene, passed to kind->is_sign; may be NULL. Sets *exists
- * to true if the folder exists and is of this kind, else to false. Returns REFUSED, with the name of the entry in the
- * message, if the folder holds a file that Cleave did not write, or if a subfolder listed in kind->inner is a link. */
-status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *text, bool *exists);
+ * temporary files, or is of the given kind. scene_text: text of the scene, passed to kind->is_sign; may be NULL. Sets
+ * *exists to true if the folder exists and is of this kind, else to false. Returns REFUSED, with the name of the entry
+ * in the message, if the folder holds a file that Cleave did not write, or if a subfolder listed in kind->inner is a
+ * link. */
+status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *scene_text, bool *exists);
 
 #endif

@@ -115,9 +115,9 @@ status output_write_text(const struct output *o, const char *name, const char *t
 
 /* Writes the index files of all series anew, without frames that are missing or incomplete; a frame that was lost at an
  * earlier restart and is there again is listed again. Call it after a restart. lost: receives the number of lost
- * frames. text: receives a message about the first of them and holds `capacity` bytes.
- * Returns FAILED if an index file cannot be written. */
-status output_index_drop_lost_frames(struct output *o, int *lost, char *text, size_t capacity);
+ * frames. message: receives a message about the first of them and holds `capacity` bytes. Returns FAILED if an index
+ * file cannot be written. */
+status output_index_drop_lost_frames(struct output *o, int *lost, char *message, size_t capacity);
 
 /* Beginning of the files of rigid bodies beside the frames (rigid/rigid_surface.h). */
 #define RIGID_FILE_BEGIN                                                                                               \

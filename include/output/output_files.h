@@ -62,18 +62,18 @@ status file_report_write_failure(const char *path, int cause);
  * pipe, socket or device; OK otherwise, also if there is no such file. */
 status file_check_replaceable(const char *path);
 
-/* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. begin[n]: the possible
- * beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also if there is
- * no such file; REFUSED if no beginning agrees. */
-status file_check_beginning(const char *path, const char *const *begin, size_t n);
+/* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. beginning[beginnings]: the
+ * possible beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also if
+ * there is no such file; REFUSED if no beginning agrees. */
+status file_check_beginning(const char *path, const char *const *beginning, size_t beginnings);
 
 /* Type of a function that acts on the file `path`. */
 typedef status file_visit_fn(const char *path);
 
-/* Calls each(path) for every file in `folder` for whose name chosen(name, end) returns true. Links are skipped. Stops
+/* Calls visit(path) for every file in `folder` for whose name chosen(name, end) returns true. Links are skipped. Stops
  * at the first call that does not return OK, and returns its status. */
-status files_visit(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
-                   file_visit_fn *each);
+status files_visit(const char *folder, bool (*chosen)(const char *name, const char *ending), const char *ending,
+                   file_visit_fn *visit);
 
 /* Returns true if the file `path` has exactly the given contents, `length` bytes from `bytes` on; false also if it
  * cannot be read. */

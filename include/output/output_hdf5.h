@@ -44,12 +44,12 @@ void hdf_create_group(struct hdf *f, const char *name);
  * dimension if `columns` is 1. A failure is stored in f->failed. */
 void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data);
 
-/* Writes the dataset `name` of rows x columns numbers of the given type, of which only the first `stored` in each row
- * come from data[rows][stored]; the others are 0 and take no space in the file. The dataset has one dimension if
- * `columns` is 1. Rows are stored in chunks; a chunk that holds one number throughout, 0 or in a dataset of one column
- * the number of its first row, takes no space either, as readers then return the fill value. A failure is stored in
- * f->failed. */
-void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, int stored,
+/* Writes the dataset `name` of rows x columns numbers of the given type, of which only the first `stored_columns` in
+ * each row come from data[rows][stored_columns]; the others are 0 and take no space in the file. The dataset has one
+ * dimension if `columns` is 1. Rows are stored in chunks; a chunk that holds one number throughout, 0 or in a dataset
+ * of one column the number of its first row, takes no space either, as readers then return the fill value. A failure is
+ * stored in f->failed. */
+void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, int stored_columns,
                      const void *data);
 
 /* Creates the external link `name` to the dataset of the same path in another file. file: its path relative to the
@@ -118,9 +118,10 @@ bool hdf_is_linked(hid_t file, const char *name);
 
 /* Returns true if the data of the dataset are stored in its file, neither in an external file nor as a virtual
  * dataset. */
-bool hdf_lies_inside(hid_t set);
+bool hdf_lies_inside(hid_t dataset);
 
-/* Reads the attribute `name` of the dataset `set` as text of at most `capacity` bytes; "" if there is no such text. */
-void hdf_read_text_attribute(hid_t file, const char *set, const char *name, char *text, size_t capacity);
+/* Reads the attribute `name` of the dataset or group `object` as text of at most `capacity` bytes; "" if there is no
+ * such text. */
+void hdf_read_text_attribute(hid_t file, const char *object, const char *name, char *text, size_t capacity);
 
 #endif

@@ -54,8 +54,8 @@ struct colour fragment_colour(int32_t fragment);
  * are visible, and repeat after nine. */
 struct colour part_colour(int index);
 
-/* Mixes the colour c with white. share: weight of c, 1 for c itself, 0 for white. */
-struct colour colour_faded(struct colour c, double share);
+/* Mixes the colour c with white. weight: weight of c, 1 for c itself, 0 for white. */
+struct colour colour_faded(struct colour c, double weight);
 
 /* Mixes the colour c with black. share: weight of c, 1 for c itself, 0 for black. */
 struct colour colour_shaded(struct colour c, double share);

@@ -114,10 +114,11 @@ void frames_free(struct output_frame *f, int n);
  * holds a file with the name of a picture that Cleave did not draw; FAILED if the folder cannot be created. */
 status pictures_folder_make(const char *path);
 
-/* Determines the path of a picture from the argument `out` of the option -o and stores it in *path. `out` is a file,
- * or a folder (which exists or ends in /) in which the file `name` is created. Missing folders are created. Returns
- * REFUSED if the name is empty or too long, or if the file exists, Cleave did not draw it, and `overwrite` is false. */
-status picture_destination(struct path *path, const char *out, const char *name, bool overwrite);
+/* Determines the path of a picture from `option_argument`, the argument of the option -o, and stores it in *path.
+ * `option_argument` is a file, or a folder (which exists or ends in /) in which the file `name` is created. Missing
+ * folders are created. Returns REFUSED if the name is empty or too long, or if the file exists, Cleave did not draw it,
+ * and `overwrite` is false. */
+status picture_destination(struct path *path, const char *option_argument, const char *name, bool overwrite);
 
 /* Prints that the picture `path` is not drawn, with the reason `why`, and removes an older picture of that name if
  * Cleave drew it. Returns FAILED if standard output cannot be written. */
@@ -237,13 +238,14 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
                               const struct projection *projection);
 
 /* Computes the deformation gradients of all particles of the frame f, [f->n][9], rows along x, y, z [1], as fits to the
- * displacements of near particles that a crack does not separate. spacing: of the particles [m]; magnify: factor on
- * displacements; scene: for its pre-cracks; NULL: none are known. Returns an allocated array, which the caller releases
- * with memory_free, or NULL if no deformation is visible. */
-float *particle_gradients_make(const struct output_frame *f, double spacing, double magnify, const struct scene *scene);
+ * displacements of near particles that a crack does not separate. spacing: of the particles [m]; displacement_factor:
+ * factor on displacements; scene: for its pre-cracks; NULL: none are known. Returns an allocated array, which the
+ * caller releases with memory_free, or NULL if no deformation is visible. */
+float *particle_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
+                               const struct scene *scene);
 
-/* Inverts the matrix `a`. Returns false, and leaves *to undefined, if its determinant is 0 or not a number. */
-bool matrix_invert(const double a[3][3], double to[3][3]);
+/* Inverts `matrix`. Returns false, and leaves *inverse undefined, if its determinant is 0 or not a number. */
+bool matrix_invert(const double matrix[3][3], double inverse[3][3]);
 
 /* Releases the arrays of *c. */
 void plotted_particles_free(struct plotted_particles *c);

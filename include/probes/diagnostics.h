@@ -65,9 +65,9 @@ real diagnostics_energy_change(const struct diagnostics *w);
 
 /* Finds the cuts of the present step: groups of particles whose flag FLAG_CRACKED is set and that are at most
  * `horizon` apart (fracture/places.h). list[n]: numbers of the particles that are searched; NULL for particles 0 .. n
- * - 1. horizon: length of the longest bond [m]. middle: receives the reference position of the middle of one cut, dim
- * components [m]. Returns the number of separate cuts; if it is 0, `middle` is unchanged. */
-int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle);
+ * - 1. horizon: length of the longest bond [m]. centre: receives the reference position of the middle of one cut, dim
+ * components [m]. Returns the number of separate cuts; if it is 0, `centre` is unchanged. */
+int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre);
 
 /* Adds the bonds that broke in the step at time t [s] to the number of broken bonds, and stores time and position of
  * the first break of the run. broken_bonds: number of directed bonds that broke in the step. horizon: length of the
@@ -79,12 +79,12 @@ bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p,
 /* Returns the largest speed of the particles list[n] [m/s], 0 for an empty list. */
 real diagnostics_largest_speed(const struct particles *p, const int32_t *list, int64_t n);
 
-/* Searches for particles whose position or velocity is not finite or whose speed exceeds `limit`, the fastest wave
+/* Searches for particles whose position or velocity is not finite or whose speed exceeds `max_speed`, the fastest wave
  * speed of the scene [m/s]. peridynamic: search the peridynamic particles too; meshed: search the material points of a
  * mesh too. Both are false in most steps, since the functions that move these particles detect divergence. step, t:
  * number and time [s] of the step, for the message. Returns FAILED if there is such a particle, with its position and
  * the cause in the message. */
-status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step,
+status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real max_speed, int64_t step,
                               real t);
 
 /* Saves the diagnostics to the archive if a->saving is set, else restores them from it. Returns FAILED if an entry is

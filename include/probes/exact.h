@@ -61,9 +61,9 @@ int exact_stress_fronts(const struct exact *e, real t, struct exact_front front[
 enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
 
 /* Computes the ends *from and *to [m] of a part of the bar in which the stress of the closed-form solution is constant
- * at time t [s]. which: EXACT_PLATEAU the part behind the last front, EXACT_PRECURSOR that between the elastic
- * precursor and the plastic front, both at some distance from fronts and ends. Returns false if there is no such part
- * at time t. */
-bool exact_constant_window(const struct exact *e, real t, enum exact_window which, real *from, real *to);
+ * at time t [s]. part: EXACT_PLATEAU the part behind the last front, EXACT_PRECURSOR that between the elastic precursor
+ * and the plastic front, both at some distance from fronts and ends. Returns false if there is no such part at time
+ * t. */
+bool exact_constant_window(const struct exact *e, real t, enum exact_window part, real *from, real *to);
 
 #endif

@@ -124,8 +124,8 @@ typedef status probe_file_fn(void *context, const char *name, const char *text, 
 
 /* Prints the profile of each LINE and EXACT probe as CSV text, and calls put(context, `<probe>_<frame>.csv`, text,
  * length) for each. frame: number of the frame in these names. Returns FAILED if memory is exhausted, or the status of
- * `put` if it is not OK. */
-status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *put, void *context,
+ * `write` if it is not OK. */
+status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write, void *context,
                              int frame);
 
 /* Returns the number of profiles (of LINE and EXACT probes) that are written with each frame. */

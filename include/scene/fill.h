@@ -11,12 +11,12 @@
 #define FILL_FARTHEST 1e7
 
 /* Creates the particles of all bodies of s, from lattices and particle lists, and sets their positions, volumes, masses
- * and initial state. optional: optional arrays of p, sum of WITH_*; hollow: cells without particles, NULL: none; the
- * ids of their particles stay unused. Returns REFUSED, with a message and with p empty, for an empty body, an
+ * and initial state. optional_arrays: optional arrays of p, sum of WITH_*; hollow: cells without particles, NULL: none;
+ * the ids of their particles stay unused. Returns REFUSED, with a message and with p empty, for an empty body, an
  * unreadable list, a list in another length unit than the spacing, or two particles at one position. Release with
  * particles_free. */
 status fill_particles(struct particles *p, const struct scene *s, const struct cells_without_particles *hollow,
-                      int optional);
+                      int optional_arrays);
 
 /* Computes the position of one site of the lattice that fills body number `body` into X (dim components [m]). The body
  * must not come from a particle list. Returns REFUSED, with a message, if the body has no lattice, for example because

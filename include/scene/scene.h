@@ -278,7 +278,7 @@ static inline bool scene_probes_broken_bonds(const struct scene *s)
 }
 
 /* Returns true if the scene silences a warning by its key `accept`. */
-static inline bool scene_accepts(const struct scene *s, enum accept which) { return s->accept >> which & 1; }
+static inline bool scene_accepts(const struct scene *s, enum accept warning) { return s->accept >> warning & 1; }
 
 /* Returns true if new surfaces can form: by pre-cracks, growing cracks, or bonds that break. */
 static inline bool scene_can_crack(const struct scene *s)
@@ -302,8 +302,8 @@ static inline real scene_section_factor(const struct scene *s)
 }
 
 /* Returns the index of the material at the position X (dim components [m]) in body b: that of the last part of the body
- * that contains X, or `material` if no part does. */
-int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int material);
+ * that contains X, or `default_material` if no part does. */
+int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int default_material);
 
 /* Returns true if particles of body b can consist of this material (index into scene.material): it is that of the body
  * or of one of its parts, or the particle list of the body has a column of materials. */
@@ -313,9 +313,9 @@ bool scene_body_has_material(const struct scene_body *b, int material);
 void scene_free(struct scene *s);
 
 /* Puts before the message of a refusal the place of what the message begins with: of a body, of a boundary, or of a key
- * or its group, else the path of the scene file. Messages that have a place keep it. Returns `made`; does nothing
+ * or its group, else the path of the scene file. Messages that have a place keep it. Returns `result`; does nothing
  * unless it is REFUSED. */
-status scene_locate(const struct scene *s, status made);
+status scene_locate(const struct scene *s, status result);
 
 /* Returns the reason why a body cannot be in the reference frame with the method, solver, coupling and materials of the
  * scene; NULL if it can. The text is static. */

@@ -62,10 +62,10 @@ void newton_solver_free(struct newton_solver *q);
 
 /* Finds the static equilibrium under the present forces by Newton's method, starting from the displacement q->u +
  * increment. On entry q->u and q->f are displacement and forces of the previous equilibrium, on return of the new one.
- * increment: n vectors [m]; its prescribed components are the motion of supports, the others an initial guess. moved:
- * true if loads or supports have changed since the previous equilibrium, false if only the body has, for example by
- * broken bonds. Returns FAILED, with a message, if the residual stays above the tolerance; q->u is then the state with
- * the smallest residual found. */
-status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool moved);
+ * increment: n vectors [m]; its prescribed components are the motion of supports, the others an initial guess.
+ * loads_changed: true if loads or supports have changed since the previous equilibrium, false if only the body has, for
+ * example by broken bonds. Returns FAILED, with a message, if the residual stays above the tolerance; q->u is then the
+ * state with the smallest residual found. */
+status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool loads_changed);
 
 #endif

@@ -37,9 +37,9 @@ enum { REMEDY_LENGTH = 640 };
 
 /* Writes to `text`, which holds `capacity` bytes, what the user should change in the scene: the loads, if they explain
  * the motion of the body; the time step, if `value` has grown as fast as in a run whose time step exceeds the stability
- * limit (base/rise.h); else the method or model. value: present value of the quantity that grows (square of a speed,
- * or an energy); rise: its earlier values. */
-void stability_describe_remedy(const struct run *e, const struct growth_samples *rise, real value, char *text,
+ * limit (base/rise.h); else the method or model. value: present value of the quantity that grows (square of a speed, or
+ * an energy); earlier: its values before. */
+void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real value, char *text,
                                size_t capacity);
 
 #endif

@@ -47,12 +47,12 @@ struct convergence {
                                          * difference of squares */
 };
 
-/* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from n runs. value[k]:
- * figure of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k] = 0 .. levels - 1: its
- * spacing level, 0 the finest. resolution[level]: half of the step in which the figure is quantised at this level;
- * NULL if it is not quantised. Stores the results in *c. Returns false if one of the three finest levels has no value.
- */
-bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
+/* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from `runs` runs.
+ * value[k]: figure of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k] = 0 .. levels - 1:
+ * its spacing level, 0 the finest. resolution[level]: half of the step in which the figure is quantised at this level;
+ * NULL if it is not quantised. Stores the results in *c. Returns false if one of the three finest levels has no
+ * value. */
+bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
                       int levels, const double *resolution);
 
 /* Returns the half-width of the interval centred at `centre` that contains the true value of the figure with
@@ -64,7 +64,7 @@ double convergence_half_width(const struct convergence *c, double centre, double
  * its levels. */
 void convergence_intervals(struct convergence *c);
 
-/* Returns the 97.5 % quantile of Student's t distribution with n >= 1 degrees of freedom. */
-double student_quantile(int n);
+/* Returns the 97.5 % quantile of Student's t distribution with `degrees_of_freedom` >= 1 degrees of freedom. */
+double student_quantile(int degrees_of_freedom);
 
 #endif

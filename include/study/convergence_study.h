@@ -16,9 +16,10 @@ struct spacings {
                                  * have, at at[level][0] [spacings] */
 };
 
-/* Chooses the particle spacings of a convergence study of the scene s and stores them in *to: `levels` levels whose
- * spacings have the ratio sqrt(2), the finest near `finest` [m], such that the lattice fits the bodies and cracks. */
-void spacings_choose(struct spacings *to, const struct scene *s, int levels, double finest);
+/* Chooses the particle spacings of a convergence study of the scene s and stores them in *spacings: `levels` levels
+ * whose spacings have the ratio sqrt(2), the finest near `finest` [m], such that the lattice fits the bodies and
+ * cracks. */
+void spacings_choose(struct spacings *spacings, const struct scene *s, int levels, double finest);
 
 /* Parameters in which a run of the study differs from the scene. */
 struct study_point {

@@ -71,8 +71,8 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
                             const struct varied_key *key, int keys);
 
 /* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
- * kind, to `to`, which holds `capacity` bytes. */
-void study_folder_default(char *to, size_t capacity, const struct scene *scene, const char *kind);
+ * kind, to `folder`, which holds `capacity` bytes. */
+void study_folder_default(char *folder, size_t capacity, const struct scene *scene, const char *kind);
 
 /* Checks that `folder` is free for a study of the scene with the given text. Returns REFUSED if the folder holds a
  * study of another scene, or files that Cleave did not write. */
@@ -208,11 +208,11 @@ status study_write_table(const struct study_table *t, const struct study *s, con
  * Returns OK for any other folder, which study_lock_folder checks. */
 status study_check_output_files(const struct study *s, const struct varied_key *key, int keys);
 
-/* Draws the figures of a study over the values of each of its varied keys, pictures/KEY.png in the folder of the
- * study, and pictures/map.png over two keys. key[keys]: keys of the study and their values; of[asked]: names of the
+/* Draws the figures of a study over the values of each of its varied keys, pictures/KEY.png in the folder of the study,
+ * and pictures/map.png over two keys. key[keys]: keys of the study and their values; result[results]: names of the
  * figures, up to six; 0: the first ones that differ. Returns REFUSED if there is no such figure, FAILED if a picture
  * cannot be drawn. */
 status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys,
-                  const char *const *of, int asked);
+                  const char *const *result, int results);
 
 #endif

@@ -1,10 +1,11 @@
 /* Flow law with linear isotropic hardening. The functions of every flow law NAME, for eight points at once:
- *     flow_NAME   returns the yield stress [Pa] at plastic strain a [1], total deviatoric strain rate `rate` [1/s] and
- *                 temperature T [K], and stores its derivative by a in *slope [Pa]
- *     work_NAME   returns the integral of the yield stress from 0 to a [J/m^3]
- *     reach_NAME  returns the plastic strain at which the yield stress is q [Pa], or an upper bound of it; INFINITY if
- *                 there is none
- * The yield stress is a concave function of a. */
+ *     flow_stress_NAME            returns the yield stress [Pa] at the plastic strain `plastic_strain` [1], the total
+ *                                 deviatoric strain rate `strain_rate` [1/s] and the temperature [K], and stores its
+ *                                 derivative by the plastic strain in *slope [Pa]
+ *     flow_stress_integral_NAME   returns the integral of the yield stress from 0 to `plastic_strain` [J/m^3]
+ *     plastic_strain_bound_NAME   returns the plastic strain at which the yield stress is `stress` [Pa], or an upper
+ *                                 bound of it; INFINITY if there is none
+ * The yield stress is a concave function of the plastic strain. */
 #ifndef CLEAVE_KERNELS_FLOW_LINEAR
 #define CLEAVE_KERNELS_FLOW_LINEAR
 
@@ -13,24 +14,27 @@
 
 /* Returns the yield stresses of eight points with linear hardening [Pa] and stores the hardening modulus in *slope
  * [Pa]. Rate and temperature have no effect. */
-static ALWAYS_INLINE lanes flow_linear(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
+static ALWAYS_INLINE lanes flow_stress_linear(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                              lanes temperature, lanes *slope)
 {
-    (void)rate, (void)T;
-    *slope = lanes_broadcast(m->hardening);
-    return m->yield + m->hardening * a;
+    (void)strain_rate, (void)temperature;
+    *slope = lanes_broadcast(law->hardening);
+    return law->yield + law->hardening * plastic_strain;
 }
 
 /* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3]. */
-static ALWAYS_INLINE lanes work_linear(const struct law *m, lanes a, lanes rate, lanes T)
+static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                                       lanes temperature)
 {
-    (void)rate, (void)T;
-    return (m->yield + 0.5 * m->hardening * a) * a;
+    (void)strain_rate, (void)temperature;
+    return (law->yield + 0.5 * law->hardening * plastic_strain) * plastic_strain;
 }
 
 /* Returns INFINITY: load steps need no bound of the plastic strain for a law that is linear. */
-static ALWAYS_INLINE lanes reach_linear(const struct law *m, lanes q, lanes rate, lanes T)
+static ALWAYS_INLINE lanes plastic_strain_bound_linear(const struct law *law, lanes stress, lanes strain_rate,
+                                                       lanes temperature)
 {
-    return (void)m, (void)q, (void)rate, (void)T, lanes_broadcast(INFINITY);
+    return (void)law, (void)stress, (void)strain_rate, (void)temperature, lanes_broadcast(INFINITY);
 }
 
 #endif

@@ -8,38 +8,41 @@
 
 /* Returns the yield stresses of eight points, the least of the lines of all segments at the plastic strain a [Pa], and
  * stores the slopes of these lines in *slope [Pa]. Rate and temperature have no effect. */
-static ALWAYS_INLINE lanes flow_table(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
+static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                             lanes temperature, lanes *slope)
 {
-    (void)rate, (void)T;
-    lanes least = m->table.start[0] + m->table.slope[0] * a;
-    *slope = lanes_broadcast(m->table.slope[0]);
-    for (int k = 1; k < m->table.points; k++) {
-        const lanes line = m->table.start[k] + m->table.slope[k] * a;
+    (void)strain_rate, (void)temperature;
+    lanes least = law->table.start[0] + law->table.slope[0] * plastic_strain;
+    *slope = lanes_broadcast(law->table.slope[0]);
+    for (int k = 1; k < law->table.points; k++) {
+        const lanes line = law->table.start[k] + law->table.slope[k] * plastic_strain;
         const lanes_mask lower = lanes_less(line, least);
         least = lanes_choose(lower, line, least);
-        *slope = lanes_choose(lower, lanes_broadcast(m->table.slope[k]), *slope);
+        *slope = lanes_choose(lower, lanes_broadcast(law->table.slope[k]), *slope);
     }
     return least;
 }
 
 /* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3], segment by segment. */
-static ALWAYS_INLINE lanes work_table(const struct law *m, lanes a, lanes rate, lanes T)
+static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                                      lanes temperature)
 {
-    (void)rate, (void)T;
+    (void)strain_rate, (void)temperature;
     lanes work = lanes_broadcast(0);
-    for (int k = 0; k < m->table.points; k++) {
-        const bool last = k + 1 == m->table.points;
-        const lanes from = lanes_min(a, lanes_broadcast(m->table.strain[k]));
-        const lanes to = last ? a : lanes_min(a, lanes_broadcast(m->table.strain[k + 1]));
-        work += (m->table.start[k] + 0.5 * m->table.slope[k] * (from + to)) * (to - from);
+    for (int k = 0; k < law->table.points; k++) {
+        const bool last = k + 1 == law->table.points;
+        const lanes from = lanes_min(plastic_strain, lanes_broadcast(law->table.strain[k]));
+        const lanes to = last ? plastic_strain : lanes_min(plastic_strain, lanes_broadcast(law->table.strain[k + 1]));
+        work += (law->table.start[k] + 0.5 * law->table.slope[k] * (from + to)) * (to - from);
     }
     return work;
 }
 
 /* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is q. */
-static ALWAYS_INLINE lanes reach_table(const struct law *m, lanes q, lanes rate, lanes T)
+static ALWAYS_INLINE lanes plastic_strain_bound_table(const struct law *law, lanes stress, lanes strain_rate,
+                                                      lanes temperature)
 {
-    return (void)m, (void)q, (void)rate, (void)T, lanes_broadcast(INFINITY);
+    return (void)law, (void)stress, (void)strain_rate, (void)temperature, lanes_broadcast(INFINITY);
 }
 
 #endif

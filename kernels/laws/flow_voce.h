@@ -7,26 +7,29 @@
 
 /* Returns the yield stresses sigma_y + Q (1 - exp(-b a)) of eight points [Pa] and stores their derivatives by the
  * plastic strain a in *slope [Pa]. Rate and temperature have no effect. */
-static ALWAYS_INLINE lanes flow_voce(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
+static ALWAYS_INLINE lanes flow_stress_voce(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                            lanes temperature, lanes *slope)
 {
-    (void)rate, (void)T;
-    const lanes left = m->voce.saturation * lanes_exp(-m->voce.rate * a);
-    *slope = m->voce.rate * left;
-    return m->yield + (m->voce.saturation - left);
+    (void)strain_rate, (void)temperature;
+    const lanes left = law->voce.saturation * lanes_exp(-law->voce.rate * plastic_strain);
+    *slope = law->voce.rate * left;
+    return law->yield + (law->voce.saturation - left);
 }
 
 /* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3]. */
-static ALWAYS_INLINE lanes work_voce(const struct law *m, lanes a, lanes rate, lanes T)
+static ALWAYS_INLINE lanes flow_stress_integral_voce(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                                     lanes temperature)
 {
-    (void)rate, (void)T;
-    return (m->yield + m->voce.saturation) * a -
-           m->voce.saturation / m->voce.rate * (1.0 - lanes_exp(-m->voce.rate * a));
+    (void)strain_rate, (void)temperature;
+    return (law->yield + law->voce.saturation) * plastic_strain -
+           law->voce.saturation / law->voce.rate * (1.0 - lanes_exp(-law->voce.rate * plastic_strain));
 }
 
 /* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is q. */
-static ALWAYS_INLINE lanes reach_voce(const struct law *m, lanes q, lanes rate, lanes T)
+static ALWAYS_INLINE lanes plastic_strain_bound_voce(const struct law *law, lanes stress, lanes strain_rate,
+                                                     lanes temperature)
 {
-    return (void)m, (void)q, (void)rate, (void)T, lanes_broadcast(INFINITY);
+    return (void)law, (void)stress, (void)strain_rate, (void)temperature, lanes_broadcast(INFINITY);
 }
 
 #endif

@@ -14,10 +14,11 @@
 
 /* Returns the yield stresses of eight points by the flow law m [Pa] and stores their derivatives by the plastic strain
  * in *slope [Pa]. a: plastic strains [1]; rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
-static ALWAYS_INLINE lanes flow_stress(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
+static ALWAYS_INLINE lanes flow_stress(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                       lanes temperature, lanes *slope)
 {
-#define FLOW_CALL(name) flow_##name(m, a, rate, T, slope)
-    switch (m->flow) {
+#define FLOW_CALL(name) flow_stress_##name(law, plastic_strain, strain_rate, temperature, slope)
+    switch (law->flow) {
         FLOWS(FLOW_CASE)
     default:
         return *slope = lanes_broadcast(0);
@@ -27,10 +28,10 @@ static ALWAYS_INLINE lanes flow_stress(const struct law *m, lanes a, lanes rate,
 
 /* Returns for eight points the plastic strain at which the yield stress of the flow law m is q [Pa], or an upper bound
  * of it; INFINITY if there is none [1]. rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
-static ALWAYS_INLINE lanes flow_strain_bound(const struct law *m, lanes q, lanes rate, lanes T)
+static ALWAYS_INLINE lanes flow_strain_bound(const struct law *law, lanes stress, lanes strain_rate, lanes temperature)
 {
-#define FLOW_CALL(name) reach_##name(m, q, rate, T)
-    switch (m->flow) {
+#define FLOW_CALL(name) plastic_strain_bound_##name(law, stress, strain_rate, temperature)
+    switch (law->flow) {
         FLOWS(FLOW_CASE)
     default:
         return lanes_broadcast(INFINITY);
@@ -40,10 +41,11 @@ static ALWAYS_INLINE lanes flow_strain_bound(const struct law *m, lanes q, lanes
 
 /* Returns for eight points the integral of the yield stress of the flow law m from plastic strain 0 to a [J/m^3]. rate:
  * total deviatoric strain rates [1/s]; T: temperatures [K]. */
-static ALWAYS_INLINE lanes flow_stress_integral(const struct law *m, lanes a, lanes rate, lanes T)
+static ALWAYS_INLINE lanes flow_stress_integral(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                                lanes temperature)
 {
-#define FLOW_CALL(name) work_##name(m, a, rate, T)
-    switch (m->flow) {
+#define FLOW_CALL(name) flow_stress_integral_##name(law, plastic_strain, strain_rate, temperature)
+    switch (law->flow) {
         FLOWS(FLOW_CASE)
     default:
         return lanes_broadcast(0);

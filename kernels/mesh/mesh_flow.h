@@ -91,24 +91,24 @@ static ALWAYS_INLINE bool cells_dilate(const struct mesh *mesh, const struct par
     return true;
 }
 
-/* Computes the stresses of the points number q of eight cells, one cell in each vector lane. cell: eight cell indices,
- * -1 for a lane without cell; s: strain of the cells; change: added to the normal strains of the points [1], NULL:
- * nothing; m: elastic constants of all materials; stress: receives symmetric components [Pa], 0 in lanes without a
- * point. If flows is true, applies return mapping in load steps, updates the plastic state of the points
- * and returns 0. If it is false, returns the sum of the elastic energies per volume of the points [J/m^3]. */
+/* Computes the stresses of the points number `point` of eight cells, one cell in each vector lane. cell: eight cell
+ * indices, -1 for a lane without cell; s: strain of the cells; change: added to the normal strains of the points [1],
+ * NULL: nothing; m: elastic constants of all materials; stress: receives symmetric components [Pa], 0 in lanes without
+ * a point. If flows is true, applies return mapping in load steps, updates the plastic state of the points and returns
+ * 0. If it is false, returns the sum of the elastic energies per volume of the points [J/m^3]. */
 static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, const struct particles *p,
                                                      const struct elastic *m, const int32_t *cell,
-                                                     const struct mesh_cell *s, const lanes *change, const int q,
+                                                     const struct mesh_cell *s, const lanes *change, const int point,
                                                      lanes *stress, const int dim, const bool flows)
 {
     lanes e[3][3];
     real sum = 0;
     unsigned with_law = 0;
-    cells_strain_at_point(s, q, e, dim);
+    cells_strain_at_point(s, point, e, dim);
     for (int d = 0; d < dim && change; d++) e[d][d] += *change;
     for (int k = 0; k < symmetric_component_count(dim); k++) stress[k] = lanes_broadcast(0);
     for (int l = 0; l < LANES; l++) {
-        const int64_t i = place_point(mesh, cell[l], q, dim);
+        const int64_t i = place_point(mesh, cell[l], point, dim);
         real own[SYM_MAX], strain[DIM_MAX * DIM_MAX];
         if (i < 0) continue;
         for (int a = 0; a < dim; a++)
@@ -118,14 +118,15 @@ static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, co
         if (m[p->material[i]].law && m[p->material[i]].mode == LAW_LOAD_STEP) with_law |= 1u << l;
         if (!flows) sum += point_elastic_energy_density(p, &m[p->material[i]], i, own, dim);
     }
-    if (flows && with_law) place_laws(mesh, p, m, cell, q, with_law, 0, stress, dim);
+    if (flows && with_law) place_laws(mesh, p, m, cell, point, with_law, 0, stress, dim);
     return sum;
 }
 
-/* Adds the stresses of the points number q of eight cells to the sums over the points of each cell: to s->P, the
+/* Adds the stresses of the points number `point` of eight cells to the sums over the points of each cell: to s->P, the
  * stress of the mean strain, and to s->force, the forces on the bending modes. stress: symmetric components [Pa],
  * already divided by the number of points. */
-static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lanes *stress, const int q, const int dim)
+static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lanes *stress, const int point,
+                                                 const int dim)
 {
     for (int k = 0; k < symmetric_component_count(dim); k++) {
         int a, b;
@@ -134,8 +135,8 @@ static ALWAYS_INLINE void cells_add_point_stress(struct mesh_cell *s, const lane
         if (a != b) s->P[b][a] += stress[k];
         for (int M = 3; M < 1 << dim; M++) {
             if (!(M & (M - 1))) continue;
-            if (M >> b & 1) s->force[M][a] += point_coordinate_product(M & ~(1 << b), q) * stress[k];
-            if (a != b && M >> a & 1) s->force[M][b] += point_coordinate_product(M & ~(1 << a), q) * stress[k];
+            if (M >> b & 1) s->force[M][a] += point_coordinate_product(M & ~(1 << b), point) * stress[k];
+            if (a != b && M >> a & 1) s->force[M][b] += point_coordinate_product(M & ~(1 << a), point) * stress[k];
         }
     }
 }

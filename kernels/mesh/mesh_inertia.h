@@ -15,21 +15,22 @@
 
 #include "kernels/kernels.h"
 
-/* Returns the entry for corners c and k of the consistent mass matrix of a linear cell, divided by the mass of the
- * cell [1]: the product of 1/3 for each axis along which both corners have the same position and 1/6 for each other
- * axis. */
-static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int c, int k)
+/* Returns the entry for corners `corner` and `other` of the consistent mass matrix of a linear cell, divided by the
+ * mass of the cell [1]: the product of 1/3 for each axis along which both corners have the same position and 1/6 for
+ * each other axis. */
+static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int other)
 {
     real share = 1;
-    for (int d = 0; d < dim; d++) share *= (c ^ k) >> d & 1 ? 1.0 / 6 : 1.0 / 3;
+    for (int d = 0; d < dim; d++) share *= (corner ^ other) >> d & 1 ? 1.0 / 6 : 1.0 / 3;
     return share;
 }
 
-/* Returns the quadratic form a . alpha (L - C) a of cell I [N^2/kg], summed over components; a quarter of it, times
- * dt^2, is the contribution of the cell's blended mass matrix to mesh_kick. a = f/m at its corners, from nodal forces f
- * and masses m; L and C: lumped and consistent mass matrix of the cell; alpha = mesh->match. Sums s and differences d
- * along the axes diagonalise both matrices: along one axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
-static inline real mesh_blended_mass_form(const struct mesh *mesh, int64_t I)
+/* Returns the quadratic form a . alpha (L - C) a of cell `cell` [N^2/kg], summed over components; a quarter of it,
+ * times dt^2, is the contribution of the cell's blended mass matrix to mesh_kick. a = f/m at its corners, from nodal
+ * forces f and masses m; L and C: lumped and consistent mass matrix of the cell; alpha = mesh->match. Sums s and
+ * differences d along the axes diagonalise both matrices: along one axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 +
+ * d^2/3)/4. */
+static inline real mesh_blended_mass_form(const struct mesh *mesh, int64_t cell)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */
     const int dim = mesh->grid.dim, corners = 1 << dim;
@@ -37,7 +38,7 @@ static inline real mesh_blended_mass_form(const struct mesh *mesh, int64_t I)
     for (int d = 0; d < dim; d++) {
         real a[CORNERS_MAX];
         for (int c = 0; c < corners; c++) {
-            const int64_t J = I + mesh->corner[c];
+            const int64_t J = cell + mesh->corner[c];
             a[c] = mesh->grid.force[d][J] * mesh->inverse_mass[J];
         }
         for (int axis = 1; axis < corners; axis *= 2)
@@ -48,7 +49,7 @@ static inline real mesh_blended_mass_form(const struct mesh *mesh, int64_t I)
             }
         for (int c = 1; c < corners; c++) sum += less[(c & 1) + (c >> 1 & 1) + (c >> 2)] * a[c] * a[c];
     }
-    return mesh->match * mesh->cell_mass[mesh->material[I]] * sum / (real)(corners * corners);
+    return mesh->match * mesh->cell_mass[mesh->material[cell]] * sum / (real)(corners * corners);
 }
 
 #endif

@@ -215,24 +215,25 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
     SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
 }
 
-/* Returns the product of the coordinates +-1/4 of material point number q of a cell along the axes in the bit set
- * `set`, in units of the edge of the cell [1]; 1 for an empty set. */
-static ALWAYS_INLINE real point_coordinate_product(const int set, const int q)
+/* Returns the product of the coordinates +-1/4 of material point number `point` of a cell along the axes in the bit set
+ * `axis_set`, in units of the edge of the cell [1]; 1 for an empty set. */
+static ALWAYS_INLINE real point_coordinate_product(const int axis_set, const int point)
 {
-    const int axes = __builtin_popcount(set), below = __builtin_popcount(set & ~q);
+    const int axes = __builtin_popcount(axis_set), below = __builtin_popcount(axis_set & ~point);
     return (below & 1 ? -1.0 : 1.0) / (1 << 2 * axes);
 }
 
-/* Computes the strain e of eight cells at their material points number q: the mean strain plus the bending modes times
- * the coordinates +-1/4 of the point. e may be unsymmetric; its symmetric part is the strain. */
-static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
+/* Computes the strain e of eight cells at their material points number `point`: the mean strain plus the bending modes
+ * times the coordinates +-1/4 of the point. e may be unsymmetric; its symmetric part is the strain. */
+static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const int point, lanes e[3][3],
+                                                const int dim)
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) {
             e[i][j] = s->e[i][j];
             SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1) && M >> j & 1)
             {
-                e[i][j] += point_coordinate_product(M & ~(1 << j), q) * s->mode[M][i];
+                e[i][j] += point_coordinate_product(M & ~(1 << j), point) * s->mode[M][i];
             }
         }
 }

@@ -7,9 +7,9 @@
 
 /* Returns the particle number of material point q of a cell, -1 if it has none. cell: index of the cell, -1: no
  * cell. */
-static ALWAYS_INLINE int32_t place_point(const struct mesh *mesh, int32_t cell, int q, const int dim)
+static ALWAYS_INLINE int32_t place_point(const struct mesh *mesh, int32_t cell, int number, const int dim)
 {
-    return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + q];
+    return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + number];
 }
 
 /* Returns the values from[point[l]] of a particle array for eight points, one per lane; 0 in lanes with point[l] =
@@ -85,16 +85,18 @@ static ALWAYS_INLINE void law_store(const struct particles *p, const struct elas
  * of an explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry [Pa]; m: elastic
  * constants of all materials. Points of several materials: law by law. */
 static NEVER_INLINE void place_laws(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                    const int32_t *cell, int q, unsigned left, real dt, lanes *stress, int dim)
+                                    const int32_t *cell, int number, unsigned yielding_lanes, real dt, lanes *stress,
+                                    int dim)
 {
     struct law_points e;
     int32_t point[LANES];
-    for (int l = 0; l < LANES; l++) point[l] = place_point(mesh, cell[l], q, dim);
-    while (left) {
-        const uint8_t material = p->material[point[__builtin_ctz(left)]];
+    for (int l = 0; l < LANES; l++) point[l] = place_point(mesh, cell[l], number, dim);
+    while (yielding_lanes) {
+        const uint8_t material = p->material[point[__builtin_ctz(yielding_lanes)]];
         unsigned own = 0;
-        for (int l = 0; l < LANES; l++) own |= (unsigned)(left >> l & 1 && p->material[point[l]] == material) << l;
-        left &= ~own;
+        for (int l = 0; l < LANES; l++)
+            own |= (unsigned)(yielding_lanes >> l & 1 && p->material[point[l]] == material) << l;
+        yielding_lanes &= ~own;
         laws_load(p, &m[material], point, stress, dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m[material].law, &e, m[material].space, m[material].mode);

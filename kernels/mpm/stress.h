@@ -22,14 +22,15 @@
  * steps. */
 #define SPIN_NONE 3e-5
 
-/* Rotates the stress s (xx, yy, xy) in 2D: s = R s R^T with the rotation R by the angle -w from x to y, w = W_xy
- * [rad]. */
-static inline void stress_rotate_2d(real *s, real w)
+/* Rotates the stress s (xx, yy, xy) in 2D: s = R s R^T with the rotation R by the angle -`angle` from x to y, where
+ * `angle` is W_xy [rad]. */
+static inline void stress_rotate_2d(real *stress, real angle)
 {
-    const real c = cos(2 * w), n = sin(2 * w), mean = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
-    const real turned = half * c + s[2] * n;
-    s[2] = s[2] * c - half * n;
-    s[0] = mean + turned, s[1] = mean - turned;
+    const real c = cos(2 * angle), n = sin(2 * angle), mean = 0.5 * (stress[0] + stress[1]),
+               half = 0.5 * (stress[0] - stress[1]);
+    const real turned = half * c + stress[2] * n;
+    stress[2] = stress[2] * c - half * n;
+    stress[0] = mean + turned, stress[1] = mean - turned;
 }
 
 /* Computes the matrix product c = a b of 3 x 3 matrices. */
@@ -41,9 +42,10 @@ static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], rea
 
 /* Rotates the stress s (xx, yy, zz, xy, yz, zx) in 3D: s = R s R^T with R = exp W (Rodrigues' formula). wxy, wyz, wzx:
  * components of the antisymmetric matrix W, not all 0 [rad]. */
-static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
+static inline void stress_rotate_3d(real *stress, real wxy, real wyz, real wzx)
 {
-    const real S[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
+    const real S[3][3] = {
+        {stress[0], stress[3], stress[5]}, {stress[3], stress[1], stress[4]}, {stress[5], stress[4], stress[2]}};
     const real W[3][3] = {{0, wxy, -wzx}, {-wxy, 0, wyz}, {wzx, -wyz, 0}};
     const real angle2 = wxy * wxy + wyz * wyz + wzx * wzx, angle = sqrt(angle2);
     const real first = sin(angle) / angle, second = (1 - cos(angle)) / angle2;
@@ -54,24 +56,26 @@ static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
     product_3d(R, S, RS);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) turned[a][b] = RS[a][0] * R[b][0] + RS[a][1] * R[b][1] + RS[a][2] * R[b][2];
-    s[0] = turned[0][0], s[1] = turned[1][1], s[2] = turned[2][2];
-    s[3] = turned[0][1], s[4] = turned[1][2], s[5] = turned[2][0];
+    stress[0] = turned[0][0], stress[1] = turned[1][1], stress[2] = turned[2][2];
+    stress[3] = turned[0][1], stress[4] = turned[1][2], stress[5] = turned[2][0];
 }
 
-/* Computes the first-order change of the stress by a rotation, more = W s - s W, for a few points (one per lane). s:
- * symmetric components [Pa]; w: components W_xy, in 3D also W_yz and W_zx, of the antisymmetric matrix W [rad]. */
-static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *s, const row_of_points *w, row_of_points *more,
-                                                    const int dim)
+/* Computes the first-order change of the stress by a rotation, increment = W s - s W with the stress s, for a few
+ * points (one per lane). stress: symmetric components [Pa]; spin: the components W_xy, in 3D also W_yz and W_zx, of the
+ * antisymmetric matrix W [rad]. */
+static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *stress, const row_of_points *spin,
+                                                    row_of_points *increment, const int dim)
 {
     if (dim == 2) {
-        more[0] = 2 * w[0] * s[2], more[1] = -more[0], more[2] = w[0] * (s[1] - s[0]);
+        increment[0] = 2 * spin[0] * stress[2], increment[1] = -increment[0],
+        increment[2] = spin[0] * (stress[1] - stress[0]);
         return;
     }
-    const row_of_points xy = w[0] * s[3], yz = w[1] * s[4], zx = w[2] * s[5];
-    more[0] = 2 * (xy - zx), more[1] = 2 * (yz - xy), more[2] = 2 * (zx - yz);
-    more[3] = w[0] * (s[1] - s[0]) + w[1] * s[5] - w[2] * s[4];
-    more[4] = w[1] * (s[2] - s[1]) + w[2] * s[3] - w[0] * s[5];
-    more[5] = w[2] * (s[0] - s[2]) + w[0] * s[4] - w[1] * s[3];
+    const row_of_points xy = spin[0] * stress[3], yz = spin[1] * stress[4], zx = spin[2] * stress[5];
+    increment[0] = 2 * (xy - zx), increment[1] = 2 * (yz - xy), increment[2] = 2 * (zx - yz);
+    increment[3] = spin[0] * (stress[1] - stress[0]) + spin[1] * stress[5] - spin[2] * stress[4];
+    increment[4] = spin[1] * (stress[2] - stress[1]) + spin[2] * stress[3] - spin[0] * stress[5];
+    increment[5] = spin[2] * (stress[0] - stress[2]) + spin[0] * stress[4] - spin[1] * stress[3];
 }
 
 /* Computes in `more` the change of the stress s of a few points by an exact rotation, each by its own angle up to
@@ -80,8 +84,8 @@ static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *s, cons
  *     R s R^T = s + c1 A s + c2 A^2 s + c3 A^3 s + c4 A^4 s,
  *     c1 = (8 sin a - sin 2a)/6a, c2 = (15 - 16 cos a + cos 2a)/12a^2,
  *     c3 = (2 sin a - sin 2a)/6a^3, c4 = (3 - 4 cos a + cos 2a)/12a^4. */
-static ALWAYS_INLINE void stress_exact_rotation_increment(const row_of_points *s, const row_of_points *w,
-                                                          const row_of_points angle2, row_of_points *more,
+static ALWAYS_INLINE void stress_exact_rotation_increment(const row_of_points *stress, const row_of_points *spin,
+                                                          const row_of_points angle2, row_of_points *increment,
                                                           const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -90,46 +94,46 @@ static ALWAYS_INLINE void stress_exact_rotation_increment(const row_of_points *s
                                 1.0 / 6 + angle2 * (-1.0 / 24 + angle2 * (1.0 / 240 - angle2 * (17.0 / 72576))),
                                 1.0 / 24 + angle2 * (-1.0 / 144 + angle2 * (1.0 / 1920 - angle2 * (17.0 / 725760)))};
     row_of_points sum[SYM_MAX];
-    for (int k = 0; k < n; k++) sum[k] = c[3] * s[k];
+    for (int k = 0; k < n; k++) sum[k] = c[3] * stress[k];
     for (int power = 2; power >= 0; power--) {
-        stress_rotation_increment(sum, w, more, dim);
-        for (int k = 0; k < n; k++) sum[k] = c[power] * s[k] + more[k];
+        stress_rotation_increment(sum, spin, increment, dim);
+        for (int k = 0; k < n; k++) sum[k] = c[power] * stress[k] + increment[k];
     }
-    stress_rotation_increment(sum, w, more, dim);
+    stress_rotation_increment(sum, spin, increment, dim);
 }
 
 /* Rotates the stress s of a few points (one per lane; symmetric components), each by its own antisymmetric matrix W
  * with components w [rad]: to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second order
  * between. */
-static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w, const int dim)
+static ALWAYS_INLINE void stress_rotate(row_of_points *stress, const row_of_points *spin, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
-    row_of_points more[SYM_MAX], angle2 = w[0] * w[0];
-    if (dim == 3) angle2 += w[1] * w[1] + w[2] * w[2];
-    stress_rotation_increment(s, w, more, dim);
+    row_of_points more[SYM_MAX], angle2 = spin[0] * spin[0];
+    if (dim == 3) angle2 += spin[1] * spin[1] + spin[2] * spin[2];
+    stress_rotation_increment(stress, spin, more, dim);
     if (__builtin_expect(points_sign_bits(SPIN_NONE * SPIN_NONE - angle2), 0)) {
         row_of_points middle[SYM_MAX], second[SYM_MAX];
-        for (int c = 0; c < n; c++) middle[c] = s[c] + 0.5 * more[c];
-        stress_rotation_increment(middle, w, second, dim);
+        for (int c = 0; c < n; c++) middle[c] = stress[c] + 0.5 * more[c];
+        stress_rotation_increment(middle, spin, second, dim);
         for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_NONE * SPIN_NONE - angle2, second[c], more[c]);
     }
     if (__builtin_expect(points_sign_bits(SPIN_SMALL * SPIN_SMALL - angle2), 0)) {
         row_of_points exact[SYM_MAX];
-        stress_exact_rotation_increment(s, w, angle2, exact, dim);
+        stress_exact_rotation_increment(stress, spin, angle2, exact, dim);
         for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_SMALL * SPIN_SMALL - angle2, exact[c], more[c]);
     }
     const int large = points_sign_bits(SPIN_SERIES * SPIN_SERIES - angle2);
     for (int k = 0; k < POINTS && __builtin_expect(large, 0); k++) {
         real turned[SYM_MAX];
         if (!(large >> k & 1)) continue;
-        for (int c = 0; c < n; c++) turned[c] = s[c][k];
+        for (int c = 0; c < n; c++) turned[c] = stress[c][k];
         if (dim == 2)
-            stress_rotate_2d(turned, w[0][k]);
+            stress_rotate_2d(turned, spin[0][k]);
         else
-            stress_rotate_3d(turned, w[0][k], w[1][k], w[2][k]);
-        for (int c = 0; c < n; c++) more[c][k] = turned[c] - s[c][k];
+            stress_rotate_3d(turned, spin[0][k], spin[1][k], spin[2][k]);
+        for (int c = 0; c < n; c++) more[c][k] = turned[c] - stress[c][k];
     }
-    for (int c = 0; c < n; c++) s[c] += more[c];
+    for (int c = 0; c < n; c++) stress[c] += more[c];
 }
 
 /* Elastic constants (struct elastic) of a few points. */
@@ -138,51 +142,58 @@ struct elastic_points {
     bool surface;                           /* one of them has a strength surface */
 };
 
-/* Updates the stresses s of a few points (one per lane) for a time step dt [s]: rotation by the spin, then Hooke's law.
- * L[a dim + b]: velocity gradient dv_a/dx_b [1/s]; m: elastic constants. Returns the trace of the strain increment
- * [1]. */
-static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_points *L,
+/* Updates the stresses of a few points (one per lane) for a time step dt [s]: rotation by the spin, then Hooke's law.
+ * velocity_gradient[a dim + b]: velocity gradient dv_a/dx_b [1/s]; m: elastic constants. Returns the trace of the
+ * strain increment [1]. */
+static ALWAYS_INLINE row_of_points stress_update(row_of_points *stress, const row_of_points *velocity_gradient,
                                                  const struct elastic_points *m, real dt, const int dim)
 {
     if (dim == 1) {
-        s[0] += m->c11 * L[0] * dt;
-        return L[0] * dt;
+        stress[0] += m->c11 * velocity_gradient[0] * dt;
+        return velocity_gradient[0] * dt;
     }
     if (dim == 2) {
-        const row_of_points spin = 0.5 * (L[1] - L[2]) * dt, turned = 0.5 * spin * spin;
-        const row_of_points xx = L[0] * dt + turned, yy = L[3] * dt + turned;
-        stress_rotate(s, &spin, dim);
-        s[0] += m->c11 * xx + m->c12 * yy;
-        s[1] += m->c12 * xx + m->c11 * yy;
-        s[2] += m->shear * (L[1] + L[2]) * dt;
+        const row_of_points spin = 0.5 * (velocity_gradient[1] - velocity_gradient[2]) * dt, turned = 0.5 * spin * spin;
+        const row_of_points xx = velocity_gradient[0] * dt + turned, yy = velocity_gradient[3] * dt + turned;
+        stress_rotate(stress, &spin, dim);
+        stress[0] += m->c11 * xx + m->c12 * yy;
+        stress[1] += m->c12 * xx + m->c11 * yy;
+        stress[2] += m->shear * (velocity_gradient[1] + velocity_gradient[2]) * dt;
         return xx + yy;
     }
-    const row_of_points spin[3] = {0.5 * (L[1] - L[3]) * dt, 0.5 * (L[5] - L[7]) * dt, 0.5 * (L[6] - L[2]) * dt};
+    const row_of_points spin[3] = {0.5 * (velocity_gradient[1] - velocity_gradient[3]) * dt,
+                                   0.5 * (velocity_gradient[5] - velocity_gradient[7]) * dt,
+                                   0.5 * (velocity_gradient[6] - velocity_gradient[2]) * dt};
     const row_of_points half[3] = {0.5 * spin[0] * spin[0], 0.5 * spin[1] * spin[1], 0.5 * spin[2] * spin[2]};
-    const row_of_points xx = L[0] * dt + half[0] + half[2], yy = L[4] * dt + half[0] + half[1],
-                        zz = L[8] * dt + half[1] + half[2];
+    const row_of_points xx = velocity_gradient[0] * dt + half[0] + half[2],
+                        yy = velocity_gradient[4] * dt + half[0] + half[1],
+                        zz = velocity_gradient[8] * dt + half[1] + half[2];
     const row_of_points trace = xx + yy + zz, pressure = m->c12 * trace, twice = m->c11 - m->c12;
-    stress_rotate(s, spin, dim);
-    s[0] += pressure + twice * xx;
-    s[1] += pressure + twice * yy;
-    s[2] += pressure + twice * zz;
-    s[3] += m->shear * ((L[1] + L[3]) * dt - spin[1] * spin[2]);
-    s[4] += m->shear * ((L[5] + L[7]) * dt - spin[0] * spin[2]);
-    s[5] += m->shear * ((L[6] + L[2]) * dt - spin[0] * spin[1]);
+    stress_rotate(stress, spin, dim);
+    stress[0] += pressure + twice * xx;
+    stress[1] += pressure + twice * yy;
+    stress[2] += pressure + twice * zz;
+    stress[3] += m->shear * ((velocity_gradient[1] + velocity_gradient[3]) * dt - spin[1] * spin[2]);
+    stress[4] += m->shear * ((velocity_gradient[5] + velocity_gradient[7]) * dt - spin[0] * spin[2]);
+    stress[5] += m->shear * ((velocity_gradient[6] + velocity_gradient[2]) * dt - spin[0] * spin[1]);
     return trace;
 }
 
 /* Returns the largest principal stress [Pa] of the stress s (symmetric components), in 3D by the trigonometric solution
  * of the cubic equation. */
-static ALWAYS_INLINE real stress_largest_principal(const real *s, const int dim)
+static ALWAYS_INLINE real stress_largest_principal(const real *stress, const int dim)
 {
-    if (dim == 1) return s[0];
-    if (dim == 2) return 0.5 * (s[0] + s[1]) + sqrt(0.25 * (s[0] - s[1]) * (s[0] - s[1]) + s[2] * s[2]);
-    const real mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
-    const real off = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+    if (dim == 1) return stress[0];
+    if (dim == 2)
+        return 0.5 * (stress[0] + stress[1]) +
+               sqrt(0.25 * (stress[0] - stress[1]) * (stress[0] - stress[1]) + stress[2] * stress[2]);
+    const real mean = (stress[0] + stress[1] + stress[2]) / 3, a = stress[0] - mean, b = stress[1] - mean,
+               c = stress[2] - mean;
+    const real off = stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5];
     const real j2 = 0.5 * (a * a + b * b + c * c) + off;
     if (j2 <= 0) return mean;
-    const real j3 = a * b * c + 2 * s[3] * s[4] * s[5] - a * s[4] * s[4] - b * s[5] * s[5] - c * s[3] * s[3];
+    const real j3 = a * b * c + 2 * stress[3] * stress[4] * stress[5] - a * stress[4] * stress[4] -
+                    b * stress[5] * stress[5] - c * stress[3] * stress[3];
     real cosine = 1.5 * sqrt(3.0) * j3 / (j2 * sqrt(j2));
     cosine = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
     return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
@@ -190,23 +201,23 @@ static ALWAYS_INLINE real stress_largest_principal(const real *s, const int dim)
 
 /* Returns an upper bound of the largest principal stress [Pa] of the stress s (symmetric components). The principal
  * stress itself is computed only where this bound exceeds the conversion stress. */
-static ALWAYS_INLINE real stress_principal_bound(const real *s, const int dim)
+static ALWAYS_INLINE real stress_principal_bound(const real *stress, const int dim)
 {
-    if (dim == 1) return s[0];
-    if (dim == 2) return 0.5 * (s[0] + s[1]) + 0.5 * fabs(s[0] - s[1]) + fabs(s[2]);
-    real most = s[0] > s[1] ? s[0] : s[1];
-    most = most > s[2] ? most : s[2];
-    return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
+    if (dim == 1) return stress[0];
+    if (dim == 2) return 0.5 * (stress[0] + stress[1]) + 0.5 * fabs(stress[0] - stress[1]) + fabs(stress[2]);
+    real most = stress[0] > stress[1] ? stress[0] : stress[1];
+    most = most > stress[2] ? most : stress[2];
+    return most + 2 * (fabs(stress[3]) + fabs(stress[4]) + fabs(stress[5]));
 }
 
-/* Returns an upper bound of the largest principal stress of a few points, one per lane [Pa]. s: symmetric
+/* Returns an upper bound of the largest principal stress of a few points, one per lane [Pa]. stress: symmetric
  * components. */
-static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *s, const int dim)
+static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *stress, const int dim)
 {
-    if (dim == 1) return s[0];
-    if (dim == 2) return points_max(s[0], s[1]) + points_absolute(s[2]);
-    return points_max(points_max(s[0], s[1]), s[2]) +
-           2 * (points_absolute(s[3]) + points_absolute(s[4]) + points_absolute(s[5]));
+    if (dim == 1) return stress[0];
+    if (dim == 2) return points_max(stress[0], stress[1]) + points_absolute(stress[2]);
+    return points_max(points_max(stress[0], stress[1]), stress[2]) +
+           2 * (points_absolute(stress[3]) + points_absolute(stress[4]) + points_absolute(stress[5]));
 }
 
 /* Returns sqrt(J2) + g1 I1 of a stress, the share of the strength surface of material m times g0
@@ -252,16 +263,16 @@ static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const 
 
 /* Rotates the vector v by the unit quaternion q, in place. q: first the three components along the axes, last the real
  * one. */
-static inline void quaternion_rotate_vector(const real *q, real *v)
+static inline void quaternion_rotate_vector(const real *quaternion, real *vector)
 {
-    real u[3], old[3] = {v[0], v[1], v[2]};
+    real u[3], old[3] = {vector[0], vector[1], vector[2]};
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        u[k] = q[3] * old[k] + q[i] * old[j] - q[j] * old[i];
+        u[k] = quaternion[3] * old[k] + quaternion[i] * old[j] - quaternion[j] * old[i];
     }
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        v[k] = old[k] + 2 * (q[i] * u[j] - q[j] * u[i]);
+        vector[k] = old[k] + 2 * (quaternion[i] * u[j] - quaternion[j] * u[i]);
     }
 }
 

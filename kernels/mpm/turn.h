@@ -5,17 +5,19 @@
 #include "kernels/kernels.h"
 #include "row.h"
 
-/* Returns the derivative of velocity component d along axis e by which a few points extrapolate their velocity to nodes
- * [1/s], from the spins w of their groups [1/s]. The leap-frog velocity v = (x' - x)/dt is along a chord of the circle
- * of rotation: v = w x r - part w x (w x r). part: dt/2 for r at the position x' at the end of the step, -dt/2 at its
- * start x [s]. Without the second-order term rotating bodies shrink: a square by 0.2 % per turn at 4000 1/s. */
-static ALWAYS_INLINE row_of_points rotating_velocity_slope(const row_of_points *w, const real part, int d, int e,
-                                                           const int dim)
+/* Returns the derivative of velocity component `component` along axis `axis` by which a few points extrapolate their
+ * velocity to nodes [1/s], from the spins `spin` of their groups [1/s]. The leap-frog velocity v = (x' - x)/dt is along
+ * a chord of the circle of rotation: v = w x r - part w x (w x r), w the spin. part: dt/2 for r at the position x' at
+ * the end of the step, -dt/2 at its start x [s]. Without the second-order term rotating bodies shrink: a square by 0.2
+ * % per turn at 4000 1/s. */
+static ALWAYS_INLINE row_of_points rotating_velocity_slope(const row_of_points *spin, const real part, int component,
+                                                           int axis, const int dim)
 {
-    if (dim == 2) return d == e ? part * (w[2] * w[2]) : d < e ? -w[2] : w[2];
-    const row_of_points mixed = -part * w[d] * w[e];
-    if (d != e) return mixed + (e == (d + 1) % 3 ? -w[3 - d - e] : w[3 - d - e]);
-    return mixed + part * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    if (dim == 2) return component == axis ? part * (spin[2] * spin[2]) : component < axis ? -spin[2] : spin[2];
+    const row_of_points mixed = -part * spin[component] * spin[axis];
+    if (component != axis)
+        return mixed + (axis == (component + 1) % 3 ? -spin[3 - component - axis] : spin[3 - component - axis]);
+    return mixed + part * (spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]);
 }
 
 /* Computes the velocity gradients of a few points that rotate with their groups, slope[d dim + e] = dv_d/dx_e [1/s].

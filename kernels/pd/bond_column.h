@@ -83,52 +83,56 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
             FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
     } while (0)
 
-/* Returns the values of the particle array `from` at the neighbours of the eight bonds of column s. */
-static ALWAYS_INLINE lanes column_gather_neighbours(const struct column s, const real *from)
+/* Returns the values of the particle array `from` at the neighbours of the eight bonds of `column`. */
+static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, const real *from)
 {
-    return s.kind ? lanes_load(from + s.first)
-                  : lanes_load_or_gather(from, (int32_t)s.first, s.b->nbr + s.number * LANES);
+    return column.kind ? lanes_load(from + column.first)
+                       : lanes_load_or_gather(from, (int32_t)column.first, column.b->nbr + column.number * LANES);
 }
 
-/* Returns component d of the reference bond vectors X_j - X_i of the eight bonds of column s [m]. X: component d of the
- * reference positions X_i of the particles of the row block [m]. */
-static ALWAYS_INLINE lanes column_reference_vectors(const struct column s, const struct particles *p, int d, lanes X)
+/* Returns component `axis` of the reference bond vectors X_j - X_i of the eight bonds of `column` [m]. X: component
+ * `axis` of the reference positions X_i of the particles of the row block [m]. */
+static ALWAYS_INLINE lanes column_reference_vectors(const struct column column, const struct particles *p, int axis,
+                                                    lanes X)
 {
-    return s.stencil ? lanes_broadcast(s.stencil->xi[d]) : column_gather_neighbours(s, p->X[d]) - X;
+    return column.stencil ? lanes_broadcast(column.stencil->xi[axis])
+                          : column_gather_neighbours(column, p->X[axis]) - X;
 }
 
-/* Returns component d of weight times reference bond vector of the eight bonds of column s [m]. w: their weights [1];
- * xi: component d of their reference vectors [m]. */
-static ALWAYS_INLINE lanes column_weighted_vectors(const struct column s, int d, lanes w, lanes xi)
+/* Returns component `axis` of weight times reference bond vector of the eight bonds of `column` [m]. w: their weights
+ * [1]; xi: component `axis` of their reference vectors [m]. */
+static ALWAYS_INLINE lanes column_weighted_vectors(const struct column column, int axis, lanes w, lanes xi)
 {
-    return s.kind == COLUMN_WHOLE ? lanes_broadcast(s.stencil->w_xi[d]) : s.kind == COLUMN_UNIT ? xi : w * xi;
+    return column.kind == COLUMN_WHOLE  ? lanes_broadcast(column.stencil->w_xi[axis])
+           : column.kind == COLUMN_UNIT ? xi
+                                        : w * xi;
 }
 
-/* Returns the inverse reference lengths 1/|X_j - X_i| of the eight bonds of column s [1/m]; those of broken bonds may
+/* Returns the inverse reference lengths 1/|X_j - X_i| of the eight bonds of `column` [1/m]; those of broken bonds may
  * be negative. */
-static ALWAYS_INLINE lanes column_inverse_length(const struct column s)
+static ALWAYS_INLINE lanes column_inverse_length(const struct column column)
 {
-    if (s.stencil) return lanes_broadcast(s.stencil->inverse_length);
-    const struct bond_column *c = &s.b->common[s.number];
-    return s.kind ? lanes_add_ulps(s.b->shell_length[c->shell].inverse, c->excess)
-                  : lanes_load(s.b->inverse_length + s.number * LANES);
+    if (column.stencil) return lanes_broadcast(column.stencil->inverse_length);
+    const struct bond_column *c = &column.b->common[column.number];
+    return column.kind ? lanes_add_ulps(column.b->shell_length[c->shell].inverse, c->excess)
+                       : lanes_load(column.b->inverse_length + column.number * LANES);
 }
 
-/* Returns eight bits: bit l is set if the l-th bond of column s is intact. */
-static ALWAYS_INLINE uint8_t column_intact(const struct column s)
+/* Returns eight bits: bit l is set if the l-th bond of `column` is intact. */
+static ALWAYS_INLINE uint8_t column_intact(const struct column column)
 {
-    return s.stencil ? s.stencil->intact : s.b->common[s.number].intact;
+    return column.stencil ? column.stencil->intact : column.b->common[column.number].intact;
 }
 
-/* Returns the weights of the eight bonds of column s [1], 0 for broken bonds. */
-static ALWAYS_INLINE lanes column_weight(const struct column s)
+/* Returns the weights of the eight bonds of `column` [1], 0 for broken bonds. */
+static ALWAYS_INLINE lanes column_weight(const struct column column)
 {
-    if (s.kind == COLUMN_UNIT) return lanes_broadcast(1);
-    if (s.kind == COLUMN_WHOLE) return lanes_broadcast(s.stencil->w);
-    if (s.kind == COLUMN_STENCIL) return lanes_load(s.w);
-    const struct bond_column *c = &s.b->common[s.number];
-    return s.kind == COLUMN_ALIKE ? lanes_zero_unless_selected(c->intact, lanes_broadcast(c->w))
-                                  : lanes_load(s.b->w + s.number * LANES);
+    if (column.kind == COLUMN_UNIT) return lanes_broadcast(1);
+    if (column.kind == COLUMN_WHOLE) return lanes_broadcast(column.stencil->w);
+    if (column.kind == COLUMN_STENCIL) return lanes_load(column.w);
+    const struct bond_column *c = &column.b->common[column.number];
+    return column.kind == COLUMN_ALIKE ? lanes_zero_unless_selected(c->intact, lanes_broadcast(c->w))
+                                       : lanes_load(column.b->w + column.number * LANES);
 }
 
 /* Computes the stretch |y|/|xi| - 1 of a bond from its length |y| and inverse reference length, rounded to a multiple
@@ -139,18 +143,19 @@ static ALWAYS_INLINE lanes column_weight(const struct column s)
  * -|y|/|xi| - 1. */
 #define STRETCH_OF(LENGTH, INVERSE_LENGTH) (((LENGTH) * (INVERSE_LENGTH) + 8.0) - 9.0)
 
-/* Returns in each lane the larger of a and `other` if the bond of column s in that lane is intact, else a. Columns of
+/* Returns in each lane the larger of a and `other` if the bond of `column` in that lane is intact, else a. Columns of
  * the kind FREE are not masked: their broken bonds have negative lengths and hence values below a. */
-static ALWAYS_INLINE lanes column_max_intact(const struct column s, lanes a, lanes other)
+static ALWAYS_INLINE lanes column_max_intact(const struct column column, lanes a, lanes other)
 {
-    return s.kind == COLUMN_FREE || s.kind >= COLUMN_WHOLE ? lanes_max(a, other)
-                                                           : lanes_max_selected(column_intact(s), a, other);
+    return column.kind == COLUMN_FREE || column.kind >= COLUMN_WHOLE
+               ? lanes_max(a, other)
+               : lanes_max_selected(column_intact(column), a, other);
 }
 
-/* Returns in each lane the smaller of a and `other` if the bond of column s in that lane is intact, else a. */
-static ALWAYS_INLINE lanes column_min_intact(const struct column s, lanes a, lanes other)
+/* Returns in each lane the smaller of a and `other` if the bond of `column` in that lane is intact, else a. */
+static ALWAYS_INLINE lanes column_min_intact(const struct column column, lanes a, lanes other)
 {
-    return s.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact(s), a, other);
+    return column.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact(column), a, other);
 }
 
 /* Stores the values of the eight particles of a row block in the particle array `to`. row: the numbers of these

@@ -46,9 +46,9 @@ static inline struct core bond_core_of(const struct bonds *b, const struct parti
 }
 
 /* Adds the repulsive core forces of the bonds of row block g to the forces p->f on its eight particles [N]. */
-RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, int64_t g)
+RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
 {
-    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
+    for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             const struct core c = bond_core_of(b, p, &it.bond, i);
@@ -60,10 +60,10 @@ RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, 
 
 /* Returns half the energy of the repulsive cores of the bonds of row block g [J]; the other half belongs to the bonds'
  * other rows. */
-RARE real row_block_core_energy(const struct bonds *b, const struct particles *p, int64_t g)
+RARE real row_block_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     real sum = 0;
-    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
+    for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             const struct core c = bond_core_of(b, p, &it.bond, b->particle[row]);
             if (!(c.ratio < CORE_FROM)) continue;

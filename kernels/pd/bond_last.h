@@ -71,13 +71,14 @@ static inline struct bond_break_moment bond_break_moment_of(const struct particl
     return (struct bond_break_moment){lag * limit->dt, 0.5 - 0.5 * lag * (1 + part)};
 }
 
-/* Returns the result of bond_break_moment_of for the stored bond with index q between the particles i and j, with its
- * stored inverse length and plastic stretch. */
+/* Returns the result of bond_break_moment_of for the stored bond with index `bond` between the particles i and j, with
+ * its stored inverse length and plastic stretch. */
 static inline struct bond_break_moment bond_break_moment_of_stored(const struct bonds *b, const struct particles *p,
-                                                                   const struct bond_limit *limit, int64_t q, int32_t i,
-                                                                   int32_t j)
+                                                                   const struct bond_limit *limit, int64_t bond,
+                                                                   int32_t i, int32_t j)
 {
-    return bond_break_moment_of(p, limit, b->inverse_length[q], b->plastic_stretch ? b->plastic_stretch[q] : 0, i, j);
+    return bond_break_moment_of(p, limit, b->inverse_length[bond], b->plastic_stretch ? b->plastic_stretch[bond] : 0, i,
+                                j);
 }
 
 #endif

@@ -9,88 +9,94 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Applies return mapping with linear isotropic hardening to the eight bonds with indices q to q + 7, and updates the
- * plastic state of those set in the mask `intact`. stretch: total stretch s [1]. With the plastic stretch s_p, the
- * accumulated plastic stretch alpha, the yield stretch s_y, and H, the hardening modulus over the elastic one,
+/* Applies return mapping with linear isotropic hardening to the eight bonds with indices `first_bond` to `first_bond` +
+ * 7, and updates the plastic state of those set in the mask `intact`. stretch: total stretch s [1]. With the plastic
+ * stretch s_p, the accumulated plastic stretch alpha, the yield stretch s_y, and H, the hardening modulus over the
+ * elastic one,
  *
  *     phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha += g
  *
  * In monotonic loading this is the capped force of Zeng et al. 2021, eq. 18, which lacks elastic unloading. Returns the
  * elastic parts s - s_p of the eight stretches. */
-static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t q, lanes stretch, lanes_mask intact)
+static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t first_bond, lanes stretch,
+                                                lanes_mask intact)
 {
-    const lanes yield = lanes_gather(b->yield.stretch, b->pair + q);
-    const lanes hardening = lanes_gather(b->yield.hardening, b->pair + q);
-    lanes plastic = lanes_load(b->plastic_stretch + q), path = lanes_load(b->plastic_path + q);
+    const lanes yield = lanes_gather(b->yield.stretch, b->pair + first_bond);
+    const lanes hardening = lanes_gather(b->yield.hardening, b->pair + first_bond);
+    lanes plastic = lanes_load(b->plastic_stretch + first_bond), path = lanes_load(b->plastic_path + first_bond);
     const lanes trial = stretch - plastic, zero = lanes_broadcast(0);
     const lanes size = lanes_choose(trial < zero, -trial, trial);
     lanes step = lanes_max(size - (yield + hardening * path), zero) / (1.0 + hardening);
     step = lanes_choose(intact, step, zero);
     plastic += lanes_choose(trial < zero, -step, step);
-    lanes_store(b->plastic_stretch + q, plastic);
-    lanes_store(b->plastic_path + q, path + step);
+    lanes_store(b->plastic_stretch + first_bond, plastic);
+    lanes_store(b->plastic_path + first_bond, path + step);
     return stretch - plastic;
 }
 
-/* Returns the stretch times the share of their stiffness that the eight bonds with indices q to q + 7 keep, in a row
- * block that softens [1] (data/softening.h). most: their largest stretches, the present ones included [1]. */
-static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t q, lanes stretch, lanes most)
+/* Returns the stretch times the share of their stiffness that the eight bonds with indices `first_bond` to `first_bond`
+ * + 7 keep, in a row block that softens [1] (data/softening.h). largest_stretch: their largest stretches, the present
+ * ones included [1]. */
+static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch,
+                                                  lanes largest_stretch)
 {
     const struct softening_curve *c = b->soft.curve;
-    const lanes onset = lanes_load_floats(b->soft.onset + q);
-    const lanes x = (most - onset) / (lanes_load_floats(b->soft.end + q) - onset);
+    const lanes onset = lanes_load_floats(b->soft.onset + first_bond);
+    const lanes x = (largest_stretch - onset) / (lanes_load_floats(b->soft.end + first_bond) - onset);
     lanes level = lanes_broadcast(0);
     for (int k = 0; k < c->pieces; k++) level = lanes_max(level, c->level[k] - c->slope[k] * x);
-    return lanes_choose(stretch > 0.0, stretch * (onset * level / most), stretch);
+    return lanes_choose(stretch > 0.0, stretch * (onset * level / largest_stretch), stretch);
 }
 
-/* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices q to q + 7
- * as their largest ones where they exceed these; in load steps the stored ones stay. */
-static ALWAYS_INLINE lanes bonds_soften(const struct bonds *b, int64_t q, lanes stretch)
+/* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices
+ * `first_bond` to `first_bond` + 7 as their largest ones where they exceed these; in load steps the stored ones stay.
+ */
+static ALWAYS_INLINE lanes bonds_soften(const struct bonds *b, int64_t first_bond, lanes stretch)
 {
-    const lanes before = lanes_load_floats(b->soft.most + q), most = lanes_max(before, stretch);
-    if (b->soft.settled) return bonds_softened_stretch(b, q, stretch, before);
-    if (lanes_any(stretch > before)) lanes_store_floats(b->soft.most + q, most);
-    return bonds_softened_stretch(b, q, stretch, most);
+    const lanes before = lanes_load_floats(b->soft.most + first_bond), most = lanes_max(before, stretch);
+    if (b->soft.settled) return bonds_softened_stretch(b, first_bond, stretch, before);
+    if (lanes_any(stretch > before)) lanes_store_floats(b->soft.most + first_bond, most);
+    return bonds_softened_stretch(b, first_bond, stretch, most);
 }
 
-/* Returns the force of the eight bonds with indices q to q + 7, divided by stiffness and weight [1]. It equals the
- * stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), or its elastic part where bonds yield, or less where
- * they soften; the state of those is updated. stretch: total stretch; w: weights, 0 for broken bonds [1]. */
-static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, const struct bonds *b, int64_t q,
+/* Returns the force of the eight bonds with indices `first_bond` to `first_bond` + 7, divided by stiffness and weight
+ * [1]. It equals the stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), or its elastic part where bonds
+ * yield, or less where they soften; the state of those is updated. stretch: total stretch; w: weights, 0 for broken
+ * bonds [1]. */
+static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, const struct bonds *b, int64_t first_bond,
                                                   lanes stretch, lanes w)
 {
-    return model == PD_BOND_PLASTIC ? bonds_return_mapping(b, q, stretch, w > 0.0)
-           : model == PD_BOND_SOFT  ? bonds_soften(b, q, stretch)
+    return model == PD_BOND_PLASTIC ? bonds_return_mapping(b, first_bond, stretch, w > 0.0)
+           : model == PD_BOND_SOFT  ? bonds_soften(b, first_bond, stretch)
                                     : stretch;
 }
 
-/* Returns the elastic part of the stretch of the eight bonds with indices q to q + 7 [1]: the total stretch `stretch`
- * less the stored plastic stretch of models that yield; where bonds soften, the stretch times the share of their
- * stiffness that they keep. */
-static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, const struct bonds *b, int64_t q,
+/* Returns the elastic part of the stretch of the eight bonds with indices `first_bond` to `first_bond` + 7 [1]: the
+ * total stretch `stretch` less the stored plastic stretch of models that yield; where bonds soften, the stretch times
+ * the share of their stiffness that they keep. */
+static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, const struct bonds *b, int64_t first_bond,
                                                  lanes stretch)
 {
     if (model == PD_BOND_SOFT) {
-        const lanes most = lanes_load_floats(b->soft.most + q);
-        return bonds_softened_stretch(b, q, stretch, b->soft.settled ? most : lanes_max(most, stretch));
+        const lanes most = lanes_load_floats(b->soft.most + first_bond);
+        return bonds_softened_stretch(b, first_bond, stretch, b->soft.settled ? most : lanes_max(most, stretch));
     }
-    return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + q) : stretch;
+    return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + first_bond) : stretch;
 }
 
 /* Returns the elastic part of the given stretch of the bond with index q in a row block [1], by the rules of
  * bonds_elastic_stretch. */
-static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t q, real stretch)
+static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
-    if (b->soft.curve) return stretch * bond_kept_share(b, row_block, q, stretch);
-    return b->plastic_stretch ? stretch - b->plastic_stretch[q] : stretch;
+    if (b->soft.curve) return stretch * bond_kept_share(b, row_block, bond, stretch);
+    return b->plastic_stretch ? stretch - b->plastic_stretch[bond] : stretch;
 }
 
-/* Returns the elastic energy of the bond with index q in a row block, at the given stretch, divided by stiffness,
+/* Returns the elastic energy of the bond with index `bond` in a row block, at the given stretch, divided by stiffness,
  * weight and reference length [1]. */
-static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t row_block, int64_t q, real stretch)
+static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
-    const real elastic = bond_entry_elastic_stretch(b, row_block, q, stretch);
+    const real elastic = bond_entry_elastic_stretch(b, row_block, bond, stretch);
     return 0.5 * ((b->soft.curve ? stretch : elastic) * elastic);
 }
 

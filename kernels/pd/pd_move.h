@@ -22,11 +22,11 @@ static ALWAYS_INLINE unsigned pd_particles_to_move(const struct particles *p, co
     return bits;
 }
 
-/* Stores a[l] in to[list[l]] for those of the eight listed particles whose bit l is set in `movers`. together: true if
- * all bits are set and the particle numbers are consecutive. */
-static ALWAYS_INLINE void pd_store_selected(real *to, const int32_t *list, bool together, unsigned movers, lanes a)
+/* Stores a[l] in to[list[l]] for those of the eight listed particles whose bit l is set in `movers`. consecutive: true
+ * if all bits are set and the particle numbers are consecutive. */
+static ALWAYS_INLINE void pd_store_selected(real *to, const int32_t *list, bool consecutive, unsigned movers, lanes a)
 {
-    if (together)
+    if (consecutive)
         lanes_store(to + list[0], a);
     else
         for (int l = 0; l < LANES; l++)
@@ -34,12 +34,12 @@ static ALWAYS_INLINE void pd_store_selected(real *to, const int32_t *list, bool 
 }
 
 /* Advances eight listed particles by a leap-frog step, v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21). Only
- * the particles whose bit is set in `movers` are changed. together: true if all bits are set and the particle numbers
- * are consecutive. Returns true if one of the moved particles has diverged. */
+ * the particles whose bit is set in `movers` are changed. consecutive: true if all bits are set and the particle
+ * numbers are consecutive. Returns true if one of the moved particles has diverged. */
 static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *list, unsigned movers,
-                                           const struct pd_motion *m, const int dim, const bool together)
+                                           const struct pd_motion *m, const int dim, const bool consecutive)
 {
-    const int32_t first = together ? list[0] : -1;
+    const int32_t first = consecutive ? list[0] : -1;
     const lanes inverse_mass = m->dt_velocity / lanes_load_or_gather(p->mass, first, list);
     lanes speed2 = lanes_broadcast(0), place = lanes_broadcast(0), v[DIM_MAX], x[DIM_MAX];
     for (int d = 0; d < dim; d++) {
@@ -48,12 +48,12 @@ static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *l
         speed2 += v[d] * v[d], place += lanes_absolute(x[d]);
     }
     for (int d = 0; d < dim; d++) {
-        pd_store_selected(p->v[d], list, together, movers, v[d]);
-        pd_store_selected(p->x[d], list, together, movers, x[d]);
+        pd_store_selected(p->v[d], list, consecutive, movers, v[d]);
+        pd_store_selected(p->x[d], list, consecutive, movers, x[d]);
     }
     const lanes_mask diverged = has_diverged(speed2, place, square(m->fastest));
-    bool any = together && lanes_any(diverged);
-    for (int l = 0; l < LANES && !together; l++) any |= (movers >> l & 1) && diverged[l];
+    bool any = consecutive && lanes_any(diverged);
+    for (int l = 0; l < LANES && !consecutive; l++) any |= (movers >> l & 1) && diverged[l];
     return any;
 }
 

@@ -20,14 +20,14 @@ static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
 
 /* Does one step of R <- (R + R^-T)/2 (Higham 1986) on eight 3 x 3 matrices R, and clears `sound` in lanes whose R is
  * singular or inverted. Returns the determinants of R before the step. */
-static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
+static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *valid)
 {
     const lanes cofactor[9] = {R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
                                R[2] * R[7] - R[1] * R[8], R[0] * R[8] - R[2] * R[6], R[1] * R[6] - R[0] * R[7],
                                R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
     const lanes determinant = R[0] * cofactor[0] + R[1] * cofactor[1] + R[2] * cofactor[2];
-    *sound &= determinant > 1e-12;
-    const lanes half = lanes_choose(*sound, 0.5 / determinant, lanes_broadcast(0));
+    *valid &= determinant > 1e-12;
+    const lanes half = lanes_choose(*valid, 0.5 / determinant, lanes_broadcast(0));
     for (int c = 0; c < 9; c++) R[c] = 0.5 * R[c] + cofactor[c] * half;
     return determinant;
 }

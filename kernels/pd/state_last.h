@@ -46,9 +46,12 @@ static inline struct family_left family_sums_without_breaking(const struct bonds
     return left;
 }
 
-/* Replaces *value by share * *value + (1 - share) * left, the mixture of the values with and without the breaking
- * bonds. */
-static inline void state_blend(real *value, real left, real share) { *value = share * *value + (1 - share) * left; }
+/* Replaces *value by share * *value + (1 - share) * without_breaking, the mixture of the values with and without the
+ * breaking bonds. */
+static inline void state_blend(real *value, real without_breaking, real share)
+{
+    *value = share * *value + (1 - share) * without_breaking;
+}
 
 /* Replaces the stored rotation of particle i by the mixture (state_blend) of the rotation with and without its breaking
  * bonds. left: sums over its remaining bonds; spring: spring stiffness g of its family without the breaking bonds
@@ -101,28 +104,28 @@ static inline void state_blend_breaking_rows(struct bonds *b, const struct parti
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Returns component c of the state of particle i before its bonds broke in this step: c = 0 pressure, 1 spring
- * stiffness, from 2 on the stored rotation. For a mirror image it is the state of its source, reflected as in
- * state_of_images: the bond from the source to the image of the other particle breaks in the same step and must use
- * equal numbers. */
-static inline real state_before_breaking(const struct bonds *b, const struct particles *p, int c, int64_t i)
+/* Returns component `component` of the state of particle i before its bonds broke in this step: `component` = 0
+ * pressure, 1 spring stiffness, from 2 on the stored rotation. For a mirror image it is the state of its source,
+ * reflected as in state_of_images: the bond from the source to the image of the other particle breaks in the same step
+ * and must use equal numbers. */
+static inline real state_before_breaking(const struct bonds *b, const struct particles *p, int component, int64_t i)
 {
     const struct state *t = &b->state;
     real sign = 1;
     for (; i >= p->n; i = t->image[i - p->n].source) {
         const int axis = t->image[i - p->n].axis;
         if (axis < 0) return 0;
-        if (c >= 2 && rotation_number_changes_sign(c - 2, axis, p->dim)) sign = -sign;
+        if (component >= 2 && rotation_number_changes_sign(component - 2, axis, p->dim)) sign = -sign;
     }
     const int64_t row = b->row_of[i];
-    if (row >= 0 && t->past[row / LANES]) return sign * t->before[c][i];
-    return sign * (c == 0 ? t->pressure[i] : c == 1 ? t->spring[i] : t->rotation[c - 2][i]);
+    if (row >= 0 && t->past[row / LANES]) return sign * t->before[component][i];
+    return sign * (component == 0 ? t->pressure[i] : component == 1 ? t->spring[i] : t->rotation[component - 2][i]);
 }
 
 /* Computes the force of a state-based bond on particle i, f[dim] [N], from the states of the families of both
  * particles. now: true for their present states, false for the states before bonds broke in this step. */
 static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
-                                    int32_t i, bool now, real *f, const int dim)
+                                    int32_t i, bool present, real *f, const int dim)
 {
     const struct state *t = &b->state;
     const int32_t j = bond->nbr, at[2] = {i, j};
@@ -137,10 +140,11 @@ static inline void state_bond_force(const struct bonds *b, const struct particle
     }
     for (int end = 0; end < 2; end++) {
         lanes rotation[ROTATION];
-        pressure += now ? t->pressure[at[end]] : state_before_breaking(b, p, 0, at[end]);
-        spring += now ? t->spring[at[end]] : state_before_breaking(b, p, 1, at[end]);
+        pressure += present ? t->pressure[at[end]] : state_before_breaking(b, p, 0, at[end]);
+        spring += present ? t->spring[at[end]] : state_before_breaking(b, p, 1, at[end]);
         for (int c = 0; rotates && c < ROTATION; c++)
-            rotation[c] = lanes_broadcast(now ? t->rotation[c][at[end]] : state_before_breaking(b, p, 2 + c, at[end]));
+            rotation[c] =
+                lanes_broadcast(present ? t->rotation[c][at[end]] : state_before_breaking(b, p, 2 + c, at[end]));
         if (rotates) rotation_subtract_product(turned, rotation, arm, dim);
     }
     const real length = sqrt(y2), along = r * pressure + (rotates ? 0 : (length - r) * spring);
@@ -148,18 +152,18 @@ static inline void state_bond_force(const struct bonds *b, const struct particle
         f[d] = bond->w * (along * y[d] / length + (rotates ? spring * (y[d] - xi[d]) + turned[d][0] : 0));
 }
 
-/* Computes the force of a bond on particle i of its row, f[dim] [N], in a bond-based or state-based model. now, for
+/* Computes the force of a bond on particle i of its row, f[dim] [N], in a bond-based or state-based model. present, for
  * state-based models: true for the present states of both particles, false for the states before bonds broke in this
  * step. */
 static inline void bond_force_of_any_model(const struct bonds *b, const struct particles *p, const struct bond *bond,
-                                           int32_t i, bool now, real *f)
+                                           int32_t i, bool present, real *f)
 {
     if (!b->state.modulus)
         bond_force_vector(b, p, bond, i, f);
     else if (p->dim == 2)
-        state_bond_force(b, p, bond, i, now, f, 2);
+        state_bond_force(b, p, bond, i, present, f, 2);
     else
-        state_bond_force(b, p, bond, i, now, f, 3);
+        state_bond_force(b, p, bond, i, present, f, 3);
 }
 
 #endif

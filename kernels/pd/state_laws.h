@@ -57,25 +57,28 @@ static ALWAYS_INLINE void state_bond_compute_vectors(struct state_bond *s, const
     s->inverse_length = column_inverse_length(column);
 }
 
-/* Returns weight times reference length, w |xi| [m], of the eight bonds of column s, or w |xi|^2 [m^2] if `square` is
+/* Returns weight times reference length, w |xi| [m], of the eight bonds of `column`, or w |xi|^2 [m^2] if `square` is
  * true. On a lattice |xi| is the exact length of the lattice shell, without the round-off of positions. w,
  * inverse_length: weights and inverse lengths of the bonds. */
-static ALWAYS_INLINE lanes state_weighted_length(const struct column s, lanes w, lanes inverse_length,
+static ALWAYS_INLINE lanes state_weighted_length(const struct column column, lanes w, lanes inverse_length,
                                                  const bool square)
 {
-    if (s.kind >= COLUMN_WHOLE) return lanes_broadcast(square ? s.stencil->squared : s.stencil->weighted);
-    const struct bond_length *known = &s.b->shell_length[s.stencil ? s.stencil->shell : s.b->common[s.number].shell];
-    if (s.kind) return w * (square ? known->square : known->length);
+    if (column.kind >= COLUMN_WHOLE)
+        return lanes_broadcast(square ? column.stencil->squared : column.stencil->weighted);
+    const struct bond_length *known =
+        &column.b->shell_length[column.stencil ? column.stencil->shell : column.b->common[column.number].shell];
+    if (column.kind) return w * (square ? known->square : known->length);
     const lanes r = lanes_inverse_square_root(inverse_length * inverse_length + STATE_TINY);
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_broadcast(0));
 }
 
-/* Returns the reference lengths |xi| of the eight bonds of column s from their inverses [m], so that |xi|/|Y| is 1 up
+/* Returns the reference lengths |xi| of the eight bonds of `column` from their inverses [m], so that |xi|/|Y| is 1 up
  * to round-off where nothing has moved. Lengths of broken bonds may be negative. */
-static ALWAYS_INLINE lanes state_reference_length(const struct column s, lanes inverse_length)
+static ALWAYS_INLINE lanes state_reference_length(const struct column column, lanes inverse_length)
 {
-    if (s.stencil) return lanes_broadcast(s.stencil->length);
-    return 1.0 / (s.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_broadcast(1)));
+    if (column.stencil) return lanes_broadcast(column.stencil->length);
+    return 1.0 /
+           (column.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_broadcast(1)));
 }
 
 /* Computes the extension of a bond over its present length, e/|Y| = 1 - |xi|/|Y|, rounded as in STRETCH_OF

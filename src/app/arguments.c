@@ -36,9 +36,9 @@ status option_read_count(int *count, const char *option, const char *text, int l
                : status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, least, most);
 }
 
-status option_has_value(const char *option, bool has, const char *usage)
+status option_has_value(const char *option, bool has_value, const char *usage)
 {
-    return has ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
+    return has_value ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
 }
 
 status option_refuse_second(const char *scene, const char *word)

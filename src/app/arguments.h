@@ -18,7 +18,7 @@ struct run_arguments {
 status option_read_count(int *count, const char *option, const char *text, int least, int most);
 
 /* Checks that an option is followed by a value. REFUSED with the usage line, which follows `cleave `, if not. */
-status option_has_value(const char *option, bool has, const char *usage);
+status option_has_value(const char *option, bool has_value, const char *usage);
 
 /* Returns REFUSED for a word that follows the scene of a command: the message names -s if the word is KEY=VALUE, else
  * both scenes. */

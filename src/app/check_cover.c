@@ -29,15 +29,15 @@ static bool piece_near(const struct piece *p, const real *X, real distance)
     return near && region_contains(&b->shape, X, p->scene->dim, distance);
 }
 
-bool piece_bounds(const struct piece *p, real from[DIM_MAX], real to[DIM_MAX])
+bool piece_bounds(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX])
 {
     const struct scene_body *b = &p->scene->body[p->body];
     const int dim = p->scene->dim;
     real low[DIM_MAX], high[DIM_MAX];
     bool any = false;
-    if (!region_bounds(&b->shape, dim, from, to)) return false;
+    if (!region_bounds(&b->shape, dim, lower, upper)) return false;
     if (p->material == ANY_MATERIAL || p->material == b->material) return true;
-    for (int d = 0; d < dim; d++) low[d] = to[d], high[d] = from[d];
+    for (int d = 0; d < dim; d++) low[d] = upper[d], high[d] = lower[d];
     for (int k = 0; k < b->parts; k++) {
         real begin[DIM_MAX], end[DIM_MAX];
         if (b->part[k].material != p->material) continue;
@@ -46,8 +46,8 @@ bool piece_bounds(const struct piece *p, real from[DIM_MAX], real to[DIM_MAX])
         any = true;
     }
     for (int d = 0; d < dim; d++) {
-        from[d] = real_max(from[d], low[d]), to[d] = real_min(to[d], high[d]);
-        any = any && from[d] < to[d];
+        lower[d] = real_max(lower[d], low[d]), upper[d] = real_min(upper[d], high[d]);
+        any = any && lower[d] < upper[d];
     }
     return any;
 }
@@ -57,9 +57,9 @@ static int64_t cover_index(const struct cover *c, const int64_t *at)
     return (at[2] * c->n[1] + at[1]) * c->n[0] + at[0];
 }
 
-void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *at)
+void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
 {
-    at[0] = cell % c->n[0], at[1] = cell / c->n[0] % c->n[1], at[2] = cell / c->n[0] / c->n[1];
+    index[0] = cell % c->n[0], index[1] = cell / c->n[0] % c->n[1], index[2] = cell / c->n[0] / c->n[1];
 }
 
 static void cell_middle(const struct cover *c, int64_t cell, real *X)

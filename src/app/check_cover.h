@@ -15,7 +15,7 @@ enum { ANY_MATERIAL = -1 };
 bool piece_contains(const struct piece *p, const real *X, real tolerance);
 
 /* Computes a bounding box of the piece [m]. Returns false if the piece is unbounded, or has no known point. */
-bool piece_bounds(const struct piece *p, real from[DIM_MAX], real to[DIM_MAX]);
+bool piece_bounds(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* Lattice cells of the bounding box of a piece, one per particle position; x varies fastest. */
 struct cover {
@@ -30,8 +30,8 @@ struct cover {
  * unbounded pieces, and for more cells than can be computed quickly. */
 bool piece_cover_make(struct cover *c, const struct piece *piece);
 
-/* Writes the indices of a cell along the axes to at[DIM_MAX]. */
-void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *at);
+/* Writes the indices of a cell along the axes to index[DIM_MAX]. */
+void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
 
 void piece_cover_free(struct cover *c);
 

@@ -12,9 +12,9 @@ enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
 /* Returns true if a part with the relative error `off` may belong to the list: the list is not full, or |off| exceeds
  * 0.9 times the smallest |off| in it. Errors of equal parts differ by up to a tenth, as they come from samples. */
-bool uneven_list_would_keep(const struct uneven_list *list, real off)
+bool uneven_list_would_keep(const struct uneven_list *list, real error)
 {
-    return list->n < UNEVEN_MOST || fabs(off) > 0.9 * fabs(list->part[list->n - 1].off);
+    return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);
 }
 
 /* Returns true if two parts have nearly the same width, and both have too many rows or both have too few. */
@@ -32,7 +32,7 @@ static bool same_place(const struct uneven *a, const struct uneven *b, const str
     return a->axis == b->axis && r2 < square(SAME_PLACE * s->spacing);
 }
 
-void uneven_list_add(struct uneven_list *list, const struct uneven *u, bool known)
+void uneven_list_add(struct uneven_list *list, const struct uneven *u, bool already_listed)
 {
     struct uneven *part = list->part, added = *u;
     int place = list->n;
@@ -41,8 +41,8 @@ void uneven_list_add(struct uneven_list *list, const struct uneven *u, bool know
         if (same_width(&part[k], u)) place = k;
     if (place < list->n) {
         struct uneven *like = &part[place];
-        known = known || (like->material != added.material && same_place(like, u, list->piece.scene));
-        like->more += !known;
+        already_listed = already_listed || (like->material != added.material && same_place(like, u, list->piece.scene));
+        like->more += !already_listed;
         if (fabs(like->off) >= fabs(u->off)) return;
         added.more = like->more;
     } else if (list->n < UNEVEN_MOST) {

@@ -24,13 +24,14 @@ struct uneven_list {
     struct uneven part[UNEVEN_MOST];
 };
 
-/* Returns true if a part with the relative error `off` of its section may belong to the list: the list is not full, or
- * |off| is larger than nine tenths of the smallest error in it (errors of equal parts differ a little by sampling). */
-bool uneven_list_would_keep(const struct uneven_list *list, real off);
+/* Returns true if a part with the relative error `error` of its section may belong to the list: the list is not full,
+ * or |off| is larger than nine tenths of the smallest error in it (errors of equal parts differ a little by
+ * sampling). */
+bool uneven_list_would_keep(const struct uneven_list *list, real error);
 
-/* Adds a part to the list, or counts it with another of equal width. known: the part has been added before, and only
- * its worst section is kept. */
-void uneven_list_add(struct uneven_list *list, const struct uneven *part, bool known);
+/* Adds a part to the list, or counts it with another of equal width. already_listed: true if the part has been added
+ * before, and only its worst section is kept. */
+void uneven_list_add(struct uneven_list *list, const struct uneven *part, bool already_listed);
 
 /* Measures where a line along `axis` through X leaves the piece, from X in the positive or the negative direction,
  * by steps and bisection. Returns the distance [m], or `max_distance` if it is larger. step: signed [m]. */

@@ -24,10 +24,10 @@ status status_set(status s, const char *format, ...)
     return s;
 }
 
-status status_prepend_location(const char *place, status s)
+status status_prepend_location(const char *location, status s)
 {
-    if (s != REFUSED || placed || !*place) return s;
-    status_set(s, "%s%s", place, message);
+    if (s != REFUSED || placed || !*location) return s;
+    status_set(s, "%s%s", location, message);
     placed = true;
     return s;
 }
@@ -70,10 +70,10 @@ int double_order(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-double median_of(double *value, int64_t n)
+double median_of(double *value, int64_t count)
 {
-    qsort(value, (size_t)n, sizeof *value, double_order);
-    return value[n / 2];
+    qsort(value, (size_t)count, sizeof *value, double_order);
+    return value[count / 2];
 }
 
 const char *compiler_name(void)

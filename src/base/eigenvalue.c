@@ -75,16 +75,16 @@ static bool above_all(const real *a, const real *b, int n, real x)
     return pivot > 0;
 }
 
-real tridiagonal_largest_eigenvalue(const real *a, const real *b, int n)
+real tridiagonal_largest_eigenvalue(const real *diagonal, const real *off_diagonal, int size)
 {
-    real low = a[0], high = 0;
-    for (int k = 0; k < n; k++) {
-        low = real_max(low, a[k]);
-        high = real_max(high, a[k] + (k > 0 ? b[k - 1] : 0) + (k + 1 < n ? b[k] : 0));
+    real low = diagonal[0], high = 0;
+    for (int k = 0; k < size; k++) {
+        low = real_max(low, diagonal[k]);
+        high = real_max(high, diagonal[k] + (k > 0 ? off_diagonal[k - 1] : 0) + (k + 1 < size ? off_diagonal[k] : 0));
     }
     for (int k = 0; k < 50; k++) {
         const real middle = 0.5 * (low + high);
-        if (above_all(a, b, n, middle))
+        if (above_all(diagonal, off_diagonal, size, middle))
             high = middle;
         else
             low = middle;

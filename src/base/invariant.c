@@ -18,7 +18,7 @@
 
 static void (*remove_half_written)(void);
 
-void invariant_set_cleanup(void (*remove)(void)) { remove_half_written = remove; }
+void invariant_set_cleanup(void (*cleanup)(void)) { remove_half_written = cleanup; }
 
 _Noreturn void invariant_broken(const char *condition, const char *file, int line, const char *function)
 {

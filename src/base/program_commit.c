@@ -3,5 +3,5 @@
 
 static const char *commit = "";
 
-void program_commit_set(const char *name) { commit = name; }
+void program_commit_set(const char *commit_id) { commit = commit_id; }
 const char *program_commit(void) { return commit; }

@@ -8,20 +8,21 @@
  * a quantity that grows faster; empirical. */
 #define SOMETHING 0.03
 
-void growth_rate_add_sample(struct growth_samples *r, int64_t step, real value)
+void growth_rate_add_sample(struct growth_samples *samples, int64_t step, real value)
 {
-    if (r->n > 0 && step < r->at[(r->n - 1) % RISE_VALUES].step + RISE_CLOSEST) return;
-    r->at[r->n % RISE_VALUES].step = step;
-    r->at[r->n++ % RISE_VALUES].value = value;
+    if (samples->n > 0 && step < samples->at[(samples->n - 1) % RISE_VALUES].step + RISE_CLOSEST) return;
+    samples->at[samples->n % RISE_VALUES].step = step;
+    samples->at[samples->n++ % RISE_VALUES].value = value;
 }
 
-enum growth_rate growth_rate_classify(const struct growth_samples *r, int64_t step, real value, real *tenfold_steps)
+enum growth_rate growth_rate_classify(const struct growth_samples *samples, int64_t step, real value,
+                                      real *tenfold_steps)
 {
     real newer = value, older = 0, least = 0;
     *tenfold_steps = INFINITY;
-    for (int64_t k = r->n; k-- > 0 && k >= r->n - RISE_VALUES;) {
-        const real most = (real)(step - r->at[k % RISE_VALUES].step);
-        older = real_max(r->at[k % RISE_VALUES].value, NOTHING * value);
+    for (int64_t k = samples->n; k-- > 0 && k >= samples->n - RISE_VALUES;) {
+        const real most = (real)(step - samples->at[k % RISE_VALUES].step);
+        older = real_max(samples->at[k % RISE_VALUES].value, NOTHING * value);
         if (older <= 0.1 * value) {
             *tenfold_steps = least + (most - least) * log(newer / (0.1 * value)) / log(newer / older);
             break;

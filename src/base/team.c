@@ -384,11 +384,11 @@ const char *const timer_name[TIMERS] = {
     [TIMER_CONVERT] = "convert", [TIMER_SAMPLE] = "sample",   [TIMER_OUTPUT] = "output",
 };
 
-void timers_start(struct timers *l) { *l = (struct timers){.last = wall_clock()}; }
+void timers_start(struct timers *timers) { *timers = (struct timers){.last = wall_clock()}; }
 
-void timer_add_elapsed(struct timers *l, enum timer which)
+void timer_add_elapsed(struct timers *timers, enum timer which)
 {
     double now = wall_clock();
-    l->spent[which] += now - l->last;
-    l->last = now;
+    timers->spent[which] += now - timers->last;
+    timers->last = now;
 }

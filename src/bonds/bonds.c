@@ -309,30 +309,31 @@ static void rows_inherit(struct bonds *b, const struct bonds *old)
     }
 }
 
-void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s)
+void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
-    if (old) b->reach = old->reach; /* covers the row blocks that are kept */
-    b->stencils = stencils_make(old ? old->stencils : NULL);
-    struct site_map *map = site_map_share(old ? old->site_map : NULL, s, p);
+    if (previous) b->reach = previous->reach; /* covers the row blocks that are kept */
+    b->stencils = stencils_make(previous ? previous->stencils : NULL);
+    struct site_map *map = site_map_share(previous ? previous->site_map : NULL, s, p);
     int most = bonds_neighbour_count_bound(s);
     uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
-    mark_rows(s, p, old, map, most, wanted, fresh);
-    rows_list(b, old, p, wanted);
+    mark_rows(s, p, previous, map, most, wanted, fresh);
+    rows_list(b, previous, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
-    rows_soften(b, old, s, p);
+    rows_soften(b, previous, s, p);
     bonds_state_start(b, s);
 
-    bonds_rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
+    bonds_rows_make(b,
+                    (struct row_maker){.old = previous, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
     memory_free(fresh);
-    if (old) rows_inherit(b, old);
+    if (previous) rows_inherit(b, previous);
     if (p->n_of[KIND_PD] < p->n)
         b->site_map = map;
     else
         site_map_release(map);
-    columns_forget_taken(old, b);
+    columns_forget_taken(previous, b);
 
     b->core = s->core;
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);

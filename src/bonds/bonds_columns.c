@@ -166,9 +166,9 @@ void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *k
     columns_arrays(b, m->source, m->map->at != NULL);
 }
 
-void columns_forget_taken(struct bonds *old, const struct bonds *b)
+void columns_forget_taken(struct bonds *previous, const struct bonds *b)
 {
-    if (!old || old->w != b->w) return;
-    old->first = old->nbr = NULL, old->inverse_length = old->w = NULL, old->common = NULL;
-    old->soft.most = old->soft.onset = old->soft.end = NULL;
+    if (!previous || previous->w != b->w) return;
+    previous->first = previous->nbr = NULL, previous->inverse_length = previous->w = NULL, previous->common = NULL;
+    previous->soft.most = previous->soft.onset = previous->soft.end = NULL;
 }

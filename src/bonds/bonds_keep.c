@@ -45,19 +45,19 @@ static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, in
     }
 }
 
-void row_block_copy_unchanged(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
+void row_block_copy_unchanged(struct bonds *b, const struct bonds *previous, int64_t g, int64_t from)
 {
-    b->stencil[g] = old->stencil[from];
-    b->implicit[g] = old->implicit[from], b->changed[g] = old->changed[from];
-    if (!b->implicit[g] && b->w != old->w) columns_keep(b, old, g, from);
-    if (b->soft.curve) b->soft.begun[g] = old->soft.begun[from], b->soft.due[g] = old->soft.due[from];
-    b->made[g] = old->made[from];
-    b->aligned[g] = old->aligned[from];
+    b->stencil[g] = previous->stencil[from];
+    b->implicit[g] = previous->implicit[from], b->changed[g] = previous->changed[from];
+    if (!b->implicit[g] && b->w != previous->w) columns_keep(b, previous, g, from);
+    if (b->soft.curve) b->soft.begun[g] = previous->soft.begun[from], b->soft.due[g] = previous->soft.due[from];
+    b->made[g] = previous->made[from];
+    b->aligned[g] = previous->aligned[from];
     if (b->state.weighted)
-        memcpy(b->state.weighted + g * LANES, old->state.weighted + from * LANES, LANES * sizeof(real));
-    memcpy(b->trigger + g * LANES, old->trigger + from * LANES, LANES * sizeof *b->trigger);
-    memcpy(b->family_volume + g * LANES, old->family_volume + from * LANES, LANES * sizeof *b->family_volume);
-    memcpy(b->broken_volume + g * LANES, old->broken_volume + from * LANES, LANES * sizeof *b->broken_volume);
+        memcpy(b->state.weighted + g * LANES, previous->state.weighted + from * LANES, LANES * sizeof(real));
+    memcpy(b->trigger + g * LANES, previous->trigger + from * LANES, LANES * sizeof *b->trigger);
+    memcpy(b->family_volume + g * LANES, previous->family_volume + from * LANES, LANES * sizeof *b->family_volume);
+    memcpy(b->broken_volume + g * LANES, previous->broken_volume + from * LANES, LANES * sizeof *b->broken_volume);
 }
 
 struct row_block_found *row_block_found_make(const struct row *row, int rows)

@@ -34,11 +34,11 @@ void row_buffer_make(struct row *row, int capacity);
 void row_buffer_free(struct row *row);
 
 /* Lists the neighbours of particle or image i within the cutoff in `found`, in ascending order and without those behind
- * a void, whose bond would cross it. capacity: capacity of `found`; l: map from lattice sites to particles, used where
+ * a void, whose bond would cross it. capacity: capacity of `found`; map: from lattice sites to particles, used where
  * possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds `capacity`, the
  * list is incomplete. */
-int find_neighbours_of(const struct site_map *l, const struct bond_source *source, const struct particles *p, int32_t i,
-                       int32_t *found, int capacity);
+int find_neighbours_of(const struct site_map *map, const struct bond_source *source, const struct particles *p,
+                       int32_t i, int32_t *found, int capacity);
 
 /* Inputs from which rows (all bonds of one particle each) are made. */
 struct row_maker {
@@ -51,13 +51,14 @@ struct row_maker {
     int room;                   /* largest number of bonds of a row */
 };
 
-/* Allocates what belongs to the rows b of bonds that soften. old: previous rows; NULL: none. Does nothing if all bonds
- * are brittle. */
-void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_source *s, const struct particles *p);
+/* Allocates what belongs to the rows b of bonds that soften. previous: rows before a rebuild; NULL: none. Does nothing
+ * if all bonds are brittle. */
+void rows_soften(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
+                 const struct particles *p);
 
 /* Sets the softening of the bonds of `row`, found by row_find_neighbours, of particle i: that of the previous row of
  * the particle, if there is one, else none has begun. */
-void row_soften(struct row *row, const struct row_maker *m, int32_t i);
+void row_soften(struct row *row, const struct row_maker *maker, int32_t i);
 
 /* Returns true if a row (all bonds of one particle) has an intact bond that has not begun to soften. */
 bool row_has_closed(const struct bonds *b, int64_t row);
@@ -65,10 +66,10 @@ bool row_has_closed(const struct bonds *b, int64_t row);
 /* Share of the least strain on a strength surface from which on stretches are near the surface (bonds_strength.c). */
 #define SURFACE_NEAR 0.8
 
-/* Copies the softening of row `from` of the rows `old` to row `row` of b. new_index: index in the particles p of each
- * particle of `old`, images included; -1: none. limit: of the bonds. */
+/* Copies the softening of row `from` of the rows `previous` to row `row` of b. new_index: index in the particles p of
+ * each particle of `previous`, images included; -1: none. limit: of the bonds. */
 void bonds_take_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
-                         const struct bonds *old, int64_t from, const int32_t *new_index);
+                         const struct bonds *previous, int64_t from, const int32_t *new_index);
 
 /* Saves or restores which row blocks have begun to soften or are due, and the state of their bonds. Call it after
  * the columns of changed row blocks are restored. */
@@ -95,9 +96,9 @@ void row_compute_weights(struct row *row, const struct row_maker *maker, int32_t
  * `row_block`, so that its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
 int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
-/* Copies row block `from` of the previous bonds `old` to row block `row_block` of b: stencil, flags, limits and
- * volumes, and the columns unless b has taken over the column arrays of `old`. */
-void row_block_copy_unchanged(struct bonds *b, const struct bonds *old, int64_t row_block, int64_t from);
+/* Copies row block `from` of the bonds `previous` to row block `row_block` of b: stencil, flags, limits and volumes,
+ * and the columns unless b has taken over the column arrays of `previous`. */
+void row_block_copy_unchanged(struct bonds *b, const struct bonds *previous, int64_t row_block, int64_t from);
 
 /* Neighbours found for the rows of a row block, kept between the two passes. */
 struct row_block_found {
@@ -118,16 +119,16 @@ void row_block_found_restore(const struct row_block_found *found, struct row *ro
  * (bonds_columns.c). */
 void columns_assign(struct bonds *b, const struct row_maker *maker, const int64_t *kept);
 
-/* Sets the pointers in `old` to NULL for those arrays that b has taken over, so that releasing `old` does not release
- * them. */
-void columns_forget_taken(struct bonds *old, const struct bonds *b);
+/* Sets the pointers in `previous` to NULL for those arrays that b has taken over, so that releasing `previous` does not
+ * release them. */
+void columns_forget_taken(struct bonds *previous, const struct bonds *b);
 
 /* Returns true if a pre-crack or a void may cut a bond of particle i; false if all are too far away. */
-bool cuts_near_particle(const struct bond_source *s, const struct particles *p, int64_t i);
+bool cuts_near_particle(const struct bond_source *source, const struct particles *p, int64_t i);
 
 /* Returns the stretch above which the vectorised test reports the bond between particles i and j for the exact test of
  * breaking: its critical stretch less a tolerance for round-off [1]. */
-real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
+real bond_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j);
 
 /* Chooses how the bonds of eight particles are arranged in columns. Returns true for columns in which all neighbours
  * have one index distance, as on a lattice, since these need little padding; false for rows packed without gaps.
@@ -154,18 +155,19 @@ void regular_bonds_make(struct regular_bonds *to, const struct site_map *map);
 /* Releases the arrays of `to`. */
 void regular_bonds_free(struct regular_bonds *to);
 
-/* Lists the neighbours of the eight particles i to i + 7 in `to`, by index distance, from the map l of lattice sites.
- * Returns false if the map does not contain all sites needed, so that the neighbours must be searched for. */
-bool regular_bonds_find(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to);
+/* Lists the neighbours of the eight particles i to i + 7 in `to`, by index distance, from the map `map` of lattice
+ * sites. Returns false if the map does not contain all sites needed, so that the neighbours must be searched for. */
+bool regular_bonds_find(const struct site_map *map, const struct particles *p, int64_t i, struct regular_bonds *to);
 
 /* Lists the neighbours of the eight particles i to i + 7 as regular_bonds_find does, without regard to pre-cracks.
- * Returns false also if they are not all particles of the body, if l has no sites, or if a void is near one of them. */
-bool regular_bonds_find_uncut(const struct site_map *l, const struct bond_source *s, const struct particles *p,
+ * Returns false also if they are not all particles of the body, if `map` has no sites, or if a void is near one of
+ * them. */
+bool regular_bonds_find_uncut(const struct site_map *map, const struct bond_source *source, const struct particles *p,
                               int64_t i, struct regular_bonds *to);
 
 /* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
- * quickly (bonds_stencil_cache.c). l: map of lattice sites. Release with stencil_cache_free. */
-struct stencil_cache *stencil_cache_make(const struct site_map *l);
+ * quickly (bonds_stencil_cache.c). map: of the lattice sites. Release with stencil_cache_free. */
+struct stencil_cache *stencil_cache_make(const struct site_map *map);
 
 /* Releases the cache t. */
 void stencil_cache_free(struct stencil_cache *t);
@@ -178,7 +180,7 @@ int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_
 
 /* Computes inverse length `inverse` [1/m] and weight `weight` [1] of the eight bonds between particle i + l and
  * particle j + l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
-void regular_bonds_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+void regular_bonds_weigh(const struct bond_source *source, const struct particles *p, const struct pair_table *pairs,
                          int64_t i, int64_t j, real *inverse, real *weight);
 
 /* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `to`. Returns false if that
@@ -196,8 +198,11 @@ int regular_bonds_count(const struct regular_bonds *bonds);
  * `ratio` with memory_free. */
 struct pair_table pair_table_make(const struct bond_source *s);
 
-/* Returns the number of rows in row block g: eight, except for the last row block. */
-static inline int row_block_rows(const struct bonds *b, int64_t g) { return count_of_eight_below(g * LANES, b->rows); }
+/* Returns the number of rows in row block `row_block`: eight, except for the last row block. */
+static inline int row_block_rows(const struct bonds *b, int64_t row_block)
+{
+    return count_of_eight_below(row_block * LANES, b->rows);
+}
 
 /* Working memory of one thread for the eight rows of a row block. */
 struct row_block_buffer {
@@ -211,16 +216,17 @@ struct row_block_buffer {
     int32_t reach;                /* largest index distance so far */
 };
 
-/* Allocates the working memory g in which one thread makes row blocks. capacity: largest number of bonds of a row; map:
- * map of lattice sites. Release with row_block_buffer_free. */
-void row_block_buffer_make(struct row_block_buffer *g, int capacity, const struct site_map *map);
+/* Allocates the working memory `buffer` in which one thread makes row blocks. capacity: largest number of bonds of a
+ * row; map: map of lattice sites. Release with row_block_buffer_free. */
+void row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map);
 
-/* Releases the working memory g. */
-void row_block_buffer_free(struct row_block_buffer *g);
+/* Releases the working memory `buffer`. */
+void row_block_buffer_free(struct row_block_buffer *buffer);
 
-/* Returns the number of columns that the bonds in g->row[0] to g->row[rows - 1] need. particle: the particles of these
- * rows. *by_offset: set to true if each column has one index distance, to false if rows are packed without gaps. */
-int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset);
+/* Returns the number of columns that the bonds in buffer->row[0] to buffer->row[rows - 1] need. particle: the particles
+ * of these rows. *by_offset: set to true if each column has one index distance, to false if rows are packed without
+ * gaps. */
+int row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int rows, bool *by_offset);
 
 /* Fills the columns of row block `row_block` of b from the first `rows` rows of bonds in `buffer`, and sets breaking
  * limits, family volumes and alignment of the row block. by_offset: result of row_block_count_columns. */
@@ -246,9 +252,9 @@ void shell_lengths_make(struct bonds *b, real spacing);
  * shell. */
 int lattice_shell_of(const struct bonds *b, const real *inverse, int16_t *excess);
 
-/* Returns a table of stencils (lists of columns shared by many row blocks): `of` with one more user, or a new table if
- * `of` is NULL (bonds_stencils.c). Release with stencils_free. */
-struct stencils *stencils_make(struct stencils *of);
+/* Returns a table of stencils (lists of columns shared by many row blocks): `existing` with one more user, or a new
+ * table if `existing` is NULL (bonds_stencils.c). Release with stencils_free. */
+struct stencils *stencils_make(struct stencils *existing);
 
 /* Removes one user of the table of stencils p; the last user releases it. */
 void stencils_free(struct stencils *p);

@@ -55,18 +55,18 @@ static int family_seen(const struct bond_source *s, const struct particles *p, i
     return kept;
 }
 
-int find_neighbours_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
+int find_neighbours_of(const struct site_map *map, const struct bond_source *s, const struct particles *p, int32_t i,
                        int32_t *found, int capacity)
 {
-    int n = l && l->at && i < p->n ? site_map_find_neighbours(l, p, i, found) : -1;
+    int n = map && map->at && i < p->n ? site_map_find_neighbours(map, p, i, found) : -1;
     if (n < 0) n = family_search(s, p, i, found, capacity);
     return n > capacity ? n : family_seen(s, p, i, found, n);
 }
 
-int bonds_neighbour_count_bound(const struct bond_source *s)
+int bonds_neighbour_count_bound(const struct bond_source *source)
 {
-    if (s->room > 0) return s->room;
-    return cells_neighbour_count_bound(s->cells, s->family.cutoff);
+    if (source->room > 0) return source->room;
+    return cells_neighbour_count_bound(source->cells, source->family.cutoff);
 }
 
 bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
@@ -79,18 +79,18 @@ bool cracks_separate_particles(const struct crack *crack, int cracks, const stru
     return false;
 }
 
-bool cracks_near_particle(const struct bond_source *s, const struct particles *p, int64_t i)
+bool cracks_near_particle(const struct bond_source *source, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
-    for (int c = 0; c < s->cracks; c++)
-        if (crack_may_cut_near(&s->crack[c], X, s->family.cutoff, p->dim)) return true;
+    for (int c = 0; c < source->cracks; c++)
+        if (crack_may_cut_near(&source->crack[c], X, source->family.cutoff, p->dim)) return true;
     return false;
 }
 
-bool cuts_near_particle(const struct bond_source *s, const struct particles *p, int64_t i)
+bool cuts_near_particle(const struct bond_source *source, const struct particles *p, int64_t i)
 {
-    return particle_is_beside_void(s->voids, i) || cracks_near_particle(s, p, i);
+    return particle_is_beside_void(source->voids, i) || cracks_near_particle(source, p, i);
 }
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
@@ -161,9 +161,9 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
 
 /* Returns the stretch above which the vector test reports bond i-j: the stretch at which the bond breaks or begins to
  * soften, reduced by TRIGGER_MARGIN. */
-real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
+real bond_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j)
 {
-    return bond_range_of(p, &s->limit, i, j).onset * (1 - TRIGGER_MARGIN);
+    return bond_range_of(p, &source->limit, i, j).onset * (1 - TRIGGER_MARGIN);
 }
 
 /* Computes lengths and weights of the bonds of particle i, whose neighbours row_search has found. Bonds that a

@@ -35,12 +35,12 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
 /* Returns the number of columns of a row block (rows of eight particles), and stores in *by_offset how its bonds are
  * arranged: true if each column has bonds of one index distance, false if rows are packed without gaps. Rows of
  * irregular particles are packed, since columns by distance would be mostly padding. particle[rows]: its particles. */
-int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset)
+int row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int rows, bool *by_offset)
 {
     int longest = 0;
     for (int l = 0; l < rows; l++)
-        if (g->row[l].n > longest) longest = g->row[l].n;
-    int offsets = row_block_offsets(g, particle, rows);
+        if (buffer->row[l].n > longest) longest = buffer->row[l].n;
+    int offsets = row_block_offsets(buffer, particle, rows);
     *by_offset = columns_use_offsets(offsets, longest);
     return *by_offset ? offsets : longest;
 }
@@ -261,21 +261,21 @@ void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, in
 /* Allocates working memory for row blocks (rows of eight particles each) whose rows have up to `capacity` bonds, for
  * the worst case. Little of it is ever touched, as the arrays are not cleared. map: map of lattice sites. Release it
  * with row_block_buffer_free. */
-void row_block_buffer_make(struct row_block_buffer *g, int capacity, const struct site_map *map)
+void row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map)
 {
-    g->room = capacity;
-    for (int l = 0; l < LANES; l++) row_buffer_make(&g->row[l], capacity);
-    g->offset = BARE("bonds.offset", (int64_t)LANES * capacity + 1, int32_t);
-    regular_bonds_make(&g->regular, map);
-    stencil_make(&g->stencil, LANES * capacity + 1);
-    g->column = BARE("bonds.column_copy", (int64_t)LANES * capacity + 1, struct column_copy);
+    buffer->room = capacity;
+    for (int l = 0; l < LANES; l++) row_buffer_make(&buffer->row[l], capacity);
+    buffer->offset = BARE("bonds.offset", (int64_t)LANES * capacity + 1, int32_t);
+    regular_bonds_make(&buffer->regular, map);
+    stencil_make(&buffer->stencil, LANES * capacity + 1);
+    buffer->column = BARE("bonds.column_copy", (int64_t)LANES * capacity + 1, struct column_copy);
 }
 
-void row_block_buffer_free(struct row_block_buffer *g)
+void row_block_buffer_free(struct row_block_buffer *buffer)
 {
-    for (int l = 0; l < LANES; l++) row_buffer_free(&g->row[l]);
-    memory_free(g->offset);
-    regular_bonds_free(&g->regular);
-    stencil_free(&g->stencil);
-    memory_free(g->column);
+    for (int l = 0; l < LANES; l++) row_buffer_free(&buffer->row[l]);
+    memory_free(buffer->offset);
+    regular_bonds_free(&buffer->regular);
+    stencil_free(&buffer->stencil);
+    memory_free(buffer->column);
 }

@@ -22,13 +22,13 @@ enum { HALF_MOST = 16 };
 
 /* Returns the index in the map l of the lattice site at which particle i is; -1 if its position is not a lattice
  * site. */
-int64_t lattice_site_of(const struct site_map *l, const struct particles *p, int64_t i)
+int64_t lattice_site_of(const struct site_map *map, const struct particles *p, int64_t i)
 {
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
         real k;
-        if (!lattice_contains_coordinate(p->X[d][i], l->low[d], l->spacing, &k)) return -1;
-        site += l->stride[d] * (l->reach + (int64_t)k);
+        if (!lattice_contains_coordinate(p->X[d][i], map->low[d], map->spacing, &k)) return -1;
+        site += map->stride[d] * (map->reach + (int64_t)k);
     }
     return site;
 }
@@ -121,28 +121,28 @@ static bool is_uniform(const struct site_map *l, const struct particles *p)
     return same;
 }
 
-bool site_map_make(struct site_map *l, const struct bond_source *s, const struct particles *p)
+bool site_map_make(struct site_map *map, const struct bond_source *s, const struct particles *p)
 {
     const struct family *f = &s->family;
-    *l = (struct site_map){.spacing = f->spacing, .reach = (int)floor(f->cutoff / f->spacing)};
-    if (p->n < LANES || l->reach > HALF_MOST || l->reach < 1 || s->yield.stretch) return false;
-    const int64_t site_map = box_sites(l, p);
-    if (site_map > 0 && site_offsets_make(l, f, p->dim)) {
-        l->at = BLANK("site_map.at", site_map, int32_t);
-        if (sites_fill(l, p)) {
-            l->uniform = is_uniform(l, p);
+    *map = (struct site_map){.spacing = f->spacing, .reach = (int)floor(f->cutoff / f->spacing)};
+    if (p->n < LANES || map->reach > HALF_MOST || map->reach < 1 || s->yield.stretch) return false;
+    const int64_t site_map = box_sites(map, p);
+    if (site_map > 0 && site_offsets_make(map, f, p->dim)) {
+        map->at = BLANK("site_map.at", site_map, int32_t);
+        if (sites_fill(map, p)) {
+            map->uniform = is_uniform(map, p);
             return true;
         }
     }
-    site_map_free(l);
+    site_map_free(map);
     return false;
 }
 
-void site_map_free(struct site_map *l)
+void site_map_free(struct site_map *map)
 {
-    memory_free(l->at);
-    memory_free(l->row);
-    *l = (struct site_map){0};
+    memory_free(map->at);
+    memory_free(map->row);
+    *map = (struct site_map){0};
 }
 
 struct site_map *site_map_share(struct site_map *existing, const struct bond_source *s, const struct particles *p)
@@ -153,20 +153,20 @@ struct site_map *site_map_share(struct site_map *existing, const struct bond_sou
     return l;
 }
 
-void site_map_release(struct site_map *l)
+void site_map_release(struct site_map *map)
 {
-    if (!l || --l->users > 0) return;
-    site_map_free(l);
-    memory_free(l);
+    if (!map || --map->users > 0) return;
+    site_map_free(map);
+    memory_free(map);
 }
 
-int site_map_find_neighbours(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found)
+int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *found)
 {
-    const int32_t *own = l->at + lattice_site_of(l, p, i);
+    const int32_t *own = map->at + lattice_site_of(map, p, i);
     int n = 0;
-    for (int k = 0; k < l->rows; k++)
-        for (int a = -l->row[k].half; a <= l->row[k].half; a++) {
-            const int32_t j = own[l->row[k].site + a] - 1;
+    for (int k = 0; k < map->rows; k++)
+        for (int a = -map->row[k].half; a <= map->row[k].half; a++) {
+            const int32_t j = own[map->row[k].site + a] - 1;
             if (j < 0 || j == i) continue;
             if (j >= p->n) return -1;
             found[n++] = j;
@@ -208,15 +208,15 @@ static bool is_full(const struct regular_bonds *b)
     return other == 0;
 }
 
-bool regular_bonds_find(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to)
+bool regular_bonds_find(const struct site_map *map, const struct particles *p, int64_t i, struct regular_bonds *to)
 {
-    const int64_t site = lattice_site_of(l, p, i);
+    const int64_t site = lattice_site_of(map, p, i);
     int number = 0;
     to->n = 0;
-    if (l->at[site + LANES - 1] - l->at[site] != LANES - 1) return false;
-    for (int k = 0; k < l->rows; k++) {
-        if (!row_bonds(l, p, site, &l->row[k], i, number, to)) return false;
-        number += 2 * l->row[k].half + (l->row[k].site != 0);
+    if (map->at[site + LANES - 1] - map->at[site] != LANES - 1) return false;
+    for (int k = 0; k < map->rows; k++) {
+        if (!row_bonds(map, p, site, &map->row[k], i, number, to)) return false;
+        number += 2 * map->row[k].half + (map->row[k].site != 0);
     }
     to->full = is_full(to);
     if (to->full) return columns_use_offsets(to->n, to->n);
@@ -227,12 +227,12 @@ bool regular_bonds_find(const struct site_map *l, const struct particles *p, int
     return columns_use_offsets(to->n, longest);
 }
 
-bool regular_bonds_find_uncut(const struct site_map *l, const struct bond_source *s, const struct particles *p,
+bool regular_bonds_find_uncut(const struct site_map *map, const struct bond_source *source, const struct particles *p,
                               int64_t i, struct regular_bonds *to)
 {
-    if (!l->at || i + LANES > p->n || !regular_bonds_find(l, p, i, to)) return false;
+    if (!map->at || i + LANES > p->n || !regular_bonds_find(map, p, i, to)) return false;
     for (int lane = 0; lane < LANES; lane++)
-        if (particle_is_beside_void(s->voids, i + lane)) return false;
+        if (particle_is_beside_void(source->voids, i + lane)) return false;
     return true;
 }
 
@@ -295,18 +295,18 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
     }
 }
 
-void regular_bonds_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+void regular_bonds_weigh(const struct bond_source *source, const struct particles *p, const struct pair_table *pairs,
                          int64_t i, int64_t j, real *inverse, real *w)
 {
     switch (p->dim) {
     case 1:
-        weigh(s, p, pairs, i, j, inverse, w, 1);
+        weigh(source, p, pairs, i, j, inverse, w, 1);
         break;
     case 2:
-        weigh(s, p, pairs, i, j, inverse, w, 2);
+        weigh(source, p, pairs, i, j, inverse, w, 2);
         break;
     default:
-        weigh(s, p, pairs, i, j, inverse, w, 3);
+        weigh(source, p, pairs, i, j, inverse, w, 3);
         break;
     }
 }

@@ -8,38 +8,40 @@
 
 /* Allocates b->soft.near and sets the stretch from which on it marks row blocks (the bonds of eight particles), if a
  * material has a strength surface. Rows that are rebuilt keep their mark; new ones have it. */
-static void rows_watch(struct bonds *b, const struct bonds *old, const struct bond_source *s, const struct particles *p)
+static void rows_watch(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
+                       const struct particles *p)
 {
     real least = INFINITY, weakest = 1;
-    for (int m = 0; m < s->materials; m++)
-        if (material_has_surface(&s->material[m]))
-            least = real_min(least, material_least_strain(&s->material[m], s->family.space));
+    for (int m = 0; m < source->materials; m++)
+        if (material_has_surface(&source->material[m]))
+            least = real_min(least, material_least_strain(&source->material[m], source->family.space));
     if (isinf(least)) return;
     for (int64_t i = 0; i < p->n && p->strength; i++) weakest = real_min(weakest, p->strength[i]);
     b->soft.gate = SURFACE_NEAR * least * weakest;
     b->soft.near = NEW("bonds.near", b->row_blocks, uint8_t);
-    for (int64_t row = 0; row < b->rows && old; row++) {
-        const int32_t before = old->row_of[b->particle[row]];
-        b->soft.near[row / LANES] |= before < 0 || old->soft.near[before / LANES];
+    for (int64_t row = 0; row < b->rows && previous; row++) {
+        const int32_t before = previous->row_of[b->particle[row]];
+        b->soft.near[row / LANES] |= before < 0 || previous->soft.near[before / LANES];
     }
 }
 
-void rows_soften(struct bonds *b, const struct bonds *old, const struct bond_source *s, const struct particles *p)
+void rows_soften(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
+                 const struct particles *p)
 {
-    if (!s->limit.softening) return;
-    b->soft.curve = s->limit.curve, b->soft.image = s->image;
+    if (!source->limit.softening) return;
+    b->soft.curve = source->limit.curve, b->soft.image = source->image;
     b->soft.begun = NEW("bonds.begun", b->row_blocks, uint8_t);
     b->soft.due = NEW("bonds.due", b->row_blocks, uint8_t);
     b->soft.needed = NEW("bonds.needed", b->row_blocks * LANES, uint8_t);
     b->soft.dilatation = NEW("bonds.dilatation", b->row_blocks * LANES, real);
-    b->soft.any_due = old && old->soft.any_due;
+    b->soft.any_due = previous && previous->soft.any_due;
     b->soft.least_ratio = p->strength ? 1 : INFINITY;
-    for (int k = 0; k < square(s->limit.materials); k++) {
-        const struct softening_range range =
-            softening_range_of(s->limit.curve, s->limit.softening[k].onset, s->limit.critical_stretch[k]);
+    for (int k = 0; k < square(source->limit.materials); k++) {
+        const struct softening_range range = softening_range_of(source->limit.curve, source->limit.softening[k].onset,
+                                                                source->limit.critical_stretch[k]);
         if (isfinite(range.onset)) b->soft.least_ratio = real_min(b->soft.least_ratio, range.end / range.onset);
     }
-    rows_watch(b, old, s, p);
+    rows_watch(b, previous, source, p);
 }
 
 void row_block_open_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
@@ -56,12 +58,12 @@ void row_block_open_softness(struct bonds *b, const struct particles *p, const s
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);
 }
 
-void row_soften(struct row *row, const struct row_maker *m, int32_t i)
+void row_soften(struct row *row, const struct row_maker *maker, int32_t i)
 {
-    const struct bonds *old = m->old;
+    const struct bonds *old = maker->old;
     const int64_t before = old ? old->row_of[i] : -1;
     for (int k = 0; k < row->n; k++)
-        row->soft[k] = bond_softness_closed(bond_range_of(m->p, &m->source->limit, i, row->nbr[k]));
+        row->soft[k] = bond_softness_closed(bond_range_of(maker->p, &maker->source->limit, i, row->nbr[k]));
     if (before < 0 || !row_block_softens(old, before / LANES)) return;
     int n = 0; /* neighbours ascend in both rows */
     for (struct bond_iterator it = bond_iterator_of_row(old, before); bond_next(&it);) {
@@ -84,12 +86,12 @@ static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struc
 }
 
 void bonds_take_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
-                         const struct bonds *old, int64_t from, const int32_t *new_index)
+                         const struct bonds *previous, int64_t from, const int32_t *new_index)
 {
-    if (!row_block_softens(old, from / LANES)) return;
+    if (!row_block_softens(previous, from / LANES)) return;
     if (!b->soft.begun[row / LANES]) row_block_open_softness(b, p, limit, row / LANES);
-    for (struct bond_iterator it = bond_iterator_of_row(old, from); bond_next(&it);)
-        if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], old, it.bond.entry);
+    for (struct bond_iterator it = bond_iterator_of_row(previous, from); bond_next(&it);)
+        if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous, it.bond.entry);
 }
 
 /* Copies the softening of all bonds in row blocks (rows of eight particles each) where softening has begun to `packed`

@@ -19,10 +19,10 @@ struct stencil_cache {
     } cached[REMEMBERED];
 };
 
-struct stencil_cache *stencil_cache_make(const struct site_map *l)
+struct stencil_cache *stencil_cache_make(const struct site_map *map)
 {
     struct stencil_cache *t = NEW("bonds.stencil_cache", 1, struct stencil_cache);
-    t->map = l;
+    t->map = map;
     return t;
 }
 

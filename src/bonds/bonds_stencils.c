@@ -12,9 +12,9 @@ struct stencils {
     int32_t first[HASHES]; /* first stencil with this hash, + 1; 0: none */
 };
 
-struct stencils *stencils_make(struct stencils *of)
+struct stencils *stencils_make(struct stencils *existing)
 {
-    struct stencils *p = of ? of : NEW("bonds.stencils", 1, struct stencils);
+    struct stencils *p = existing ? existing : NEW("bonds.stencils", 1, struct stencils);
     p->users++;
     return p;
 }

@@ -46,16 +46,16 @@ static real true_length(const struct family *f, real r)
     return fabs(squares - whole) < 1e-9 * whole ? f->spacing * sqrt(whole) : r;
 }
 
-real family_bond_weight(const struct family *f, const real *xi, real r)
+real family_bond_weight(const struct family *f, const real *bond_vector, real length)
 {
     int dim = space_dim(f->space);
     real fourth = 0;
     if (family_has_equal_weights(f)) return f->shell_weight[0];
-    r = true_length(f, r);
-    for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
+    length = true_length(f, length);
+    for (int d = 0; d < dim; d++) fourth += square(square(bond_vector[d] / length));
     /* mean of n1^4 + n2^4 + n3^4 over all directions: 1, 3/4, 3/5 */
     bool axial = fourth > 3.0 / (dim + 2) + 1e-9;
-    return family_beta(f, r) * influence(f, r) * f->shell_weight[axial ? 0 : 1];
+    return family_beta(f, length) * influence(f, length) * f->shell_weight[axial ? 0 : 1];
 }
 
 /* Sums over the lattice points of a full family. */

@@ -25,29 +25,29 @@ static void tables_make(struct surface_weights *to, const struct near_faces *b, 
         }
 }
 
-status surface_weights_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s,
-                            bool rotates)
+status surface_weights_make(struct surface_weights *weights, const struct particles *p, const struct bond_source *s,
+                            bool with_rotations)
 {
     struct near_faces b;
     struct surface_fit_targets f;
     struct bond_classes a;
-    TRY(near_faces_make(&b, p, s, to->apart));
-    surface_fit_targets_make(&f, &b, rotates);
+    TRY(near_faces_make(&b, p, s, weights->apart));
+    surface_fit_targets_make(&f, &b, with_rotations);
     bond_classes_make(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);
-    const real left = surface_fit_factors(factor, &b, &f, &a, rotates, SURFACE_PRODUCTS);
-    *to = (struct surface_weights){.spacing = s->family.spacing,
-                                   .residual = left,
-                                   .reach = b.offset.reach,
-                                   .dim = p->dim,
-                                   .offsets = b.offset.n,
-                                   .classes = a.classes};
-    to->offset_at = b.offset.number, b.offset.number = NULL;
-    to->class_of = NEW("surface.class_of", p->n, int32_t);
-    to->mirrors = NEW("surface.mirrors", p->n, uint8_t);
+    const real left = surface_fit_factors(factor, &b, &f, &a, with_rotations, SURFACE_PRODUCTS);
+    *weights = (struct surface_weights){.spacing = s->family.spacing,
+                                        .residual = left,
+                                        .reach = b.offset.reach,
+                                        .dim = p->dim,
+                                        .offsets = b.offset.n,
+                                        .classes = a.classes};
+    weights->offset_at = b.offset.number, b.offset.number = NULL;
+    weights->class_of = NEW("surface.class_of", p->n, int32_t);
+    weights->mirrors = NEW("surface.mirrors", p->n, uint8_t);
     for (int64_t t = 0; t < b.n; t++)
-        to->class_of[b.particle[t]] = a.class_of[t], to->mirrors[b.particle[t]] = a.mirrors[t];
-    tables_make(to, &b, &a, &s->family, factor);
+        weights->class_of[b.particle[t]] = a.class_of[t], weights->mirrors[b.particle[t]] = a.mirrors[t];
+    tables_make(weights, &b, &a, &s->family, factor);
     memory_free(factor);
     bond_classes_free(&a);
     surface_fit_targets_free(&f);

@@ -231,9 +231,9 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
     return n;
 }
 
-void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_faces *b, bool rotates)
+void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_faces *b, bool with_rotations)
 {
-    const int dim = b->p->dim, most = rotates ? THIN_ROTATING : THIN;
+    const int dim = b->p->dim, most = with_rotations ? THIN_ROTATING : THIN;
     struct raw_faces raw = {b, (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};
     struct smooth_faces smooth;
     f->area = (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *f->area);
@@ -248,11 +248,11 @@ void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_f
         for (int d = 0; d < dim; d++) f->thin[t] = f->thin[t] || layers(b, t, d, most) < most;
     const real plane = plane_of_faces(&b->offset);
 #pragma omp parallel for schedule(static)
-    for (int64_t t = 0; t < b->n; t++) normals_gather(f, b, &smooth, plane, rotates, t);
+    for (int64_t t = 0; t < b->n; t++) normals_gather(f, b, &smooth, plane, with_rotations, t);
     for (int64_t t = 0; t < b->n; t++)
         for (int d = 0; d < dim; d++)
             for (int up = 0; up < 2; up++)
-                if (lacks(b, t, d, up)) face_spread(f, b, &smooth.smooth[smooth.at[t]], t, d, up, rotates);
+                if (lacks(b, t, d, up)) face_spread(f, b, &smooth.smooth[smooth.at[t]], t, d, up, with_rotations);
     memory_free(raw.area);
     memory_free(smooth.at);
     memory_free(smooth.smooth);

@@ -405,13 +405,13 @@ static void bounds_make(struct surface_fit_problem *q, const struct near_faces *
 }
 
 real surface_fit_factors(real *factor, const struct near_faces *b, const struct surface_fit_targets *f,
-                         const struct bond_classes *a, bool rotates, int products)
+                         const struct bond_classes *a, bool with_rotations, int products)
 {
     struct moments m;
     moments_make(&m, &b->offset);
     struct surface_fit_problem q = {
         .alike = a, .offsets = b->offset.n, .thirds = m.thirds, .fourths = m.width - m.thirds, .of = m.of};
-    const real alpha = rotates ? ROTATIONS : face_moment(&m, &b->offset);
+    const real alpha = with_rotations ? ROTATIONS : face_moment(&m, &b->offset);
     q.class = BARE("surface.class", a->classes, struct class_fit);
     struct class_goal *goal = NEW("surface.goal", a->classes, struct class_goal);
     class_goals(goal, b->offset.dim, b, f, a);
@@ -420,7 +420,7 @@ real surface_fit_factors(real *factor, const struct near_faces *b, const struct 
         class_make(&q.class[class], &m, b, &goal[class], a, class, alpha);
     memory_free(goal);
     prior_make(&q, &m);
-    bounds_make(&q, b, f, rotates);
+    bounds_make(&q, b, f, with_rotations);
     const real left = surface_fit_solve(&q, factor, products);
     memory_free(m.of);
     memory_free(q.class);

@@ -108,8 +108,8 @@ struct surface_fit_targets {
 enum { THIN = 4, THIN_ROTATING = 5 };
 
 /* Computes, for the particles `near` near faces, the outward areas, moments and normals to which bond weights are
- * fitted, into f. rotates: true for the model with particle rotations. Release with surface_fit_targets_free. */
-void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_faces *near, bool rotates);
+ * fitted, into f. with_rotations: true for the model with particle rotations. Release with surface_fit_targets_free. */
+void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_faces *near, bool with_rotations);
 
 /* Releases all arrays of f. */
 void surface_fit_targets_free(struct surface_fit_targets *f);
@@ -172,9 +172,9 @@ enum { SURFACE_PRODUCTS = 1000 };
 real surface_fit_solve(const struct surface_fit_problem *q, real *factor, int products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
- * factor: [classes->groups] [1]; targets: targets of the fit; rotates: true for the model with particle rotations.
- * products: as in surface_fit_solve. Returns the residual that is left, over the first one [1]. */
+ * factor: [classes->groups] [1]; targets: targets of the fit; with_rotations: true for the model with particle
+ * rotations. products: as in surface_fit_solve. Returns the residual that is left, over the first one [1]. */
 real surface_fit_factors(real *factor, const struct near_faces *near, const struct surface_fit_targets *targets,
-                         const struct bond_classes *classes, bool rotates, int products);
+                         const struct bond_classes *classes, bool with_rotations, int products);
 
 #endif

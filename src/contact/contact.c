@@ -15,7 +15,7 @@
  * distance and friction; the stiffness k follows from the materials of `source` times `stiffness` [1]. shape: shapes of
  * the bodies, for the surface above particles. shape and rigid[rigids] are kept by reference and must outlive c.
  * Release with contact_free. */
-void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness,
+void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids)
 {
@@ -45,7 +45,7 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
         for (int b = 0; b < n; b++) {
             const real one = family_micro_modulus(&family, &source->material[a]);
             const real other = family_micro_modulus(&family, &source->material[b]);
-            c->law.stiffness[a * n + b] = stiffness * 15 / family.horizon * 2 * one * other / (one + other);
+            c->law.stiffness[a * n + b] = stiffness_factor * 15 / family.horizon * 2 * one * other / (one + other);
         }
 }
 
@@ -94,7 +94,8 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
  * a normal stiffness of 1, 1.5 and 2 k in total. Rubble, with up to eight contacts per particle, needs 0.61 of the
  * critical step of the bonds in 2D; the safety factor where bonds may break is 0.5. (The rule of LAMMPS adds contact
  * with all 2, 8 or 26 neighbours to full families.) */
-real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds)
+real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *material,
+                           real bonds_time_step)
 {
     static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2}, squeezed[DIM_MAX + 1] = {0, 2, 4, 26.0 / 3};
     const int n = c->law.materials;
@@ -103,12 +104,13 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
     for (int64_t i = 0; i < p->n; i++) volume = real_max(volume, p->volume0[i]);
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++)
-            most = real_max(most, c->law.stiffness[a * n + b] * volume * (1 / m[a].density + 1 / m[b].density));
+            most = real_max(most,
+                            c->law.stiffness[a * n + b] * volume * (1 / material[a].density + 1 / material[b].density));
     real across = opposite[p->dim] * most;
-    if (c->law.distance == DISTANCE_LAMMPS) return 2 / sqrt(square(2 / bonds) + squeezed[p->dim] * most);
+    if (c->law.distance == DISTANCE_LAMMPS) return 2 / sqrt(square(2 / bonds_time_step) + squeezed[p->dim] * most);
     for (int a = 0; a < n; a++)
-        across = real_max(across, rigid_swing(c, p, &m[a], c->law.stiffness[a * n + a], volume));
-    return 2 / sqrt(0.5 * square(2 / bonds) + across);
+        across = real_max(across, rigid_swing(c, p, &material[a], c->law.stiffness[a * n + a], volume));
+    return 2 / sqrt(0.5 * square(2 / bonds_time_step) + across);
 }
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */

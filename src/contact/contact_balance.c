@@ -14,23 +14,23 @@
 /* largest part against the rate, relative to the change of the contact force in a step [1]; empirical */
 #define BALANCE_DRAG 0.1 /* force against the rate over the change of the contact force in the step [1]; empirical */
 
-real contact_energy_correction(struct contact_balance *b, real stiffness, real gap, bool advance)
+real contact_energy_correction(struct contact_balance *balance, real stiffness, real gap, bool advance)
 {
-    if (!advance) return b->drag;
-    const real was = b->gap;
-    b->account -= 0.5 * b->drag * (gap - b->older);
-    if ((was < 0) != (gap < 0)) b->account += (was < 0 ? -0.25 : 0.25) * stiffness * was * gap;
-    b->older = was, b->gap = gap, b->drag = 0;
-    if (!(gap < 0 && b->account > 0)) return 0;
-    b->drag = real_min(0.5 * stiffness * BALANCE_DRAG * (gap - real_min(was, 0)), -0.5 * stiffness * gap);
-    return b->drag;
+    if (!advance) return balance->drag;
+    const real was = balance->gap;
+    balance->account -= 0.5 * balance->drag * (gap - balance->older);
+    if ((was < 0) != (gap < 0)) balance->account += (was < 0 ? -0.25 : 0.25) * stiffness * was * gap;
+    balance->older = was, balance->gap = gap, balance->drag = 0;
+    if (!(gap < 0 && balance->account > 0)) return 0;
+    balance->drag = real_min(0.5 * stiffness * BALANCE_DRAG * (gap - real_min(was, 0)), -0.5 * stiffness * gap);
+    return balance->drag;
 }
 
-struct contact_balance contact_energy_correction_begin(const struct contact_balance *before, real gap)
+struct contact_balance contact_energy_correction_begin(const struct contact_balance *previous, real gap)
 {
     struct contact_balance to = {.gap = gap, .older = gap};
-    if (!before) return to;
-    if (gap < 0) return *before;
-    to.account = before->account;
+    if (!previous) return to;
+    if (gap < 0) return *previous;
+    to.account = previous->account;
     return to;
 }

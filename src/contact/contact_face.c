@@ -282,8 +282,8 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
  * the previous list `before`, -1: none. A row already in contact gets the overlap with which its energy does not
  * change. Otherwise contact begins where the surfaces of the bodies meet, or later if the particle is closer in the
  * reference or the present configuration. */
-void contact_face_set_height(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
-                             int64_t row)
+void contact_face_set_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
+                             const struct particles *p, int64_t row)
 {
     struct contact_face *face = &c->face[row];
     const bool pairs = c->first[row + 1] > c->first[row];
@@ -292,15 +292,16 @@ void contact_face_set_height(struct contact *c, const struct contact *before, in
     real overlap = 0;
     face->stiffness = face_stiffness(c, p, row);
     face->push = face->lift = 0, face->mean = now.mean;
-    if (was >= 0) {
-        const struct face_field then = same_pairs(c, before, was, row) ? now : face_field_at(before, p, p->x, was);
-        overlap = real_max(0, -face_gap(before, &then, before->face[was].zero).gap);
-        overlap *= sqrt(before->face[was].stiffness / face->stiffness);
+    if (previous_entry >= 0) {
+        const struct face_field then =
+            same_pairs(c, previous, previous_entry, row) ? now : face_field_at(previous, p, p->x, previous_entry);
+        overlap = real_max(0, -face_gap(previous, &then, previous->face[previous_entry].zero).gap);
+        overlap *= sqrt(previous->face[previous_entry].stiffness / face->stiffness);
     }
     const real height = face_gap(c, &now, 0).height, least = face_gap(c, &reference, 0).height;
     const real zero = real_min(1 + c->rise[row], least) - face_notch(c, p, row);
     face->zero = overlap > 0 ? height + overlap : real_min(zero, height);
     face->far = real_max(0, least_gap(c, &now, row));
-    c->balance[row] =
-        contact_energy_correction_begin(was < 0 ? NULL : &before->balance[was], face_gap(c, &now, face->zero).gap);
+    c->balance[row] = contact_energy_correction_begin(previous_entry < 0 ? NULL : &previous->balance[previous_entry],
+                                                      face_gap(c, &now, face->zero).gap);
 }

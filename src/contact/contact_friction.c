@@ -235,24 +235,24 @@ void contact_reactions_make(struct contact *c)
 
 /* Creates the friction springs of a new contact list. Springs of particles that were in the previous list `before` are
  * copied from it; the energy of the other springs is lost. Does nothing without friction. */
-void contact_springs_copy(struct contact *c, const struct contact *before)
+void contact_springs_copy(struct contact *c, const struct contact *previous)
 {
     if (!(c->law.friction > 0)) return;
     c->spring = NEW("contact.spring", c->rows, struct contact_spring);
     contact_reactions_make(c);
     for (int64_t row = 0; row < c->rows; row++)
-        contact_spring_copy(&c->spring[row], before->spring,
-                            before->made ? contact_list_find(before, c->particle[row]) : -1);
+        contact_spring_copy(&c->spring[row], previous->spring,
+                            previous->made ? contact_list_find(previous, c->particle[row]) : -1);
 }
 
-void contact_spring_copy(struct contact_spring *to, const struct contact_spring *before, int64_t at)
+void contact_spring_copy(struct contact_spring *to, const struct contact_spring *previous, int64_t previous_entry)
 {
-    if (!before || at < 0) return;
-    *to = before[at];
+    if (!previous || previous_entry < 0) return;
+    *to = previous[previous_entry];
     to->lost = 0;
 }
 
-void contact_friction_carry_over(struct contact *c, const struct contact *before)
+void contact_friction_carry_over(struct contact *c, const struct contact *previous)
 {
-    c->friction_work = contact_friction_work(before) + contact_friction_stored(before) - contact_friction_stored(c);
+    c->friction_work = contact_friction_work(previous) + contact_friction_stored(previous) - contact_friction_stored(c);
 }

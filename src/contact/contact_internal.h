@@ -32,34 +32,34 @@ struct contact_found {
     int32_t deepest;
 };
 
-/* Adds one contact of particle i to the sums of a step: counts it, and stores overlap and particle if the overlap [m]
- * is the largest so far; of equal overlaps the particle with the lowest index is stored. */
-static inline void contact_found_add_overlap(struct contact_found *to, real overlap, int32_t i)
+/* Adds one contact of particle `particle` to the sums of a step: counts it, and stores overlap and particle if the
+ * overlap [m] is the largest so far; of equal overlaps the particle with the lowest index is stored. */
+static inline void contact_found_add_overlap(struct contact_found *found, real overlap, int32_t particle)
 {
-    const bool first = overlap == to->overlap && i < to->deepest;
-    if (overlap > to->overlap || first) to->overlap = overlap, to->deepest = i;
-    to->touching++;
+    const bool first = overlap == found->overlap && particle < found->deepest;
+    if (overlap > found->overlap || first) found->overlap = overlap, found->deepest = particle;
+    found->touching++;
 }
 
-/* Computes the vector between the present positions of two particles, from entry l to entry k of the contact list
- * c->particle, dim components [m]. Returns its square [m^2]. */
-static inline real contact_distance_vector(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
-                                           real *apart)
+/* Computes the vector between the present positions of two particles, from entry `other` to entry `entry` of the
+ * contact list c->particle, dim components [m]. Returns its square [m^2]. */
+static inline real contact_distance_vector(const struct contact *c, const struct particles *p, int64_t entry,
+                                           int64_t other, real *vector)
 {
-    const int32_t i = c->particle[k], j = c->particle[l];
+    const int32_t i = c->particle[entry], j = c->particle[other];
     real r2 = 0;
     for (int d = 0; d < p->dim; d++) {
-        apart[d] = p->x[d][i] - p->x[d][j];
-        r2 += square(apart[d]);
+        vector[d] = p->x[d][i] - p->x[d][j];
+        r2 += square(vector[d]);
     }
     return r2;
 }
 
-/* Returns the contact stiffness k of the pair of entries k and l of the contact list c->particle [N/m], from their
- * materials and volumes. */
-static inline real contact_stiffness(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+/* Returns the contact stiffness k of the pair of entries `entry` and `other` of the contact list c->particle [N/m],
+ * from their materials and volumes. */
+static inline real contact_stiffness(const struct contact *c, const struct particles *p, int64_t entry, int64_t other)
 {
-    const int32_t i = c->particle[k], j = c->particle[l];
+    const int32_t i = c->particle[entry], j = c->particle[other];
     return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
 }
 
@@ -95,10 +95,11 @@ static inline const uint8_t *contact_rigid_selection_marks(const struct contact 
     return c->by_overlap ? NULL : c->near[body].touch;
 }
 
-/* Returns true if contact number k acts: if marks[k] is not 0, or, if marks is NULL, if the contact `overlaps`. */
-static inline bool contact_is_active(const uint8_t *marks, int64_t k, bool overlaps)
+/* Returns true if contact number `number` acts: if marks[`number`] is not 0, or, if marks is NULL, if the contact
+ * `overlaps`. */
+static inline bool contact_is_active(const uint8_t *marks, int64_t number, bool overlaps)
 {
-    return marks ? marks[k] != 0 : overlaps;
+    return marks ? marks[number] != 0 : overlaps;
 }
 
 /* Returns the gap between particle number `row` of the contact list and the faces beside it, negative if they overlap
@@ -154,9 +155,10 @@ void contact_pair_add_force(const struct contact *c, struct particles *p, int64_
 real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Returns the distance at which contact of the entries `entry` and `other` of the contact list begins [m]: the contact
- * distance, reduced if they are closer in the reference configuration or at present. was: contact distance on the
- * previous list of pairs [m], NAN if the pair was not on it. */
-real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other, real was);
+ * distance, reduced if they are closer in the reference configuration or at present. previous_distance: contact
+ * distance on the previous list of pairs [m], NAN if the pair was not on it. */
+real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
+                           real previous_distance);
 
 /* Computes the table that gives the depth of a face below a particle as a function of the density of the face at the
  * particle, for particles on a square or cubic lattice. dim: space dimension. */
@@ -178,21 +180,21 @@ void contact_face_add_force(const struct contact *c, struct particles *p, int64_
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Computes the height above the face at which contact of particle number `row` of the contact list begins, after a
- * search, by the contact law of form `surface`. was: entry of the particle on the previous list `before`, -1 if it was
- * not listed. If the particle was in contact on that list, the height is chosen so that its contact energy does not
- * change. */
-void contact_face_set_height(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
-                             int64_t row);
+ * search, by the contact law of form `surface`. previous_entry: entry of the particle on the previous list `previous`,
+ * -1 if it was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy
+ * does not change. */
+void contact_face_set_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
+                             const struct particles *p, int64_t row);
 
-/* Returns a damping force on the gap of a contact that removes the energy which leap-frog integration adds when
- * contact begins or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy
- * 1/4 stiffness gap^2. b: state of this contact, updated if `advance`, i.e. if a time step was done since the last
+/* Returns a damping force on the gap of a contact that removes the energy which leap-frog integration adds when contact
+ * begins or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy 1/4
+ * stiffness gap^2. balance: state of this contact, updated if `advance`, i.e. if a time step was done since the last
  * call; otherwise the last force is returned again. */
-real contact_energy_correction(struct contact_balance *b, real stiffness, real gap, bool advance);
+real contact_energy_correction(struct contact_balance *balance, real stiffness, real gap, bool advance);
 
-/* Returns the state with which contact_balance starts for a contact on a new list. gap: present gap; before: state of
+/* Returns the state with which contact_balance starts for a contact on a new list. gap: present gap; previous: state of
  * the contact on the previous list, whose account of energy errors is continued; NULL if the contact was not listed. */
-struct contact_balance contact_energy_correction_begin(const struct contact_balance *before, real gap);
+struct contact_balance contact_energy_correction_begin(const struct contact_balance *previous, real gap);
 
 /* Contribution of particle l of a face to the density of the face at particle k (form `surface`): weight [1];
  * derivative of the contact energy of k by their distance, divided by the distance [N/m]; vector from l to k [m]. */
@@ -228,28 +230,28 @@ real contact_friction_stored(const struct contact *c);
 void contact_reactions_make(struct contact *c);
 
 /* Allocates the friction springs of a new list of particles, and copies the springs of particles that were on the
- * previous list `before`. */
-void contact_springs_copy(struct contact *c, const struct contact *before);
+ * previous list `previous`. */
+void contact_springs_copy(struct contact *c, const struct contact *previous);
 
-/* Copies friction spring number `at` of the previous list `before` to *to. Leaves *to unchanged if `before` is NULL or
- * `at` is -1, i.e. if the particle was not listed. */
-void contact_spring_copy(struct contact_spring *to, const struct contact_spring *before, int64_t at);
+/* Copies friction spring number `previous_entry` of the previous list `previous` to *to. Leaves *to unchanged if
+ * `previous` is NULL or `previous_entry` is -1, i.e. if the particle was not listed. */
+void contact_spring_copy(struct contact_spring *to, const struct contact_spring *previous, int64_t previous_entry);
 
-/* Sets the friction work of a new list of particles to that of the previous list `before` plus the elastic energy of
+/* Sets the friction work of a new list of particles to that of the previous list `previous` plus the elastic energy of
  * springs that are not on the new list. */
-void contact_friction_carry_over(struct contact *c, const struct contact *before);
+void contact_friction_carry_over(struct contact *c, const struct contact *previous);
 
 /* Lists for each rigid body the particles within `skin` [m] of its surface, with the gaps at which contact begins and
- * the friction springs. before: the previous list, from which known particles keep gap and spring. */
-void contact_rigid_list_particles(struct contact *c, const struct contact *before, const struct particles *p,
+ * the friction springs. previous: the previous list, from which known particles keep gap and spring. */
+void contact_rigid_list_particles(struct contact *c, const struct contact *previous, const struct particles *p,
                                   real skin);
 
 /* Frees the lists of particles near rigid bodies. */
 void contact_rigid_free(struct contact *c);
 
-/* Returns true if some point of a rigid body has been displaced by `far` [m] or more since the last search for pairs.
- */
-bool contact_rigid_has_moved(const struct contact *c, real far);
+/* Returns true if some point of a rigid body has been displaced by `distance` [m] or more since the last search for
+ * pairs. */
+bool contact_rigid_has_moved(const struct contact *c, real distance);
 
 /* Adds the contact forces of all rigid bodies on particles to p->f, and the opposite forces and moments to the rigid
  * bodies. dt: time since the last call [s], by which friction springs are stretched; all: receives largest overlap and

@@ -55,7 +55,8 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
  * reference configuration and their mean spacing, minus the width of a notch between them. If the pair is closer when
  * it is found, it is the present distance until the pair opens. was: contact distance on the previous list [m], NAN if
  * the pair is new. Bitwise equal for (k, l) and (l, k). */
-real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was)
+real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
+                           real previous_distance)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     real reference2 = 0, apart[DIM_MAX];
@@ -64,5 +65,5 @@ real contact_pair_distance(const struct contact *c, const struct particles *p, i
     if (c->law.distance == DISTANCE_LAMMPS) return real_min(NEAR_LAMMPS * sqrt(reference2), FAR_LAMMPS * mean);
     const real nominal = real_min(sqrt(reference2), mean) - contact_notch_width(c, p, k, l);
     const real r = sqrt(contact_distance_vector(c, p, k, l, apart));
-    return real_min(nominal, isnan(was) ? r : real_max(was, r));
+    return real_min(nominal, isnan(previous_distance) ? r : real_max(previous_distance, r));
 }

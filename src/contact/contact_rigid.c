@@ -95,17 +95,18 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
     memory_free(found);
 }
 
-void contact_rigid_list_particles(struct contact *c, const struct contact *before, const struct particles *p, real skin)
+void contact_rigid_list_particles(struct contact *c, const struct contact *previous, const struct particles *p,
+                                  real skin)
 {
     c->near = c->rigids > 0 ? NEW("contact.bodies", c->rigids, struct contact_near) : NULL;
     for (int b = 0; b < c->rigids; b++) {
-        near_find_body(c, before, p, b, skin);
+        near_find_body(c, previous, p, b, skin);
         for (int d = 0; d < DIM_MAX; d++) c->near[b].x[d] = c->rigid[b].x[d];
         for (int k = 0; k < DIM_MAX * DIM_MAX; k++) c->near[b].turn[k] = c->rigid[b].turn[k / DIM_MAX][k % DIM_MAX];
     }
 }
 
-bool contact_rigid_has_moved(const struct contact *c, real far)
+bool contact_rigid_has_moved(const struct contact *c, real distance)
 {
     for (int b = 0; b < c->rigids && c->near; b++) {
         const struct rigid_body *r = &c->rigid[b];
@@ -113,7 +114,7 @@ bool contact_rigid_has_moved(const struct contact *c, real far)
         for (int d = 0; d < DIM_MAX; d++) moved2 += square(r->x[d] - c->near[b].x[d]);
         for (int k = 0; k < DIM_MAX * DIM_MAX; k++)
             turned2 += square(r->turn[k / DIM_MAX][k % DIM_MAX] - c->near[b].turn[k]);
-        if (!(sqrt(moved2) + sqrt(turned2) * r->radius < far)) return true;
+        if (!(sqrt(moved2) + sqrt(turned2) * r->radius < distance)) return true;
     }
     return false;
 }
@@ -139,13 +140,13 @@ static real overlap_of(const struct contact *c, const struct particles *p, int b
     return marks ? overlap : real_max(0, overlap);
 }
 
-real contact_patch_diameter(const struct contact *c, const struct particles *p, int body)
+real contact_patch_diameter(const struct contact *c, const struct particles *p, int rigid_body)
 {
     real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX], width2 = 0;
     for (int d = 0; d < DIM_MAX; d++) low[d] = INFINITY, high[d] = -INFINITY;
-    for (int64_t q = 0; c->near && q < c->near[body].n; q++) {
-        const int32_t i = c->particle[c->near[body].row[q]];
-        if (!(overlap_of(c, p, body, q, normal) > 0)) continue;
+    for (int64_t q = 0; c->near && q < c->near[rigid_body].n; q++) {
+        const int32_t i = c->particle[c->near[rigid_body].row[q]];
+        if (!(overlap_of(c, p, rigid_body, q, normal) > 0)) continue;
         for (int d = 0; d < p->dim; d++) low[d] = real_min(low[d], p->x[d][i]), high[d] = real_max(high[d], p->x[d][i]);
     }
     for (int d = 0; d < p->dim && high[d] >= low[d]; d++) width2 += square(high[d] - low[d]);

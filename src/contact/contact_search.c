@@ -324,7 +324,7 @@ bool contact_search_needed(struct contact *c, const struct particles *p)
 }
 
 void contact_update_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                         const struct family *family, int64_t step, int64_t broken_bonds, int64_t changed)
+                         const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions)
 {
     if (!contact_is_possible(c)) return;
     const bool new_faces = broken_bonds != c->broken && step - c->searched >= BREAKS_WAIT;
@@ -333,10 +333,10 @@ void contact_update_list(struct contact *c, const struct particles *p, struct bo
         search_pairs(c, p, b, family);
         c->made = true, c->due = false, c->moved = 0;
         c->searched = step, c->broken = broken_bonds;
-    } else if (changed == c->changed) {
+    } else if (conversions == c->changed) {
         contact_activate_more(c, p, b, l);
         return;
     }
-    c->changed = changed;
+    c->changed = conversions;
     contact_activate_particles(c, p, b, l); /* also after conversions, which rebuild row blocks */
 }

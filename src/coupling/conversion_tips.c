@@ -36,11 +36,12 @@ static void conversion_tip_add(struct region *r, const struct particles *p, cons
     if (in_body(p, s, c, middle)) region_add(r, &solid);
 }
 
-void initial_pd_region_make(struct region *to, const struct region *given, const struct particles *p,
-                            const struct bond_source *source, real radius)
+void initial_pd_region_make(struct region *region, const struct region *scene_region, const struct particles *p,
+                            const struct bond_source *source, real tip_radius)
 {
-    memset(to, 0, sizeof *to);
-    for (int k = 0; given && k < given->n; k++) region_add(to, &given->solid[k]);
-    for (int c = 0; c < source->givens && radius > 0; c++)
-        for (int k = 0; k < source->given[c].n; k++) conversion_tip_add(to, p, source, &source->given[c], k, radius);
+    memset(region, 0, sizeof *region);
+    for (int k = 0; scene_region && k < scene_region->n; k++) region_add(region, &scene_region->solid[k]);
+    for (int c = 0; c < source->givens && tip_radius > 0; c++)
+        for (int k = 0; k < source->given[c].n; k++)
+            conversion_tip_add(region, p, source, &source->given[c], k, tip_radius);
 }

@@ -212,16 +212,16 @@ static void faces_find(struct notches *n, const struct particles *p, const struc
     memory_free(faces);
 }
 
-void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real radius,
-                  const char *obstacle)
+void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real tip_radius,
+                  const char *reason_against_slits)
 {
-    *n = (struct notches){.n = source->givens, .radius = radius, .voids = source->voids};
+    *n = (struct notches){.n = source->givens, .radius = tip_radius, .voids = source->voids};
     n->notch = NEW("notch.notch", n->n, struct notch);
     n->slit = NEW("notch.slit", n->n + source->cracks, struct crack);
     n->cut = NEW("notch.cut", source->cracks, struct crack);
     for (int k = 0; k < n->n; k++) {
         const struct crack *c = &source->given[k];
-        const char *why = obstacle ? obstacle : notch_obstacle(c, p, source, radius);
+        const char *why = reason_against_slits ? reason_against_slits : notch_obstacle(c, p, source, tip_radius);
         n->notch[k] = (struct notch){!why, why};
         if (!why) n->slit[n->slits++] = *c;
     }

@@ -31,23 +31,25 @@ struct response {
 struct response bond_response_of(const struct particles *p, const struct bonds *b, const struct bond_source *source,
                                  int32_t i, const struct bond *bond);
 
-/* Adds to the tensor T [J] the contribution of the bond from xp, a material point, to xm, in proportion to the share of
- * its length inside the cell with middle X and half edge `half_edge`: T_abcd = l e_b dF_a/deps_cd, with that length l,
- * the unit vector e along the bond and its force F; symmetric in ab and in cd. response: derivative of the force. */
-void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half_edge,
+/* Adds to the tensor `tensor` [J] the contribution of the bond from `point`, a material point, to `other`, in
+ * proportion to the share of its length inside the cell with the centre `centre` and half edge `half_edge`: T_abcd = l
+ * e_b dF_a/deps_cd, with that length l, the unit vector e along the bond and its force F; symmetric in ab and in cd.
+ * response: derivative of the force. */
+void partial_tensor_add_bond(real *tensor, const real *point, const real *other, const real *centre, real half_edge,
                              struct response response, int dim);
 
-/* Limits the tensor T of material point i [J], by which state-based bonds reduce the stiffness of its cell, so that the
- * elastic energy of the point stays positive (partial_positive.c). L: receives the derivative of the point's mean
- * strain by the strain of its cell, in symmetric components [1]; 0 if the point has no bonds. Returns true if it has
- * bonds. */
-bool partial_tensor_limit_state(real *T, real *L, const struct particles *p, const struct bonds *b,
-                                const struct bond_source *source, int64_t i);
+/* Limits the tensor `tensor` of material point i [J], by which state-based bonds reduce the stiffness of its cell, so
+ * that the elastic energy of the point stays positive (partial_positive.c). mean_strain_derivative: receives the
+ * derivative of the point's mean strain by the strain of its cell, in symmetric components [1]; 0 if the point has no
+ * bonds. Returns true if it has bonds. */
+bool partial_tensor_limit_state(real *tensor, real *mean_strain_derivative, const struct particles *p,
+                                const struct bonds *b, const struct bond_source *source, int64_t i);
 
-/* Limits the tensor T of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its cell, so
- * that no eigenvalue of V C - T is negative. V, C: volume and elastic tensor of the point. Otherwise the cell would be
- * unstable with any time step. The limit acts only for irregular particles or bonds stiffer than the material. */
-void partial_tensor_limit_bonds(real *T, const struct particles *p, const struct bond_source *source, int64_t i);
+/* Limits the tensor `tensor` of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its
+ * cell, so that no eigenvalue of V C - `tensor` is negative. V, C: volume and elastic tensor of the point. Otherwise
+ * the cell would be unstable with any time step. The limit acts only for irregular particles or bonds stiffer than the
+ * material. */
+void partial_tensor_limit_bonds(real *tensor, const struct particles *p, const struct bond_source *source, int64_t i);
 
 /* Returns half the edge of the cell of a particle [m]. */
 real particle_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);
@@ -76,9 +78,9 @@ bool partial_table_applies_to(const struct particles *p, const struct bond_sourc
 void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *source, const int32_t *list, int64_t n);
 
-/* Computes the tensor T of point i [J] from the table and the stored responses of the bonds of the material points
- * around it. near: working memory. */
+/* Computes the tensor `tensor` of point i [J] from the table and the stored responses of the bonds of the material
+ * points around it. near: working memory. */
 void partial_table_sum_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
-                              const struct bond_source *source, int64_t i, struct neighbour_list *near, real *T);
+                              const struct bond_source *source, int64_t i, struct neighbour_list *near, real *tensor);
 
 #endif

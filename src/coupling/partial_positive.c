@@ -110,8 +110,8 @@ static void stay_below(real *T, const struct material *m, int dim, real V, real 
                             (partial_positive_root_of(c, dim) * partial_positive_root_of(d, dim));
 }
 
-bool partial_tensor_limit_state(real *T, real *L, const struct particles *p, const struct bonds *b,
-                                const struct bond_source *s, int64_t i)
+bool partial_tensor_limit_state(real *tensor, real *mean_strain_derivative, const struct particles *p,
+                                const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
     const struct state_modulus *m = &s->modulus[p->material[i]];
@@ -121,20 +121,21 @@ bool partial_tensor_limit_state(real *T, real *L, const struct particles *p, con
     const bool end = own_bonds(zeta, p, b, i);
     for (int d = 0; d < dim; d++) trace += zeta[d];
     const real kappa = end ? m->B / trace : 0, q = end ? V * m->A * kappa / (m->A + kappa) : 0;
-    for (int c = 0; c < n; c++) L[c] = end ? (c < dim ? 1.0 / dim : 0) - zeta[c] : 0;
+    for (int c = 0; c < n; c++) mean_strain_derivative[c] = end ? (c < dim ? 1.0 / dim : 0) - zeta[c] : 0;
     real wanted[SYM_MAX * SYM_MAX];
     for (int c = 0; c < n; c++)
         for (int d = 0; d < n; d++) {
             const real one = c < dim ? 1.0 / dim : 0, other = d < dim ? 1.0 / dim : 0;
-            wanted[c * n + d] = 0.5 * (T[c * n + d] + T[d * n + c]) + 0.5 * V * m->A * (L[c] * other + one * L[d]);
+            wanted[c * n + d] = 0.5 * (tensor[c * n + d] + tensor[d * n + c]) +
+                                0.5 * V * m->A * (mean_strain_derivative[c] * other + one * mean_strain_derivative[d]);
         }
-    array_copy(T, wanted, n * n, sizeof *T);
-    stay_below(T, material, dim, V, q, L);
+    array_copy(tensor, wanted, n * n, sizeof *tensor);
+    stay_below(tensor, material, dim, V, q, mean_strain_derivative);
     return end;
 }
 
-void partial_tensor_limit_bonds(real *T, const struct particles *p, const struct bond_source *s, int64_t i)
+void partial_tensor_limit_bonds(real *tensor, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const real none[SYM_MAX] = {0};
-    stay_below(T, &s->material[p->material[i]], p->dim, p->volume0[i], 0, none);
+    stay_below(tensor, &s->material[p->material[i]], p->dim, p->volume0[i], 0, none);
 }

@@ -63,12 +63,12 @@ struct reflection mirror_reflection_of(const struct bond_source *s, const struct
 /* Returns 1 for equal indices a and b, else 0 (Kronecker's delta). */
 static bool same(int a, int b) { return a == b; }
 
-void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half_edge, struct response k,
-                             int dim)
+void partial_tensor_add_bond(real *tensor, const real *point, const real *other, const real *centre, real half_edge,
+                             struct response k, int dim)
 {
-    real share = segment_share_in_cube(xp, xm, X, half_edge, dim), e[DIM_MAX], length = 0;
+    real share = segment_share_in_cube(point, other, centre, half_edge, dim), e[DIM_MAX], length = 0;
     if (share == 0) return;
-    for (int d = 0; d < dim; d++) e[d] = xm[d] - xp[d], length += square(e[d]);
+    for (int d = 0; d < dim; d++) e[d] = other[d] - point[d], length += square(e[d]);
     length = sqrt(length);
     for (int d = 0; d < dim; d++) e[d] /= length;
     const int n = symmetric_component_count(dim);
@@ -79,8 +79,8 @@ void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real
             symmetric_component_axes(dim, t, &c, &d);
             real turned = e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) + e[a] * e[d] * same(b, c) +
                           e[a] * e[c] * same(b, d);
-            T[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] + k.pressure * e[a] * e[b] * same(c, d) +
-                                     0.25 * k.vector * turned);
+            tensor[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] +
+                                          k.pressure * e[a] * e[b] * same(c, d) + 0.25 * k.vector * turned);
         }
 }
 

@@ -464,7 +464,7 @@ static int crossing_rows_by_search(const struct partial_table *t, const struct p
 }
 
 void partial_table_sum_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
-                              const struct bond_source *s, int64_t i, struct neighbour_list *near, real *T)
+                              const struct bond_source *s, int64_t i, struct neighbour_list *near, real *tensor)
 {
     real sum[VECTORS_MOST];
     struct crossing_row row[VECTORS_MOST + 1];
@@ -485,5 +485,5 @@ void partial_table_sum_tensor(const struct partial_table *t, const struct partic
         else
             sum_row(t, sum, row[k].place, response, signs, 2);
     }
-    sum_tensors(t, sum, T);
+    sum_tensors(t, sum, tensor);
 }

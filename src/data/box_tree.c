@@ -93,22 +93,22 @@ static void box_wait(struct box_search *q, int32_t node)
     q->wait[q->waiting++] = (struct box_waiting){node, least};
 }
 
-void box_search_start(struct box_search *q, const struct box_tree *t, const real *X, int dim)
+void box_search_start(struct box_search *search, const struct box_tree *tree, const real *point, int dim)
 {
-    q->tree = t, q->X = X, q->dim = dim, q->waiting = 0;
-    if (t->n > 0) box_wait(q, 0);
+    search->tree = tree, search->X = point, search->dim = dim, search->waiting = 0;
+    if (tree->n > 0) box_wait(search, 0);
 }
 
-int box_search_next(struct box_search *q, real reach)
+int box_search_next(struct box_search *search, real reach)
 {
-    while (q->waiting > 0) {
-        const struct box_waiting next = q->wait[--q->waiting];
-        const struct box_node *node = &q->tree->node[next.node];
+    while (search->waiting > 0) {
+        const struct box_waiting next = search->wait[--search->waiting];
+        const struct box_node *node = &search->tree->node[next.node];
         if (next.least > reach) continue;
         if (node->left == 0) return node->item;
-        box_wait(q, node->left);
-        box_wait(q, node->left + 1);
-        struct box_waiting *two = &q->wait[q->waiting - 2];
+        box_wait(search, node->left);
+        box_wait(search, node->left + 1);
+        struct box_waiting *two = &search->wait[search->waiting - 2];
         if (two[0].least < two[1].least) {
             const struct box_waiting nearer = two[0];
             two[0] = two[1], two[1] = nearer;

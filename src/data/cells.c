@@ -235,13 +235,13 @@ static void cells_find(struct neighbour_list *near, const struct cells *c, const
 }
 
 void particles_find_near(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
-                         real radius, bool itself)
+                         real radius, bool include_itself)
 {
-    cells_find(near, c, p, i, radius, itself, false);
+    cells_find(near, c, p, i, radius, include_itself, false);
 }
 
 void particles_find_near_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
-                                   int64_t i, real radius, bool itself)
+                                   int64_t i, real radius, bool include_itself)
 {
-    cells_find(near, c, p, i, radius, itself, true);
+    cells_find(near, c, p, i, radius, include_itself, true);
 }

@@ -11,12 +11,12 @@ static real inner_height(const struct mirror_plane *m, const real *X)
     return (real)-m->outside * (X[m->axis] - m->at);
 }
 
-bool mirrors_continue_crack(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X,
+bool mirrors_continue_crack(const struct mirror_plane *mirror, int mirrors, const struct crack *c, const real *end,
                             real tolerance)
 {
     for (int k = 0; k < mirrors; k++)
-        for (int a = 0; a < c->n && inner_height(&m[k], X) <= tolerance; a++)
-            if (inner_height(&m[k], c->corner[a]) > tolerance) return true;
+        for (int a = 0; a < c->n && inner_height(&mirror[k], end) <= tolerance; a++)
+            if (inner_height(&mirror[k], c->corner[a]) > tolerance) return true;
     return false;
 }
 
@@ -79,17 +79,17 @@ static void image_add(struct crack_list *to, int k, const struct mirror_plane *m
     }
 }
 
-void cracks_make_mirror_images(struct crack_list *to, const struct crack *crack, int cracks,
-                               const struct mirror_plane *m, int mirrors, real reach, real tolerance)
+void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int cracks,
+                               const struct mirror_plane *mirror, int mirrors, real reach, real tolerance)
 {
-    *to = (struct crack_list){0};
+    *list = (struct crack_list){0};
     for (int k = 0; k < cracks; k++) {
-        struct crack *c = crack_add(to, &crack[k], k, mirrors);
-        for (int b = 0; b < mirrors && c->n > 0; b++) crack_clip(c, &m[b], tolerance);
-        if (c->n == 0) memory_free(to->crack[--to->n].corner);
+        struct crack *c = crack_add(list, &crack[k], k, mirrors);
+        for (int b = 0; b < mirrors && c->n > 0; b++) crack_clip(c, &mirror[b], tolerance);
+        if (c->n == 0) memory_free(list->crack[--list->n].corner);
     }
     for (int b = 0; b < mirrors; b++) /* including images of images, at corners */
-        for (int k = 0, n = to->n; k < n; k++) image_add(to, k, &m[b], reach, tolerance);
+        for (int k = 0, n = list->n; k < n; k++) image_add(list, k, &mirror[b], reach, tolerance);
 }
 
 void crack_list_free(struct crack_list *l)

@@ -48,17 +48,17 @@ static int64_t box_floor(int64_t k)
     return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP;
 }
 
-status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t max_nodes, bool *changed)
+status grid_extend_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes, bool *changed)
 {
     int64_t first[DIM_MAX], end[DIM_MAX];
     real nodes = 1, low[DIM_MAX], high[DIM_MAX];
     *changed = g->n == 0;
     for (int d = 0; d < g->dim; d++) {
-        low[d] = floor((from[d] - g->anchor[d]) / g->h), high[d] = floor((to[d] - g->anchor[d]) / g->h);
+        low[d] = floor((lower[d] - g->anchor[d]) / g->h), high[d] = floor((upper[d] - g->anchor[d]) / g->h);
         if (!(fabs(low[d]) < NODE_FARTHEST && fabs(high[d]) < NODE_FARTHEST))
             return status_set(
                 FAILED, "a material point is at %.3g m, %.3g cells from where the grid begins; is the run unstable?",
-                fabs(low[d]) < NODE_FARTHEST ? to[d] : from[d], real_max(fabs(low[d]), fabs(high[d])));
+                fabs(low[d]) < NODE_FARTHEST ? upper[d] : lower[d], real_max(fabs(low[d]), fabs(high[d])));
     }
     for (int d = 0; d < g->dim; d++) {
         first[d] = box_floor((int64_t)low[d] - MARGIN);
@@ -88,13 +88,13 @@ status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t
     return OK;
 }
 
-bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t max_nodes)
+bool grid_compute_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes)
 {
     real n = 1;
     g->n = 1;
     for (int d = 0; d < g->dim; d++) {
-        g->first[d] = (int64_t)floor((from[d] - g->anchor[d]) / g->h);
-        g->count[d] = (int64_t)floor((to[d] - g->anchor[d]) / g->h) - g->first[d] + 2;
+        g->first[d] = (int64_t)floor((lower[d] - g->anchor[d]) / g->h);
+        g->count[d] = (int64_t)floor((upper[d] - g->anchor[d]) / g->h) - g->first[d] + 2;
         n *= (real)g->count[d];
         if (n > (real)max_nodes) return false;
         g->stride[d] = g->n;

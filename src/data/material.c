@@ -15,11 +15,11 @@ real bond_based_poisson_ratio(enum space space)
 /* Computes the micro-modulus c of bonds in a family with the weight sum sigma, such that a uniform expansion s has
  * equal energy densities: 1/4 c s^2 sigma of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of the
  * continuum. */
-real material_micro_modulus(const struct material *m, enum space space, real sigma)
+real material_micro_modulus(const struct material *m, enum space space, real family_sum)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
-    INVARIANT(sigma > 0);
-    return factor[space_dim(space)] * m->bulk / sigma;
+    INVARIANT(family_sum > 0);
+    return factor[space_dim(space)] * m->bulk / family_sum;
 }
 
 /* Computes the micro-modulus of bonds as material_micro_modulus does, with the integral of r over the horizon [m] in

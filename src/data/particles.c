@@ -110,25 +110,25 @@ void *particle_field_array(const struct particles *p, const struct particle_fiel
     return get(p, f, k);
 }
 
-void particles_make(struct particles *p, int dim, int64_t n, int optional)
+void particles_make(struct particles *p, int dim, int64_t n, int optional_arrays)
 {
     INVARIANT(dim >= 1 && dim <= DIM_MAX && n >= 0 && n <= INT32_MAX - LANES);
     *p = (struct particles){.n = n, .n_all = n, .n_body = n, .dim = dim};
     p->n_of[KIND_MPM] = n;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
-        for (int k = 0; k < f->count(dim, optional); k++)
+        for (int k = 0; k < f->count(dim, optional_arrays); k++)
             particles_put(p, f, k, memory_new(f->name, n + LANES, f->size));
     for (int kind = 0; kind < KINDS; kind++) p->list[kind] = NEW("particles.list", n, int32_t);
     p->list_free = NEW("particles.list_free", n, int32_t);
     particles_update_lists(p);
 }
 
-void particles_add_images(struct particles *p, int64_t images, int optional)
+void particles_add_images(struct particles *p, int64_t images, int optional_arrays)
 {
     INVARIANT(images >= 0 && p->n_all + images <= INT32_MAX - LANES);
     int64_t old = p->n_all + LANES, count = old + images;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
-        for (int k = 0; k < f->count(p->dim, optional); k++)
+        for (int k = 0; k < f->count(p->dim, optional_arrays); k++)
             particles_put(p, f, k, memory_resize(f->name, get(p, f, k), old, count, f->size));
     p->n_all += images;
 }
@@ -142,13 +142,14 @@ void particles_free(struct particles *p)
     *p = (struct particles){0};
 }
 
-void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *new_index, int optional)
+void particles_copy_fields(struct particles *p, const struct particles *previous, const int32_t *new_index,
+                           int optional_arrays)
 {
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
-        for (int k = 0; k < f->count(p->dim, optional); k++) {
+        for (int k = 0; k < f->count(p->dim, optional_arrays); k++) {
             char *to = get(p, f, k);
-            const char *from = get(old, f, k);
-            for (int64_t j = 0; j < old->n; j++)
+            const char *from = get(previous, f, k);
+            for (int64_t j = 0; j < previous->n; j++)
                 if (new_index[j] >= 0) memcpy(to + (size_t)new_index[j] * f->size, from + (size_t)j * f->size, f->size);
         }
 }
@@ -174,16 +175,16 @@ static int compare_places(const void *left, const void *right)
     return (a->index > b->index) - (a->index < b->index);
 }
 
-void particles_coordinate_range(const struct particles *p, int64_t n, int d, real *low, real *high)
+void particles_coordinate_range(const struct particles *p, int64_t count, int axis, real *low, real *high)
 {
     real least = INFINITY, most = -INFINITY;
-    if (n == p->n && p->n_body > p->n) {
-        *low = p->low[d], *high = p->high[d];
+    if (count == p->n && p->n_body > p->n) {
+        *low = p->low[axis], *high = p->high[axis];
         return;
     }
-    const real *X = p->X[d];
+    const real *X = p->X[axis];
 #pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most)
-    for (int64_t i = 0; i < n; i++) least = real_min(least, X[i]), most = real_max(most, X[i]);
+    for (int64_t i = 0; i < count; i++) least = real_min(least, X[i]), most = real_max(most, X[i]);
     *low = least, *high = most;
 }
 
@@ -242,7 +243,7 @@ static bool in_order(const struct place *place, int64_t n)
     return sorted;
 }
 
-void particles_sort(struct particles *p, real spacing, int optional)
+void particles_sort(struct particles *p, real spacing, int optional_arrays)
 {
     INVARIANT(p->n_all == p->n && spacing > 0);
     struct place *place = NEW("particles.place", p->n, struct place);
@@ -255,7 +256,8 @@ void particles_sort(struct particles *p, real spacing, int optional)
     char *scratch = NEW("particles.scratch", p->n * (int64_t)sizeof(real), char);
     array_sort(place, p->n, sizeof *place, compare_places);
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
-        for (int k = 0; k < f->count(p->dim, optional); k++) permute(get(p, f, k), f->size, place, p->n, scratch);
+        for (int k = 0; k < f->count(p->dim, optional_arrays); k++)
+            permute(get(p, f, k), f->size, place, p->n, scratch);
     memory_free(scratch);
     memory_free(place);
     particles_update_lists(p);
@@ -316,10 +318,10 @@ struct position_text particle_position_text(const struct particles *p, int64_t i
     return position_text(X, p->dim, digits);
 }
 
-status particles_save_or_load(struct particles *p, int optional, struct archive *a)
+status particles_save_or_load(struct particles *p, int optional_arrays, struct archive *a)
 {
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
-        for (int k = 0; k < f->count(p->dim, optional) && (f->in_trials || a->scope == ARCHIVE_ALL); k++) {
+        for (int k = 0; k < f->count(p->dim, optional_arrays) && (f->in_trials || a->scope == ARCHIVE_ALL); k++) {
             char name[64];
             snprintf(name, sizeof name, "particles/%s%d", f->name, k);
             TRY(a->exchange(a, name, particle_field_array(p, f, k), (size_t)p->n_all * f->size));

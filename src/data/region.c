@@ -35,14 +35,14 @@ real region_support_bound(const struct region *r, const real *direction, int dim
     return most;
 }
 
-bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX])
+bool region_bounds(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX])
 {
     bool bounded = r->n > 0;
     for (int d = 0; d < dim; d++) {
         real along[DIM_MAX] = {0};
-        along[d] = -1, from[d] = -region_support_bound(r, along, dim);
-        along[d] = 1, to[d] = region_support_bound(r, along, dim);
-        if (!isfinite(from[d]) || !isfinite(to[d])) bounded = false;
+        along[d] = -1, lower[d] = -region_support_bound(r, along, dim);
+        along[d] = 1, upper[d] = region_support_bound(r, along, dim);
+        if (!isfinite(lower[d]) || !isfinite(upper[d])) bounded = false;
     }
     return bounded;
 }
@@ -50,20 +50,20 @@ bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[
 /* Returns the volume of the region inside the box from .. to [m^dim], estimated by the share of sample points inside
  * the region. The points are a Kronecker sequence with increments of the powers g^-1, g^-2, .. of the root g of
  * g^(dim+1) = g+1 (Roberts 2018). */
-real region_volume(const struct region *r, int dim, const real *from, const real *to)
+real region_volume(const struct region *r, int dim, const real *lower, const real *upper)
 {
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
     int64_t inside = 0;
     real volume = 1, share[DIM_MAX] = {0}, effort = 0;
     for (int k = 0; k < r->n; k++) effort += solid_query_cost(&r->solid[k]);
     const int points = effort < 100 ? 1 << 18 : 1 << 16;
-    for (int d = 0; d < dim; d++) share[d] = pow(root[dim], -(d + 1)), volume *= to[d] - from[d];
+    for (int d = 0; d < dim; d++) share[d] = pow(root[dim], -(d + 1)), volume *= upper[d] - lower[d];
 #pragma omp parallel for schedule(static) reduction(+ : inside)
     for (int k = 0; k < points; k++) {
         real X[DIM_MAX] = {0};
         for (int d = 0; d < dim; d++) {
             const real at = 0.5 + (k + 1) * share[d];
-            X[d] = from[d] + (at - floor(at)) * (to[d] - from[d]);
+            X[d] = lower[d] + (at - floor(at)) * (upper[d] - lower[d]);
         }
         inside += region_contains(r, X, dim, 0);
     }
@@ -165,19 +165,19 @@ static real table_steepest(const struct time_function *f, real t)
     return most;
 }
 
-real time_function_largest_slope(const struct time_function *f, real t)
+real time_function_largest_slope(const struct time_function *f, real t_end)
 {
     static const real pi = 3.14159265358979323846;
-    const bool meets = f->from < t && f->until > 0;
+    const bool meets = f->from < t_end && f->until > 0;
     switch (f->kind) {
     case TIME_STEP:
-        return (f->from > 0 && f->from <= t) || (f->until > 0 && f->until <= t) ? INFINITY : 0;
+        return (f->from > 0 && f->from <= t_end) || (f->until > 0 && f->until <= t_end) ? INFINITY : 0;
     case TIME_PULSE:
         return meets ? pi / (f->until - f->from) : 0;
     case TIME_RAMP:
         return meets ? 1 / (f->until - f->from) : 0;
     case TIME_TABLE:
-        return table_steepest(f, t);
+        return table_steepest(f, t_end);
     default:
         return 0;
     }
@@ -306,7 +306,7 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
     return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
 }
 
-bool crack_may_cut_near(const struct crack *c, const real *X, real reach, int dim)
+bool crack_may_cut_near(const struct crack *c, const real *X, real bond_length, int dim)
 {
     real far = -INFINITY,
          size = 0; /* distance from the bounding box of its corners; all tolerances are below size/1e9 */
@@ -316,7 +316,7 @@ bool crack_may_cut_near(const struct crack *c, const real *X, real reach, int di
         far = real_max(far, real_max(low - X[d], X[d] - high));
         size = real_max(size, high - low);
     }
-    const real most = reach * (1 + 1e-6) + 1e-6 * size;
+    const real most = bond_length * (1 + 1e-6) + 1e-6 * size;
     struct crack_plane plane;
     if (far > most) return false;
     return dim == 1 || (crack_plane(c, X, X, dim, &plane) && fabs(region_height(c, &plane, X, dim)) <= most);
@@ -335,11 +335,11 @@ struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real 
     return (struct wave_state){velocity, w->velocity / c * radius * 0.5 * root_of_pi * erfc(xi), -velocity / c};
 }
 
-real segment_distance(const real *from, const real *to, const real *X, int dim)
+real segment_distance(const real *from, const real *to, const real *point, int dim)
 {
     real along = 0, length2 = 0, r2 = 0;
-    for (int d = 0; d < dim; d++) along += (X[d] - from[d]) * (to[d] - from[d]), length2 += square(to[d] - from[d]);
+    for (int d = 0; d < dim; d++) along += (point[d] - from[d]) * (to[d] - from[d]), length2 += square(to[d] - from[d]);
     along = length2 > 0 ? real_max(0, real_min(1, along / length2)) : 0;
-    for (int d = 0; d < dim; d++) r2 += square(X[d] - from[d] - along * (to[d] - from[d]));
+    for (int d = 0; d < dim; d++) r2 += square(point[d] - from[d] - along * (to[d] - from[d]));
     return sqrt(r2);
 }

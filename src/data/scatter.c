@@ -3,17 +3,17 @@
 
 #include <math.h>
 
-/* Returns the quantile of the standard normal distribution for the probability u, by algorithm AS 241 (PPND7) of
- * Wichura 1988, with seven digits. */
-real normal_quantile(real u)
+/* Returns the quantile of the standard normal distribution for the probability `probability`, by algorithm AS 241
+ * (PPND7) of Wichura 1988, with seven digits. */
+real normal_quantile(real probability)
 {
-    const real q = u - 0.5;
+    const real q = probability - 0.5;
     if (fabs(q) <= 0.425) {
         const real r = 0.180625 - q * q;
         return q * (((59.109374720 * r + 159.29113202) * r + 50.434271938) * r + 3.3871327179) /
                (((67.187563600 * r + 78.757757664) * r + 17.895169469) * r + 1);
     }
-    real r = sqrt(-log(q < 0 ? u : 1 - u)), x;
+    real r = sqrt(-log(q < 0 ? probability : 1 - probability)), x;
     if (r <= 5) {
         r -= 1.6;
         x = (((0.17023821103 * r + 1.3067284816) * r + 2.7568153900) * r + 1.4234372777) /
@@ -42,9 +42,9 @@ static int64_t weights_along(real place, real weight[NODES])
     return first;
 }
 
-real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, int64_t id)
+real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
 {
-    if (!(s->length > 0)) return noise_of(hash_add_word(hash_add_word(s->seed, 0), (uint64_t)id));
+    if (!(s->length > 0)) return noise_of(hash_add_word(hash_add_word(s->seed, 0), (uint64_t)particle_id));
     real weight[DIM_MAX][NODES] = {{1}, {1}, {1}}, sum = 0, squares = 1;
     int64_t first[DIM_MAX] = {0};
     for (int d = 0; d < dim; d++) {
@@ -80,10 +80,10 @@ static real lognormal_of(real g, real variation)
     return exp(sqrt(spread2) * g - 0.5 * spread2);
 }
 
-real scatter_factor(const struct strength_scatter *s, const real *X, int dim, int64_t id)
+real scatter_factor(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
 {
     if (!s->given) return 1;
-    const real g = scatter_gaussian(s, X, dim, id);
+    const real g = scatter_gaussian(s, X, dim, particle_id);
     const real factor = s->form == SCATTER_WEIBULL ? weibull_of(g, s->modulus) : lognormal_of(g, s->variation);
     return s->of == SCATTER_ENERGY ? sqrt(factor) : factor;
 }

@@ -58,12 +58,12 @@ static real area_to(const struct softening_curve *c, real x)
     return area;
 }
 
-real softening_spent(const struct softening_curve *c, real onset, real end, real most)
+real softening_spent(const struct softening_curve *c, real onset, real end, real largest_stretch)
 {
-    const real x = real_min(1, (most - onset) / (end - onset));
+    const real x = real_min(1, (largest_stretch - onset) / (end - onset));
     if (!(x > 0)) return 0;
     const real force = onset * softening_level(c, x);
-    return 0.5 * square(onset) + onset * (end - onset) * area_to(c, x) - 0.5 * force * real_min(most, end);
+    return 0.5 * square(onset) + onset * (end - onset) * area_to(c, x) - 0.5 * force * real_min(largest_stretch, end);
 }
 
 /* ---- uniform strain ---------------------------------------------------------------------------------------------- */
@@ -177,9 +177,9 @@ static real peak(const struct directions *a, real (*stress)(const struct directi
     return most;
 }
 
-struct softening_strength softening_strength_of(const struct softening_curve *c, enum space space, real kappa)
+struct softening_strength softening_strength_of(const struct softening_curve *c, enum space space, real squared_ratio)
 {
-    const struct directions a = {c, space, (kappa - 1) / (2 * c->area)};
+    const struct directions a = {c, space, (squared_ratio - 1) / (2 * c->area)};
     return (struct softening_strength){peak(&a, tension_at), peak(&a, biaxial_at), peak(&a, shear_at)};
 }
 

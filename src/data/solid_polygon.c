@@ -234,10 +234,10 @@ static enum polygon_fault bends_make(struct polygon *p, int *corner)
     return fault;
 }
 
-enum polygon_fault polygon_make(struct polygon *p, int *corner)
+enum polygon_fault polygon_make(struct polygon *p, int *faulty_corner)
 {
     real twice_area = 0, size2 = 0;
-    enum polygon_fault fault = polygon_check(p, corner);
+    enum polygon_fault fault = polygon_check(p, faulty_corner);
     if (fault != POLYGON_FINE) return fault;
     for (int k = 0; k < p->n; k++) {
         real one[2], two[2];
@@ -248,7 +248,7 @@ enum polygon_fault polygon_make(struct polygon *p, int *corner)
     }
     if (!(fabs(twice_area) > 1e-12 * size2)) return POLYGON_FLAT;
     p->sense = twice_area > 0 ? 1 : -1;
-    return p->round > 0 ? bends_make(p, corner) : POLYGON_FINE;
+    return p->round > 0 ? bends_make(p, faulty_corner) : POLYGON_FINE;
 }
 
 /* ---- ellipsoids -------------------------------------------------------------------------------------------------- */

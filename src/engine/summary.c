@@ -153,7 +153,7 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     fputs("\n}\n", file);
 }
 
-status summary_write(const struct run *e, status s, int threads)
+status summary_write(const struct run *e, status end_status, int threads)
 {
     char message[1024], *text = NULL;
     size_t length = 0;
@@ -166,13 +166,13 @@ status summary_write(const struct run *e, status s, int threads)
     }
     FILE *file = memory_stream_open(&text, &length);
     if (!file) return status_set(FAILED, "cannot write summary.json: out of memory");
-    summary_print(file, e, &fragments, s, message, threads);
+    summary_print(file, e, &fragments, end_status, message, threads);
     fragments_free(&fragments);
     const bool whole = fclose(file) == 0;
     status written = whole ? output_write_text(e->report->out, "summary.json", text, length)
                            : status_set(FAILED, "cannot write summary.json: out of memory");
     free(text);
     /* the cause of a failed run has precedence over a failure to write its summary */
-    if (written != OK && s != OK) return status_set(s, "%s", message);
+    if (written != OK && end_status != OK) return status_set(end_status, "%s", message);
     return written;
 }

@@ -9,19 +9,19 @@
 
 #define AT_THE_TIP 1e-9 /* tolerance of positions at the tip or on the crack [outer radius] */
 
-void sif_weight_function(enum sif_weight form, const struct contour *c, real r, real *q, real *slope)
+void sif_weight_function(enum sif_weight form, const struct contour *c, real distance, real *weight, real *slope)
 {
-    const real width = c->outer - c->inner, z = real_max(0, real_min(1, (r - c->inner) / width));
-    const bool ramp = r > c->inner && r < c->outer;
+    const real width = c->outer - c->inner, z = real_max(0, real_min(1, (distance - c->inner) / width));
+    const bool ramp = distance > c->inner && distance < c->outer;
     switch (form) {
     case SIF_LINEAR:
-        *q = 1 - z, *slope = -1;
+        *weight = 1 - z, *slope = -1;
         break;
     case SIF_CUBIC:
-        *q = 1 - z * z * (3 - 2 * z), *slope = -6 * z * (1 - z);
+        *weight = 1 - z * z * (3 - 2 * z), *slope = -6 * z * (1 - z);
         break;
     default:
-        *q = 1 - z * z * z * (10 - 15 * z + 6 * z * z), *slope = -30 * square(z * (1 - z));
+        *weight = 1 - z * z * z * (10 - 15 * z + 6 * z * z), *slope = -30 * square(z * (1 - z));
         break;
     }
     *slope = ramp ? *slope / width : 0;
@@ -58,13 +58,13 @@ static real disc_density(const struct crack_state *a, const struct crack_state *
 }
 
 real sif_integrand(const struct sif_tip *tip, const struct contour *c, const real x[2],
-                   const struct crack_state *actual, const struct crack_state *auxiliary, real inside)
+                   const struct crack_state *actual, const struct crack_state *auxiliary, real inertia_factor)
 {
     const real r = hypot(x[0], x[1]), n[2] = {x[0] / r, x[1] / r};
     real q, slope, sum = 0;
     sif_weight_function(tip->weight, c, r, &q, &slope);
     if (slope != 0) sum += slope * ring_density(actual, auxiliary, tip->medium.density, n);
-    if (inside > 0 && q > 0) sum += inside * q * disc_density(actual, auxiliary, tip->medium.density);
+    if (inertia_factor > 0 && q > 0) sum += inertia_factor * q * disc_density(actual, auxiliary, tip->medium.density);
     return sum;
 }
 
@@ -220,21 +220,21 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int n, const struct sif_motion *motion,
-                   const struct gradient_rule *rule, const struct particles *p, const struct cells *c,
-                   struct sif *found)
+void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int contours,
+                   const struct sif_motion *motion, const struct gradient_rule *rule, const struct particles *p,
+                   const struct cells *c, struct sif *result)
 {
     struct sif_points s = {.tip = tip, .inner = motion->velocity[0] || motion->body[0]};
-    points_find(&s, contour, n, p);
+    points_find(&s, contour, contours, p);
     points_make(&s, motion, rule, p, c);
-    for (int k = 0; k < n; k++) {
+    for (int k = 0; k < contours; k++) {
         real sum[MODES + 1];
         s.contour = &contour[k];
         reproducible_sums(s.n, MODES + 1, points_block, &s, sum);
         for (int mode = 0; mode < MODES; mode++)
-            found[k].K[mode] =
+            result[k].K[mode] =
                 tip->medium.modulus * sum[mode] / (2 * crack_universal_function(&tip->medium, mode, tip->speed));
-        found[k].J = 0.5 * sum[MODES];
+        result[k].J = 0.5 * sum[MODES];
     }
     memory_free(s.particle);
     memory_free(s.point);
@@ -242,17 +242,18 @@ void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int
 
 /* ---- path independence ------------------------------------------------------------------------------------------- */
 
-/* Returns the largest relative difference between the results of n contours [1]: of K_I or K_II over |K|, or of J over
- * J, with means over the contours in the denominators; NAN if one of them is 0. found: n results of sif_integrate. */
-real sif_contour_spread(const struct sif *found, int n)
+/* Returns the largest relative difference between the results of `contours` contours [1]: of K_I or K_II over |K|, or
+ * of J over J, with means over the contours in the denominators; NAN if one of them is 0. result: `contours` results of
+ * sif_integrate. */
+real sif_contour_spread(const struct sif *result, int contours)
 {
     real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];
     for (int m = 0; m <= MODES; m++) {
         low[m] = INFINITY, high[m] = -INFINITY;
-        for (int k = 0; k < n; k++) {
-            const real value = m < MODES ? found[k].K[m] : found[k].J;
+        for (int k = 0; k < contours; k++) {
+            const real value = m < MODES ? result[k].K[m] : result[k].J;
             low[m] = real_min(low[m], value), high[m] = real_max(high[m], value);
-            mean[m] += value / n;
+            mean[m] += value / contours;
         }
         range[m] = high[m] - low[m];
     }

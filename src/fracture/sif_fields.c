@@ -95,12 +95,12 @@ static void wave_weights(const struct crack_medium *m, enum crack_mode mode, rea
         for (int w = 0; w < 2; w++) weight[i][w] = size * (mode == MODE_I ? one : two)[i][w];
 }
 
-void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
+void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
                             struct crack_field *f)
 {
     real a[2], weight[2][2], twice_along[2] = {0};
-    slownesses(m, v, a);
-    wave_weights(m, mode, v, a, weight);
+    slownesses(m, speed, a);
+    wave_weights(m, mode, speed, a, weight);
     memset(f, 0, sizeof *f);
     for (int w = 0; w < 2; w++) {
         const double complex z = x[0] + I * (a[w] * x[1]), root = csqrt(z), slope = 0.5 / root,
@@ -115,27 +115,28 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
         }
     }
     crack_hooke_stress(m, f->state.gradient, f->state.stress);
-    for (int i = 0; i < 2; i++) { /* steady in the moving frame: d/dt = -v d/dx1 */
-        f->state.velocity[i] = -v * f->state.gradient[i][0];
-        f->state.velocity_along[i] = -v * twice_along[i];
-        f->state.acceleration[i] = v * v * twice_along[i];
+    for (int i = 0; i < 2; i++) { /* steady in the moving frame: d/dt = -speed d/dx1 */
+        f->state.velocity[i] = -speed * f->state.gradient[i][0];
+        f->state.velocity_along[i] = -speed * twice_along[i];
+        f->state.acceleration[i] = speed * speed * twice_along[i];
     }
 }
 
-void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2], struct crack_field *f)
+void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
+                     struct crack_field *f)
 {
-    if (v < REST * m->shear_speed)
+    if (speed < REST * m->shear_speed)
         crack_tip_field_at_rest(m, mode, x, f);
     else
-        crack_tip_field_moving(m, mode, v, x, f);
+        crack_tip_field_moving(m, mode, speed, x, f);
 }
 
-real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real v)
+real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed)
 {
     real a[2];
-    if (v < REST * m->shear_speed) return 1;
-    slownesses(m, v, a);
-    return 4 * a[mode] * (1 - a[1] * a[1]) / ((m->kappa + 1) * crack_rayleigh_function(m, v));
+    if (speed < REST * m->shear_speed) return 1;
+    slownesses(m, speed, a);
+    return 4 * a[mode] * (1 - a[1] * a[1]) / ((m->kappa + 1) * crack_rayleigh_function(m, speed));
 }
 
 /* ---- growth at constant speed ------------------------------------------------------------------------------------ */
@@ -162,13 +163,13 @@ static real factor_exact(const struct crack_medium *m, real v)
     return (1 - v / m->rayleigh) / sqrt(1 - v / m->longitudinal) * exp(sum / pi);
 }
 
-real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real v)
+real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real speed)
 {
-    const real c_d = m->longitudinal, c_s = m->shear_speed, falling = 1 - v / m->rayleigh;
-    if (form == SPEED_EXACT) return factor_exact(m, v);
-    if (form == SPEED_APPROXIMATE) return falling / sqrt(1 - v / c_d);
+    const real c_d = m->longitudinal, c_s = m->shear_speed, falling = 1 - speed / m->rayleigh;
+    if (form == SPEED_EXACT) return factor_exact(m, speed);
+    if (form == SPEED_APPROXIMATE) return falling / sqrt(1 - speed / c_d);
     const real h = 2 / c_d * square(c_s / m->rayleigh) * (1 - square(c_s / c_d));
-    return falling / sqrt(1 - h * v);
+    return falling / sqrt(1 - h * speed);
 }
 
 real crack_speed_from_factor(const struct crack_medium *m, real factor, real max_speed)
@@ -183,10 +184,12 @@ real crack_speed_from_factor(const struct crack_medium *m, real factor, real max
     return 0.5 * (low + high);
 }
 
-real crack_sif_after_wave(const struct crack_medium *m, real stress, real age)
+real crack_sif_after_wave(const struct crack_medium *m, real stress, real time_since_arrival)
 {
     const real nu = m->poisson;
-    return age > 0 ? 2 * stress * sqrt(m->longitudinal * age * (1 - 2 * nu) / pi) / (1 - nu) : 0;
+    return time_since_arrival > 0
+               ? 2 * stress * sqrt(m->longitudinal * time_since_arrival * (1 - 2 * nu) / pi) / (1 - nu)
+               : 0;
 }
 
 /* ---- direction of growth ----------------------------------------------------------------------------------------- */

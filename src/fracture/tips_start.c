@@ -163,8 +163,8 @@ void tips_make(struct crack_tips *t, const struct particles *p, const struct cel
     memory_free(s.found);
 }
 
-void tips_exclude_precracks(struct crack_tips *t, const real *lost)
+void tips_exclude_precracks(struct crack_tips *t, const real *cut_fraction)
 {
     for (int64_t i = 0; i < t->count; i++)
-        if (lost[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;
+        if (cut_fraction[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;
 }

@@ -151,11 +151,11 @@ status exodus_read(struct element_mesh *m, struct source *file);
 status stl_read(struct element_mesh *m, struct source *file);
 
 /* Creates g, the surface of the body that the elements of m fill and the surfaces of its named sets. path: file, for
- * messages; scale: metres per unit of the file; fine: largest distance between a curved edge and its chords [m], NAN:
- * 1/256 of the largest sagitta. Middle nodes may be added to m. Returns REFUSED, with a message, if no element has the
- * dimension of the body, a 2D mesh is not plane, or curved edges need too many chords. */
+ * messages; scale: metres per unit of the file; max_chord_error: largest distance between a curved edge and its chords
+ * [m], NAN: 1/256 of the largest sagitta. Middle nodes may be added to m. Returns REFUSED, with a message, if no
+ * element has the dimension of the body, a 2D mesh is not plane, or curved edges need too many chords. */
 status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
-                              real fine);
+                              real max_chord_error);
 
 /* ---- faces of a surface (elements_curved.c) ---- */
 
@@ -194,9 +194,9 @@ void surface_builder_add_side(struct surface_builder *b, const int32_t *node, in
 void surface_builder_add_patch(struct surface_builder *b, const struct patch *p);
 
 /* Computes for surface b the sagitta below which edges count as straight, and in how many pieces each curved edge is
- * divided, such that chords are at most `fine` [m] from the curve (NAN: 1/256 of the largest sagitta). path: file, for
- * the message. Returns REFUSED, with a message, if too many pieces were needed. */
-status surface_builder_set_fineness(struct surface_builder *b, const char *path, real fine);
+ * divided, such that chords are at most `max_chord_error` [m] from the curve (NAN: 1/256 of the largest sagitta). path:
+ * file, for the message. Returns REFUSED, with a message, if too many pieces were needed. */
+status surface_builder_set_fineness(struct surface_builder *b, const char *path, real max_chord_error);
 
 /* Divides all sides with middle nodes stored in b into faces, curved ones into several, which adds nodes to the mesh.
  * remove_shared_sides: true first removes sides shared by two elements, as inside a body. */

@@ -260,13 +260,13 @@ static status check_plane(const struct element_mesh *m, const char *path)
 }
 
 status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
-                              real fine)
+                              real max_chord_error)
 {
     struct surface_builder b = {.m = m, .dim = dim, .scale = scale, .file_nodes = m->nodes};
     int32_t *node_of = NULL;
     TRY(body_dim_of(m, path, dim, &b.body_dim));
     if (dim == 2) TRY(check_plane(m, path));
-    TRY(surface_builder_set_fineness(&b, path, fine));
+    TRY(surface_builder_set_fineness(&b, path, max_chord_error));
     for (int64_t k = 0; k < m->elements; k++)
         if (element_dim[m->element[k].kind] == b.body_dim) builder_add_oriented(&b, &m->element[k]);
     builder_close(&b, &g->whole, true, &node_of);

@@ -36,7 +36,7 @@ static int pieces_for(real sagitta, real wanted, int most)
     return pieces > most ? most : pieces > 1 ? (int)pieces : 1;
 }
 
-status surface_builder_set_fineness(struct surface_builder *b, const char *path, real fine)
+status surface_builder_set_fineness(struct surface_builder *b, const char *path, real max_chord_error)
 {
     const struct element_mesh *m = b->m;
     const int most = b->dim == 3 ? PIECES_MOST_SPACE : PIECES_MOST_PLANE;
@@ -48,7 +48,7 @@ status surface_builder_set_fineness(struct surface_builder *b, const char *path,
             sagitta = real_max(sagitta, sagitta_of(m, e->node[edges->corner[c][0]], e->node[edges->corner[c][1]],
                                                    m->middle[e->middle + c]));
     }
-    b->sagitta = isnan(fine) ? SAGITTA_SHARE * sagitta : fine / b->scale;
+    b->sagitta = isnan(max_chord_error) ? SAGITTA_SHARE * sagitta : max_chord_error / b->scale;
     b->pieces = sagitta > 0 ? pieces_for(sagitta, b->sagitta, most) : 1;
     if (sagitta <= COARSE_MOST * b->sagitta * most * most && sagitta * b->scale < FARTHEST) return OK;
     return status_set(REFUSED,

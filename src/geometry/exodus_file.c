@@ -68,9 +68,9 @@ static status counts_read(struct exodus_file *f)
                         (long long)dim, (long long)f->nodes);
 }
 
-status exodus_open(struct exodus_file *f, const char *path, const char *text, int64_t length)
+status exodus_open(struct exodus_file *f, const char *path, const char *content, int64_t length)
 {
-    *f = (struct exodus_file){.path = path, .text = (const uint8_t *)text, .length = length, .hdf5 = -1};
+    *f = (struct exodus_file){.path = path, .text = (const uint8_t *)content, .length = length, .hdf5 = -1};
     status s = arrays_open(f);
     if (s == OK) s = counts_read(f);
     if (s != OK) exodus_close(f);
@@ -184,14 +184,14 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
     return OK;
 }
 
-status exodus_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t n, real **value)
+status exodus_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t count, real **value)
 {
-    return array_read(f, name, number, n, value, NULL);
+    return array_read(f, name, number, count, value, NULL);
 }
 
-status exodus_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t n, int64_t **value)
+status exodus_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t count, int64_t **value)
 {
-    return array_read(f, name, number, n, NULL, value);
+    return array_read(f, name, number, count, NULL, value);
 }
 
 status exodus_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
@@ -211,17 +211,17 @@ status exodus_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
     return OK;
 }
 
-void exodus_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t n, char *text)
+void exodus_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t rows, char *text)
 {
     char called[NAME_MAX_LENGTH], *all = NULL;
     struct exodus_array a;
     text[0] = '\0';
     name_numbered(called, name, number);
-    if (!array_find(f, called, &a) || a.type != EXODUS_CHAR || a.extent[0] != n) return;
+    if (!array_find(f, called, &a) || a.type != EXODUS_CHAR || a.extent[0] != rows) return;
     const int64_t length = a.extent[1];
     const char *from = f->hdf5 < 0 ? (const char *)f->text + a.at + row * length : NULL;
-    if (!from && n * length <= f->length * UNPACKED_MOST) {
-        all = NEW("exodus.names", n * length, char);
+    if (!from && rows * length <= f->length * UNPACKED_MOST) {
+        all = NEW("exodus.names", rows * length, char);
         if (exodus_hdf5_read(f, &a, NULL, NULL, all)) from = all + row * length;
     }
     if (from) snprintf(text, NAME_MAX_LENGTH, "%.*s", (int)length, from);
@@ -229,7 +229,8 @@ void exodus_name(const struct exodus_file *f, const char *name, int64_t number, 
     exodus_text_clean(text);
 }
 
-status exodus_block(const struct exodus_file *f, int64_t number, char *type, int64_t *elements, int64_t *nodes)
+status exodus_block(const struct exodus_file *f, int64_t number, char *type, int64_t *elements,
+                    int64_t *nodes_per_element)
 {
     char called[NAME_MAX_LENGTH];
     struct exodus_array a;
@@ -240,7 +241,7 @@ status exodus_block(const struct exodus_file *f, int64_t number, char *type, int
     if (!a.elements[0])
         return exodus_fault(f, "block %lld does not name the type of its elements (attribute elem_type of %s)",
                             (long long)number, called);
-    *elements = a.extent[0], *nodes = a.extent[1];
+    *elements = a.extent[0], *nodes_per_element = a.extent[1];
     memcpy(type, a.elements, NAME_MAX_LENGTH);
     for (char *c = type; *c; c++) *c = (char)toupper((unsigned char)*c);
     return OK;

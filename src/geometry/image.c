@@ -72,7 +72,8 @@ static void rows_flip(struct pages *p)
         }
 }
 
-status image_read(struct voxels *v, int files, char *const *path, int dim, const real *size, const real *from)
+status image_read(struct voxels *v, int files, char *const *path, int dim, const real *voxel_size,
+                  const real *lower_corner)
 {
     struct pages p = {0};
     const status result = files_read(&p, files, path, dim);
@@ -83,6 +84,6 @@ status image_read(struct voxels *v, int files, char *const *path, int dim, const
     }
     rows_flip(&p);
     *v = (struct voxels){.dim = dim, .n = {p.width, p.height, p.n}, .grey = p.grey};
-    for (int d = 0; d < dim; d++) v->size[d] = size[d], v->from[d] = from[d];
+    for (int d = 0; d < dim; d++) v->size[d] = voxel_size[d], v->from[d] = lower_corner[d];
     return OK;
 }

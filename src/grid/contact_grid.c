@@ -167,16 +167,16 @@ void grid_contact_make(struct grid_contact *c, int sides)
     c->dissipated = NEW("contact.taken", sides * sides, real);
 }
 
-void grid_contact_side_make(struct grid_contact_side *a, struct grid *g, const struct transfer_order *order,
+void grid_contact_side_make(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
                             const struct particles *p)
 {
-    *a = (struct grid_contact_side){.grid = g, .order = order};
-    for (int d = 0; d < DIM_MAX; d++) a->from[d] = INT32_MAX, a->to[d] = INT32_MIN; /* empty range */
+    *side = (struct grid_contact_side){.grid = g, .order = order};
+    for (int d = 0; d < DIM_MAX; d++) side->from[d] = INT32_MAX, side->to[d] = INT32_MIN; /* empty range */
     for (int32_t cell = 0; cell < order->cells; cell++)
         for (int d = 0; d < g->dim; d++) {
             const int64_t k = grid_cell_index_at(g, d, p->x[d][order->particle[order->cell_start[cell]]]);
-            if (k - 1 < a->from[d]) a->from[d] = k - 1;
-            if (k + 2 > a->to[d]) a->to[d] = k + 2;
+            if (k - 1 < side->from[d]) side->from[d] = k - 1;
+            if (k + 2 > side->to[d]) side->to[d] = k + 2;
         }
 }
 

@@ -23,11 +23,11 @@ static real between_particles(real anchor, real site, real spacing)
     return anchor + (steps - nearbyint(steps)) * spacing;
 }
 
-void grid_choose_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor)
+void grid_choose_anchor(const struct scene *s, const real *body_corner, const real *site, bool meshed, real *anchor)
 {
     for (int d = 0; d < s->dim; d++) {
-        anchor[d] = node_coordinate(s, d, from[d]);
-        if (meshed && anchor[d] == from[d]) anchor[d] = between_particles(anchor[d], site[d], s->spacing);
+        anchor[d] = node_coordinate(s, d, body_corner[d]);
+        if (meshed && anchor[d] == body_corner[d]) anchor[d] = between_particles(anchor[d], site[d], s->spacing);
     }
 }
 

@@ -78,15 +78,15 @@ static void update_active_points(struct run *e)
                              &e->grid->field[0].grid, &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
 }
 
-status grid_sort_points(struct run *e, bool *lost)
+status grid_sort_points(struct run *e, bool *not_finite)
 {
-    *lost = false;
+    *not_finite = false;
     if (e->part.n_free == 0 && !coupling_has_one_grid(e->coupling_kind)) {
         grid_coupled_clear(&e->grid->coupled, &e->part);
         return OK;
     }
     if (!e->grid->sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
-    TRY(points_sort(e->grid, &e->part, e->coupling_kind, lost));
+    TRY(points_sort(e->grid, &e->part, e->coupling_kind, not_finite));
     if (coupling_moves_by_grid(e->coupling_kind))
         grid_coupled_select(&e->grid->coupled, e->coupling_kind, &e->part, &e->grid->field[0].grid);
     return OK;

@@ -28,23 +28,24 @@ static void loads_list(struct loads *l, const struct particles *p)
         if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
 }
 
-status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
-                  real reach, int optional)
+status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
+                  real mirror_reach, int optional_arrays)
 {
-    INVARIANT(n <= BOUNDARIES_MAX);
+    INVARIANT(boundaries <= BOUNDARIES_MAX);
     memset(l, 0, sizeof *l);
-    l->n = n;
+    l->n = boundaries;
     l->spacing = spacing;
-    l->load = NEW("loads.load", n, struct load);
-    for (int b = 0; b < n; b++)
+    l->load = NEW("loads.load", boundaries, struct load);
+    for (int b = 0; b < boundaries; b++)
         TRY(status_prepend_location(boundary[b].place, load_find_particles(&l->load[b], &boundary[b], p, spacing)));
-    for (int b = 0; b < n; b++)
+    for (int b = 0; b < boundaries; b++)
         TRY(status_prepend_location(boundary[b].place,
-                                    load_find_pressure_faces(&l->load[b], boundary, n, b, p, spacing)));
-    for (int b = 0; b < n; b++) TRY(status_prepend_location(boundary[b].place, load_prepare_shares(&l->load[b], p)));
+                                    load_find_pressure_faces(&l->load[b], boundary, boundaries, b, p, spacing)));
+    for (int b = 0; b < boundaries; b++)
+        TRY(status_prepend_location(boundary[b].place, load_prepare_shares(&l->load[b], p)));
     TRY(absorbing_boundaries_check(l, p));
     loads_merge_equal_lists(l, p->dim);
-    TRY(loads_mirrors_make(l, p, reach, optional));
+    TRY(loads_mirrors_make(l, p, mirror_reach, optional_arrays));
     loads_list(l, p);
     return OK;
 }

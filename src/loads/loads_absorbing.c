@@ -185,11 +185,11 @@ void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velo
     loads_add_absorbed(l, &sum);
 }
 
-void loads_add_absorbed(struct loads *l, const struct absorbed *by)
+void loads_add_absorbed(struct loads *l, const struct absorbed *absorbed)
 {
-    l->absorbing.energy += by->energy;
-    l->absorbing.kick += by->kick;
-    for (int d = 0; d < DIM_MAX; d++) l->impulse[d] += by->impulse[d];
+    l->absorbing.energy += absorbed->energy;
+    l->absorbing.kick += absorbed->kick;
+    for (int d = 0; d < DIM_MAX; d++) l->impulse[d] += absorbed->impulse[d];
 }
 
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */

@@ -349,7 +349,7 @@ static bool faced_next(struct faced *f, const struct boundary *b, const struct p
 }
 
 void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
-                                  real spacing, face_particle_fn *found, void *context)
+                                  real spacing, face_particle_fn *visit, void *context)
 {
     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
         const struct columns *c = &f.columns;
@@ -357,7 +357,7 @@ void face_visit_surface_particles(const struct boundary *b, const struct particl
         for (int64_t column = 0; column < c->n; column++)
             for (int64_t k = c->start[column + 1]; (k = exposed_below(c, column, k, b, p, selected)) >= 0;)
                 if (p->body[c->order[k]] == f.body)
-                    found(context, c->order[k], area > 0 ? area : p->volume0[c->order[k]] / c->width);
+                    visit(context, c->order[k], area > 0 ? area : p->volume0[c->order[k]] / c->width);
     }
 }
 
@@ -371,7 +371,7 @@ void exposed_face_make(struct exposed_face *f, const struct boundary *b, const s
 }
 
 void face_mark_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                     uint8_t *taken)
+                     uint8_t *in_layer)
 {
     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
         const struct columns *c = &f.columns;
@@ -380,7 +380,7 @@ void face_mark_layer(const struct boundary *b, const struct particles *p, const 
             for (int64_t k = first; k >= 0; k = beneath(c, column, k, b, p)) {
                 const real deep = loads_columns_height(b, p, c->order[first]) - loads_columns_height(b, p, c->order[k]);
                 if (k != first && deep + 0.5 * c->width > b->depth + LOADS_TOLERANCE * spacing) break;
-                taken[c->order[k]] |= selected[c->order[k]];
+                in_layer[c->order[k]] |= selected[c->order[k]];
             }
         }
     }

@@ -33,24 +33,26 @@ struct prescribed_displacement prescribed_displacement_make(const struct boundar
     return s;
 }
 
-real prescribed_displacement_at(const struct prescribed_displacement *s, const real *X, int d)
+real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component)
 {
-    const struct boundary *b = s->boundary;
-    const struct expression *formula = &b->formula[d];
+    const struct boundary *b = prescribed->boundary;
+    const struct expression *formula = &b->formula[component];
     if (!b->rotates)
-        return s->factor * b->value[d] * (formula->n > 0 ? expression_evaluate(formula, X, s->dim, s->t) : 1);
-    real sum = b->centre[d] - X[d];
-    for (int k = 0; k < s->dim; k++) sum += s->turned[d * s->dim + k] * (X[k] - b->centre[k]);
+        return prescribed->factor * b->value[component] *
+               (formula->n > 0 ? expression_evaluate(formula, X, prescribed->dim, prescribed->t) : 1);
+    real sum = b->centre[component] - X[component];
+    for (int k = 0; k < prescribed->dim; k++)
+        sum += prescribed->turned[component * prescribed->dim + k] * (X[k] - b->centre[k]);
     return sum;
 }
 
-void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *u)
+void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *displacement)
 {
     const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, t);
     real X[DIM_MAX];
     particle_reference_position(p, l->particle[k], X);
     for (int d = 0; d < p->dim; d++)
-        u[d] = l->boundary->components >> d & 1 ? prescribed_displacement_at(&by, X, d) : 0;
+        displacement[d] = l->boundary->components >> d & 1 ? prescribed_displacement_at(&by, X, d) : 0;
 }
 
 status load_check_displacement_known(const struct boundary *b)
@@ -77,9 +79,9 @@ struct prescribed_motion prescribed_motion_make(const struct boundary *b, int di
     return s;
 }
 
-struct prescribed_motion loads_prescribed_motion(const struct loads *l, int which, int dim, real t, real dt)
+struct prescribed_motion loads_prescribed_motion(const struct loads *l, int number, int dim, real t, real dt)
 {
-    const struct boundary *b = l->load[which].boundary;
+    const struct boundary *b = l->load[number].boundary;
     return prescribed_motion_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
 }
 
@@ -95,21 +97,27 @@ static real rotation_increment(const struct prescribed_motion *s, const real *ar
     return sum;
 }
 
-real prescribed_velocity_at(const struct prescribed_motion *s, const real *X, int d, bool placed)
+real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,
+                            bool at_present_position)
 {
-    const struct boundary *b = s->boundary;
+    const struct boundary *b = motion->boundary;
     real arm[DIM_MAX] = {0}, increment = 0;
     if (b->displaces)
-        return (prescribed_displacement_at(&s->to, X, d) - prescribed_displacement_at(&s->from, X, d)) / s->dt;
+        return (prescribed_displacement_at(&motion->to, X, component) -
+                prescribed_displacement_at(&motion->from, X, component)) /
+               motion->dt;
     if (!b->rotates)
-        return s->factor * b->value[d] *
-               (b->formula[d].n > 0 ? expression_evaluate(&b->formula[d], X, s->dim, boundary_evaluation_time(b, s->t))
-                                    : 1);
-    for (int k = 0; k < s->dim; k++) arm[k] = X[k] - b->centre[k];
-    if (placed) return rotation_increment(s, arm, d) / s->dt;
-    for (int k = 0; k < s->dim; k++)
-        increment += (s->to.turned[d * s->dim + k] - s->from.turned[d * s->dim + k]) * arm[k];
-    return increment / s->dt;
+        return motion->factor * b->value[component] *
+               (b->formula[component].n > 0 ? expression_evaluate(&b->formula[component], X, motion->dim,
+                                                                  boundary_evaluation_time(b, motion->t))
+                                            : 1);
+    for (int k = 0; k < motion->dim; k++) arm[k] = X[k] - b->centre[k];
+    if (at_present_position) return rotation_increment(motion, arm, component) / motion->dt;
+    for (int k = 0; k < motion->dim; k++)
+        increment +=
+            (motion->to.turned[component * motion->dim + k] - motion->from.turned[component * motion->dim + k]) *
+            arm[k];
+    return increment / motion->dt;
 }
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
@@ -131,15 +139,15 @@ static real formula_speed(const struct load *l, const struct particles *p, int64
     return most;
 }
 
-real load_displacement_speed(const struct load *l, const struct particles *p, real t)
+real load_displacement_speed(const struct load *l, const struct particles *p, real t_end)
 {
     const struct boundary *b = l->boundary;
     const bool formula = b->formula[0].n + b->formula[1].n + b->formula[2].n > 0;
-    const real slope = time_function_largest_slope(&b->time, t), size = sqrt(dot(b->value, b->value, p->dim));
+    const real slope = time_function_largest_slope(&b->time, t_end), size = sqrt(dot(b->value, b->value, p->dim));
     real most = 0;
     if (!b->displaces || size == 0) return 0;
     if (!formula || isinf(slope)) return slope * size;
-    for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) most = real_max(most, formula_speed(l, p, k, t));
+    for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) most = real_max(most, formula_speed(l, p, k, t_end));
     return most;
 }
 
@@ -159,23 +167,23 @@ static real velocity_jump_at(const struct load *l, const struct particles *p, in
     return l->boundary->rotates ? fabs(sqrt(driven2) - sqrt(own2)) : sqrt(jump2);
 }
 
-real load_velocity_jump(const struct load *l, const struct particles *p, real t)
+real load_velocity_jump(const struct load *l, const struct particles *p, real t_end)
 {
     const struct boundary *b = l->boundary;
     real most = 0;
     if (b->kind != BOUNDARY_VELOCITY || b->displaces) return 0;
     for (int m = 0; m < MOMENTS + b->time.n; m++) {
-        const real at = m < MOMENTS ? t * m / (MOMENTS - 1) : b->time.t[m - MOMENTS];
-        if (!(at >= 0 && at <= t)) continue;
-        const struct prescribed_motion by = prescribed_motion_make(b, p->dim, at, t / MOMENTS);
+        const real at = m < MOMENTS ? t_end * m / (MOMENTS - 1) : b->time.t[m - MOMENTS];
+        if (!(at >= 0 && at <= t_end)) continue;
+        const struct prescribed_motion by = prescribed_motion_make(b, p->dim, at, t_end / MOMENTS);
         for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) most = real_max(most, velocity_jump_at(l, p, k, &by));
     }
     return most;
 }
 
-real load_driven_speed(const struct load *l, const struct particles *p, real t)
+real load_driven_speed(const struct load *l, const struct particles *p, real t_end)
 {
-    return l->boundary->displaces ? load_displacement_speed(l, p, t) : load_velocity_jump(l, p, t);
+    return l->boundary->displaces ? load_displacement_speed(l, p, t_end) : load_velocity_jump(l, p, t_end);
 }
 
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
@@ -198,16 +206,16 @@ static real velocity_change_at(const struct load *l, const struct particles *p, 
     return l->boundary->rotates ? fabs(sqrt(now2) - sqrt(then2)) : sqrt(change2);
 }
 
-real load_velocity_change(const struct load *l, const struct particles *p, real t, real within)
+real load_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span)
 {
     const struct boundary *b = l->boundary;
-    const real step = t / (MOMENTS - 1), dt = 0.02 * real_max(within, step);
+    const real step = t_end / (MOMENTS - 1), dt = 0.02 * real_max(time_span, step);
     real most = 0;
     for (int m = 0; m < MOMENTS + b->time.n; m++) {
         const real moment = m < MOMENTS ? step * m : b->time.t[m - MOMENTS];
-        const real at = real_min(moment, t - 0.5 * dt); /* displacements by formulas stay constant after the end */
-        if (!(moment >= 0 && moment <= t)) continue;
-        real lag = real_max(within, step);
+        const real at = real_min(moment, t_end - 0.5 * dt); /* displacements by formulas stay constant after the end */
+        if (!(moment >= 0 && moment <= t_end)) continue;
+        real lag = real_max(time_span, step);
         for (int n = 0; n < LAGS; n++, lag *= 0.6) {
             const struct prescribed_motion by[] = {prescribed_motion_make(b, p->dim, at - lag, dt),
                                                    prescribed_motion_make(b, p->dim, at, dt)};
@@ -218,14 +226,14 @@ real load_velocity_change(const struct load *l, const struct particles *p, real 
     return most;
 }
 
-real loads_velocity_difference(const struct load *a, const struct load *b, const struct particles *p, real t)
+real loads_velocity_difference(const struct load *a, const struct load *b, const struct particles *p, real t_end)
 {
     const unsigned both = a->boundary->components & b->boundary->components;
     real most = 0;
     if (both == 0 || a->n == 0 || b->n == 0) return 0;
     if (boundary_motion_varies_in_space(a->boundary) || boundary_motion_varies_in_space(b->boundary)) return INFINITY;
     for (int m = 0; m < MOMENTS; m++) {
-        const real at = t * m / (MOMENTS - 1), dt = t / MOMENTS;
+        const real at = t_end * m / (MOMENTS - 1), dt = t_end / MOMENTS;
         const struct prescribed_motion by[] = {prescribed_motion_make(a->boundary, p->dim, at, dt),
                                                prescribed_motion_make(b->boundary, p->dim, at, dt)};
         real X[2][DIM_MAX], apart2 = 0;

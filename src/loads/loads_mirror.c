@@ -132,18 +132,18 @@ static status mirrors_apart(const struct boundary *b, int n, real reach, real sp
     return OK;
 }
 
-status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional)
+status loads_mirrors_make(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays)
 {
     const struct boundary *boundary = l->n ? l->load[0].boundary : NULL;
-    TRY(mirrors_apart(boundary, l->n, reach, l->spacing));
-    for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, reach, d);
+    TRY(mirrors_apart(boundary, l->n, mirror_reach, l->spacing));
+    for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, mirror_reach, d);
     for (int b = 0; b < l->n; b++) {
         if (boundary[b].kind != BOUNDARY_MIRROR) continue;
         TRY(status_prepend_location(boundary[b].place, mirror_checked(&boundary[b], p, l->spacing)));
         l->load[b].outside = mirror_outside(&boundary[b], p);
-        mirror_make(l, b, p, reach, optional);
+        mirror_make(l, b, p, mirror_reach, optional_arrays);
     }
-    l->reach = reach;
+    l->reach = mirror_reach;
     loads_update_images(l, p);
     return OK;
 }

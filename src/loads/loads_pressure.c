@@ -44,13 +44,13 @@ static void end_found(void *context, int32_t i, real area)
     if (!is_mirrored(e, i)) e->found(e->context, i, e->boundary->face, e->boundary->side, area);
 }
 
-void pressure_visit_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
-                          const uint8_t *selected, pressure_face_fn *found, void *context)
+void pressure_visit_faces(const struct boundary *boundary, int boundaries, int number, const struct particles *p,
+                          real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context)
 {
-    struct boundary one = all[which];
+    struct boundary one = boundary[number];
     for (one.face = 0; one.face < p->dim; one.face++)
         for (one.side = -1; one.side <= 1; one.side += 2) {
-            struct ends e = {&one, all, n, p, spacing, found, context};
+            struct ends e = {&one, boundary, boundaries, p, spacing, visit, context};
             face_visit_surface_particles(&one, p, selected, spacing, end_found, &e);
         }
 }
@@ -100,10 +100,10 @@ static bool pressure_shares(struct load *l, struct particles *p, real *const *ar
     return l->n > 0;
 }
 
-status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
-                                real spacing)
+status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int number,
+                                struct particles *p, real spacing)
 {
-    const struct boundary *b = &boundary[which];
+    const struct boundary *b = &boundary[number];
     const bool follows = b->follow && p->dim > 1; /* in 1D there is nothing to follow */
     real *area[DIM_MAX] = {NULL};
     struct surface_faces faces = {0};
@@ -113,11 +113,11 @@ status load_find_pressure_faces(struct load *l, const struct boundary *boundary,
     const bool any = load_mark_particles_in_region(b, p, spacing, selected);
     for (int d = 0; d < p->dim; d++) area[d] = NEW("loads.area", p->n, real);
     struct pressed pressed = {area, follows ? &faces : NULL};
-    if (any) pressure_visit_faces(boundary, n, which, p, spacing, selected, face_pressed, &pressed);
+    if (any) pressure_visit_faces(boundary, boundaries, number, p, spacing, selected, face_pressed, &pressed);
     if (!any)
         s = status_set(REFUSED, "boundary %s: no particle is in its region", b->name);
     else if (follows)
-        s = load_surface_make(l, &faces, boundary, n, p, spacing);
+        s = load_surface_make(l, &faces, boundary, boundaries, p, spacing);
     else if (!pressure_shares(l, p, area))
         s = status_set(REFUSED,
                        "boundary %s: no particle in its region has a free face; let the region hold some of "

@@ -59,12 +59,12 @@ static bool needs_face(const struct boundary *b)
            (b->kind == BOUNDARY_VELOCITY && b->side != 0);
 }
 
-void load_set_particles(struct load *l, const uint8_t *taken, struct particles *p)
+void load_set_particles(struct load *l, const uint8_t *selected, struct particles *p)
 {
-    for (int64_t i = 0; i < p->n; i++) l->n += taken[i] > 0;
+    for (int64_t i = 0; i < p->n; i++) l->n += selected[i] > 0;
     l->particle = NEW("loads.particle", l->n, int32_t);
     for (int64_t i = 0, k = 0; i < p->n; i++) {
-        if (!taken[i]) continue;
+        if (!selected[i]) continue;
         l->particle[k++] = (int32_t)i;
         if (l->boundary->kind == BOUNDARY_VELOCITY) p->flag[i] |= FLAG_DRIVEN;
     }

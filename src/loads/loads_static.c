@@ -6,21 +6,21 @@
 
 #define ROUND_OFF 1e-12 /* share of the largest possible moment below which a moment counts as 0 */
 
-void loads_make_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration,
-                                  real ramp_time)
+void loads_make_static_boundaries(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
+                                  real duration, real ramp_time)
 {
-    for (int b = 0; b < n; b++) {
+    for (int b = 0; b < boundaries; b++) {
         real factor = 1;
-        to[b] = from[b];
-        to[b].frozen = true, to[b].frozen_at = duration;
-        if (boundary_applies_force(&from[b]) || from[b].displaces) {
-            factor = time_function_value(&from[b].time, duration);
-            to[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp_time};
-        } else if (from[b].kind == BOUNDARY_VELOCITY) {
-            factor = time_function_integral(&from[b].time, duration) / ramp_time;
-            to[b].time = (struct time_function){.kind = TIME_STEP, .until = ramp_time};
+        static_boundary[b] = boundary[b];
+        static_boundary[b].frozen = true, static_boundary[b].frozen_at = duration;
+        if (boundary_applies_force(&boundary[b]) || boundary[b].displaces) {
+            factor = time_function_value(&boundary[b].time, duration);
+            static_boundary[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp_time};
+        } else if (boundary[b].kind == BOUNDARY_VELOCITY) {
+            factor = time_function_integral(&boundary[b].time, duration) / ramp_time;
+            static_boundary[b].time = (struct time_function){.kind = TIME_STEP, .until = ramp_time};
         }
-        for (int d = 0; d < DIM_MAX; d++) to[b].value[d] = factor * from[b].value[d];
+        for (int d = 0; d < DIM_MAX; d++) static_boundary[b].value[d] = factor * boundary[b].value[d];
     }
 }
 
@@ -39,7 +39,7 @@ static real static_displacement(const struct prescribed_displacement *by, const 
 }
 
 void static_displacements_compute(struct loads *l, const struct particles *p, real ramp_time, real *const *displacement,
-                                  uint8_t *held)
+                                  uint8_t *driven_components)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
@@ -52,7 +52,7 @@ void static_displacements_compute(struct loads *l, const struct particles *p, re
             for (int64_t k = 0; k < load->n; k++) {
                 const int32_t i = load->particle[k];
                 sum += displacement[d][i] = static_displacement(&by, load, p, k, d);
-                held[i] |= (uint8_t)(1 << d);
+                driven_components[i] |= (uint8_t)(1 << d);
             }
             load->displacement[d] = boundary_motion_varies_in_space(b) && load->n > 0
                                         ? sum / (real)load->n

@@ -383,10 +383,10 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     memory_free(all);
 }
 
-status load_surface_make(struct load *l, const struct surface_faces *faces, const struct boundary *all, int n,
-                         struct particles *p, real spacing)
+status load_surface_make(struct load *l, const struct surface_faces *faces, const struct boundary *all_boundaries,
+                         int boundaries, struct particles *p, real spacing)
 {
-    struct sites s = {.p = p, .all = all, .boundaries = n, .spacing = spacing};
+    struct sites s = {.p = p, .all = all_boundaries, .boundaries = boundaries, .spacing = spacing};
     if (faces->n == 0)
         return status_set(REFUSED,
                           "boundary %s: no particle in its region has a free face; let the region hold some "

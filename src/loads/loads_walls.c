@@ -247,16 +247,16 @@ static void constrained_walls(const struct constrained_set *s, struct grid *g, c
     }
 }
 
-void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *held, struct grid *g,
+void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                      const struct particles *p, const struct kernels *k, real half_width, real t,
                                      real dt)
 {
     struct driven_by by[BOUNDARIES_MAX];
     g->walls = 0;
     if (l->n == 0) return;
-    if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p, false);
+    if (!constrained_is_current(driven_nodes, g)) constrained_find(l, driven_nodes, g, NULL, p, false);
     driven_by_all(l, g->dim, t, dt, by);
-    constrained_walls(held, g, NULL, by, false);
+    constrained_walls(driven_nodes, g, NULL, by, false);
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
             driven_walls(l, b, g, &by[b], p);
@@ -312,10 +312,10 @@ void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const stru
     loads_add_mesh_dashpots(l, mesh, p);
 }
 
-void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set *held, struct grid *g,
+void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                    const struct particles *p)
 {
-    if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p, true);
+    if (!constrained_is_current(driven_nodes, g)) constrained_find(l, driven_nodes, g, NULL, p, true);
 }
 
 /* Replaces the walls (prescribed velocities) of g by those of the constrained set `held`, for the step of size dt about
@@ -329,10 +329,10 @@ static void reference_walls(const struct loads *l, const struct constrained_set 
     constrained_walls(held, g, mesh, by, true);
 }
 
-void loads_prescribe_level_velocities(const struct loads *l, const struct constrained_set *held, struct grid *g, real t,
-                                      real dt)
+void loads_prescribe_level_velocities(const struct loads *l, const struct constrained_set *driven_nodes, struct grid *g,
+                                      real t, real dt)
 {
-    reference_walls(l, held, g, NULL, t, dt);
+    reference_walls(l, driven_nodes, g, NULL, t, dt);
 }
 
 void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt)

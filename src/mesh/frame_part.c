@@ -103,7 +103,7 @@ void frame_find_exposed_points(struct reference_frame *r, const struct particles
     loads_find_driven_mesh_nodes(loads, &r->mesh, p);
 }
 
-status reference_frame_make(struct run *e, const struct mesh_source *cuts, bool motion_set_later)
+status reference_frame_make(struct run *e, const struct mesh_source *source, bool motion_set_later)
 {
     struct reference_frame *r = e->frame;
     const struct grid *g = &e->grid->field[0].grid;
@@ -111,10 +111,10 @@ status reference_frame_make(struct run *e, const struct mesh_source *cuts, bool 
     r->source = (struct mesh_source){.elastic = r->elastic,
                                      .isotropic = e->tables.elastic,
                                      .materials = e->scene->materials,
-                                     .partial = cuts->partial,
+                                     .partial = source->partial,
                                      .hollow = &r->hollow,
-                                     .slit = cuts->slit,
-                                     .slits = cuts->slits,
+                                     .slit = source->slit,
+                                     .slits = source->slits,
                                      .voids = grid_mirror_off_nodes(g, e->scene) ? NULL : e->source.voids,
                                      .mirror = e->source.mirror,
                                      .mirrors = e->source.mirrors,

@@ -43,19 +43,19 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
     return OK;
 }
 
-status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct particles *p,
+status levels_make(struct mesh_levels *l, int coarse_levels, struct mesh *fine, const struct particles *p,
                    const struct mesh_source *source, const real *density)
 {
     memset(l, 0, sizeof *l);
-    if (n == 0 || fine->points == 0) return OK;
-    l->n = n, l->fine = fine;
+    if (coarse_levels == 0 || fine->points == 0) return OK;
+    l->n = coarse_levels, l->fine = fine;
     corner_find(l, p);
     l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t); /* with room for marks: mesh_cells_update */
     l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
     l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
     l->safe = NEW("levels.safe", fine->grid.n, uint8_t);
     fine->level = l->level;
-    for (int level = 1; level <= n; level++) TRY(level_make(l, level, source, density));
+    for (int level = 1; level <= coarse_levels; level++) TRY(level_make(l, level, source, density));
     levels_classify_cells(l);
     return OK;
 }

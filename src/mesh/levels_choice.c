@@ -260,18 +260,18 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t capaci
 }
 
 bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
-                               char *text, size_t capacity)
+                               char *reason, size_t capacity)
 {
     char load[256], want[160];
     int levels = c->rise.pulse ? 0 : CARRIED_BY_ANY;
     const real most = edge_for(&c->rise, c->across, ACROSS_LEAST);
     while (levels < LEVELS_MAX && (real)(4 << levels) <= most * (1 + 1e-6)) levels++;
     if (!c->given) return false;
-    if (c->levels <= levels) return thin_text(r, text, capacity);
+    if (c->levels <= levels) return thin_text(r, reason, capacity);
     rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 2 << c->levels, ACROSS_LEAST, want, sizeof want);
     snprintf(
-        text, capacity,
+        reason, capacity,
         "mpm.levels: %d makes coarse cells of %d spacings, and %s: cells of this size %s; use mpm.levels: %d or auto",
         c->levels, 2 << c->levels, load, want, levels);
     return true;

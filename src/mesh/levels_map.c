@@ -125,17 +125,19 @@ static void level_map_find(struct level_map *map, const struct mesh_levels *l, i
     memory_free(inside);
 }
 
-void levels_coarsest_admissible(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand,
-                                const uint8_t *limit, uint8_t *to)
+void levels_coarsest_admissible(const struct mesh_levels *l, const struct particles *p, const uint8_t *finest_required,
+                                const uint8_t *highest_level, uint8_t *admissible)
 {
     struct level_map map[LEVELS_MAX + 1];
     int64_t k[DIM_MAX] = {0};
     for (int level = 0; level <= l->n; level++) map[level] = level_map_make(level_mesh_read_only(l, level)->grid.n);
-    base_map(&map[0], l, p, demand, limit);
+    base_map(&map[0], l, p, finest_required, highest_level);
     for (int level = 1; level <= l->n; level++) level_map_find(map, l, level);
     for (int64_t I = 0; I < l->fine->grid.n; I++, grid_indices_advance(&l->fine->grid, k)) {
-        to[I] = 0;
-        while (map[0].ok[I] && to[I] < l->n && map[to[I] + 1].ok[levels_coarse_cell(l, to[I] + 1, k, NULL)]) to[I]++;
+        admissible[I] = 0;
+        while (map[0].ok[I] && admissible[I] < l->n &&
+               map[admissible[I] + 1].ok[levels_coarse_cell(l, admissible[I] + 1, k, NULL)])
+            admissible[I]++;
     }
     for (int level = 0; level <= l->n; level++) memory_free(map[level].ok);
 }

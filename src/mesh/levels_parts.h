@@ -5,50 +5,54 @@
 #include "mesh/levels.h"
 #include "mesh_parts.h"
 
-/* Computes the indices k of node I along the axes of grid g, k[d] = 0 ... g->count[d] - 1; 0 for axes beyond g->dim. */
-static inline void grid_indices_of_node(const struct grid *g, int64_t I, int64_t *k)
+/* Computes the indices `index` of node `node` along the axes of grid g, index[d] = 0 ... g->count[d] - 1; 0 for axes
+ * beyond g->dim. */
+static inline void grid_indices_of_node(const struct grid *g, int64_t node, int64_t *index)
 {
-    for (int d = 0; d < DIM_MAX; d++) k[d] = d < g->dim ? I / g->stride[d] % g->count[d] : 0;
+    for (int d = 0; d < DIM_MAX; d++) index[d] = d < g->dim ? node / g->stride[d] % g->count[d] : 0;
 }
 
-/* Advances the indices k of a node along the axes of grid g to those of the next node, first axis fastest, for a loop
- * over all nodes that starts with k = 0. */
-static inline void grid_indices_advance(const struct grid *g, int64_t *k)
+/* Advances the indices `index` of a node along the axes of grid g to those of the next node, first axis fastest, for a
+ * loop over all nodes that starts with `index` = 0. */
+static inline void grid_indices_advance(const struct grid *g, int64_t *index)
 {
-    for (int d = 0; d < g->dim && ++k[d] == g->count[d]; d++) k[d] = 0;
+    for (int d = 0; d < g->dim && ++index[d] == g->count[d]; d++) index[d] = 0;
 }
 
-/* Returns the index of the cell of refinement level `level` that contains a cell of level 0 (the finest). k: indices of
- * the cell of level 0 along the axes; q: receives the indices of the coarse cell along the axes, NULL if not needed. */
-static inline int64_t levels_coarse_cell(const struct mesh_levels *l, int level, const int64_t *k, int64_t *q)
+/* Returns the index of the cell of refinement level `level` that contains a cell of level 0 (the finest). fine_index:
+ * indices of the cell of level 0 along the axes; coarse_index: receives the indices of the coarse cell along the axes,
+ * NULL if not needed. */
+static inline int64_t levels_coarse_cell(const struct mesh_levels *l, int level, const int64_t *fine_index,
+                                         int64_t *coarse_index)
 {
     const struct grid *g = &level_mesh_read_only(l, level)->grid;
     int64_t I = 0;
     for (int d = 0; d < g->dim; d++) {
-        const int64_t at = ((k[d] - l->offset[0][d]) >> level) + l->offset[level][d];
-        if (q) q[d] = at;
+        const int64_t at = ((fine_index[d] - l->offset[0][d]) >> level) + l->offset[level][d];
+        if (coarse_index) coarse_index[d] = at;
         I += at * g->stride[d];
     }
     return I;
 }
 
-/* Returns the index of the node of level 0 (the finest) at the position of a node of refinement level `level`. q:
- * indices of this node along the axes. */
-static inline int64_t levels_fine_node(const struct mesh_levels *l, int level, const int64_t *q)
+/* Returns the index of the node of level 0 (the finest) at the position of a node of refinement level `level`.
+ * coarse_index: indices of this node along the axes. */
+static inline int64_t levels_fine_node(const struct mesh_levels *l, int level, const int64_t *coarse_index)
 {
     const struct grid *g = &l->fine->grid;
     int64_t I = 0;
-    for (int d = 0; d < g->dim; d++) I += (((q[d] - l->offset[level][d]) << level) + l->offset[0][d]) * g->stride[d];
+    for (int d = 0; d < g->dim; d++)
+        I += (((coarse_index[d] - l->offset[level][d]) << level) + l->offset[0][d]) * g->stride[d];
     return I;
 }
 
 /* Returns true if a cell of level 0 (the finest) is the one at the lower corner of the cell of refinement level `level`
- * that contains it. k: indices of the cell of level 0 along the axes. */
-static inline bool levels_is_lowest_part(const struct mesh_levels *l, int level, const int64_t *k)
+ * that contains it. fine_index: indices of the cell of level 0 along the axes. */
+static inline bool levels_is_lowest_part(const struct mesh_levels *l, int level, const int64_t *fine_index)
 {
     bool lowest = true;
     for (int d = 0; d < l->fine->grid.dim; d++)
-        lowest = lowest && (k[d] - l->offset[0][d]) % ((int64_t)1 << level) == 0;
+        lowest = lowest && (fine_index[d] - l->offset[0][d]) % ((int64_t)1 << level) == 0;
     return lowest;
 }
 
@@ -68,27 +72,29 @@ static inline int64_t levels_fine_cell_of_part(const struct mesh_levels *l, int 
 }
 
 /* Returns true if one of the cells of level 0 (the finest) in a cell of refinement level `level` has a lower level in
- * `of`, an array with a level for each cell of level 0. first: index of the cell of level 0 at the lower corner. */
-static inline bool levels_any_part_is_finer(const struct mesh_levels *l, int level, int64_t first, const uint8_t *of)
+ * `cell_level`, an array with a level for each cell of level 0. first: index of the cell of level 0 at the lower
+ * corner. */
+static inline bool levels_any_part_is_finer(const struct mesh_levels *l, int level, int64_t first,
+                                            const uint8_t *cell_level)
 {
     bool any = false;
     for (int part = 0; part < levels_fine_cells_per_cell(l, level) && !any; part++)
-        any = of[levels_fine_cell_of_part(l, level, first, part)] < level;
+        any = cell_level[levels_fine_cell_of_part(l, level, first, part)] < level;
     return any;
 }
 
-/* Returns the material number of cell I of level 0 (the finest), which must be completely filled. If the particles of
- * the cell are not made, the body has only one material, and that one is returned. */
-static inline uint8_t cell_material(const struct mesh *fine, const struct particles *p, int64_t I)
+/* Returns the material number of cell `cell` of level 0 (the finest), which must be completely filled. If the particles
+ * of the cell are not made, the body has only one material, and that one is returned. */
+static inline uint8_t cell_material(const struct mesh *fine, const struct particles *p, int64_t cell)
 {
-    const int32_t i = fine->point[I << fine->grid.dim];
+    const int32_t i = fine->point[cell << fine->grid.dim];
     return p->material[i >= 0 ? i : 0];
 }
 
-/* Returns true if cell I of the mesh computes forces: it has points and is not replaced by a coarse cell. */
-static inline bool mesh_cell_computes_forces(const struct mesh *mesh, int64_t I)
+/* Returns true if cell `cell` of the mesh computes forces: it has points and is not replaced by a coarse cell. */
+static inline bool mesh_cell_computes_forces(const struct mesh *mesh, int64_t cell)
 {
-    return mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL;
+    return mesh->kind[cell] == CELL_WHOLE || mesh->kind[cell] == CELL_PARTIAL;
 }
 
 /* Copies displacement and velocity to the ghosts of a refinement level, the nodes at positions of nodes of the next

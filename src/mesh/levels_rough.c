@@ -41,7 +41,8 @@ static real departure(const struct mesh_levels *l, int level, const int64_t *q)
     return real_max(sum / nodes, 0.5 * fabs(squares));
 }
 
-bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level, real max_energy, uint8_t *limit)
+bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level, real max_energy,
+                               uint8_t *highest_level)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX];
@@ -54,7 +55,7 @@ bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level
         if (!(departure(l, level[I], q) > max_energy)) continue;
         any = true;
         for (int part = 0; part < levels_fine_cells_per_cell(l, level[I]); part++)
-            limit[levels_fine_cell_of_part(l, level[I], I, part)] = level[I] - 1;
+            highest_level[levels_fine_cell_of_part(l, level[I], I, part)] = level[I] - 1;
     }
     return any;
 }

@@ -83,23 +83,23 @@ static void ghosts_fold(struct mesh_levels *l, int level)
 }
 
 void levels_compute_forces(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
-                           int due)
+                           int highest_level)
 {
-    for (int level = 1; level <= due; level++) {
+    for (int level = 1; level <= highest_level; level++) {
         struct mesh *mesh = &l->at[level].mesh;
         if (mesh->points == 0) continue;
         ghosts_displace(l, level);
         mesh_clear(mesh);
         mesh_force(mesh, p, m, finite);
     }
-    for (int level = 1; level <= due + 1 && level <= l->n; level++) hanging_fold(l, level);
-    for (int level = 1; level <= due; level++) ghosts_fold(l, level);
+    for (int level = 1; level <= highest_level + 1 && level <= l->n; level++) hanging_fold(l, level);
+    for (int level = 1; level <= highest_level; level++) ghosts_fold(l, level);
 }
 
-real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int due, real impulse[DIM_MAX], real *work)
+real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX], real *work)
 {
     real most = 0;
-    for (int level = 0; level <= due; level++) {
+    for (int level = 0; level <= highest_level; level++) {
         struct mesh *mesh = level_mesh(l, level);
         const real longer = (real)(1 << level);
         if (mesh->points == 0) continue;

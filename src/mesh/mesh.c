@@ -235,7 +235,7 @@ void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struc
 /* Allocates all arrays of a mesh that covers the box from .. to [m], without points or cells. node_grid: dimension,
  * edge and origin of the nodes. p: particles whose slits divide cells and nodes; NULL: no slits. Returns REFUSED if the
  * mesh has too many nodes. */
-status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *from, const real *to,
+status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
                      const struct particles *p, const struct mesh_source *source)
 {
     struct grid *g = &mesh->grid;
@@ -243,12 +243,12 @@ status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real
     real high[DIM_MAX] = {0};
     bool changed;
     g->dim = dim, g->h = node_grid->h;
-    for (int d = 0; d < dim; d++) g->anchor[d] = node_grid->anchor[d], high[d] = to[d];
+    for (int d = 0; d < dim; d++) g->anchor[d] = node_grid->anchor[d], high[d] = upper[d];
     high[0] += LANES * g->h; /* whole vectors are read and written beyond the last cell of a row */
-    TRY(grid_extend_box(g, from, high, INT32_MAX >> dim, &changed));
+    TRY(grid_extend_box(g, lower, high, INT32_MAX >> dim, &changed));
     for (int c = 0; c < 1 << dim; c++)
         for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
-    if (p) TRY(mesh_slits_make(mesh, p, source, from, high));
+    if (p) TRY(mesh_slits_make(mesh, p, source, lower, high));
     for (int d = 0; d < dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
     mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
     mesh->kind = NEW("mesh.kind", g->n, uint8_t);

@@ -42,10 +42,10 @@ void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const 
 void mesh_partial_free(struct mesh *mesh);
 
 /* Finds the nodes that must be doubled because slits or voids of `source` separate the points around them, and extends
- * the box of nodes, which covers from ... to [m], by rows for the second nodes. Returns FAILED, with a message, if
- * there are too many nodes. Release with mesh_slits_free. */
-status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const real *from,
-                       const real *to);
+ * the box of nodes, which covers the range between the corners `lower` and `upper` [m], by rows for the second nodes.
+ * Returns FAILED, with a message, if there are too many nodes. Release with mesh_slits_free. */
+status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                       const real *lower, const real *upper);
 
 /* Connects the blocks of nodes at slits with the blocks of their second nodes, so that motion spreads from one to the
  * other. To be called after the blocks are made. */
@@ -98,17 +98,17 @@ void mesh_blocks_activate(struct mesh *mesh);
  * gradient is 0 or negative at one of its quarter points. */
 bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
 
-/* Allocates all arrays of a mesh that covers the box from ... to [m], without points or cells. node_grid: grid whose
- * anchor and cell size define the nodes; p, source: particles and the slits and voids that double nodes, p = NULL for
- * none. Returns FAILED, with a message, if there are too many nodes. */
-status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *from, const real *to,
+/* Allocates all arrays of a mesh that covers the box between the corners `lower` and `upper` [m], without points or
+ * cells. node_grid: grid whose anchor and cell size define the nodes; p, source: particles and the slits and voids that
+ * double nodes, p = NULL for none. Returns FAILED, with a message, if there are too many nodes. */
+status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
                      const struct particles *p, const struct mesh_source *source);
 
-/* Returns true if cell I of level 0 (the finest) is part of a coarse cell, by its refinement level or because its
+/* Returns true if cell `cell` of level 0 (the finest) is part of a coarse cell, by its refinement level or because its
  * particles are not made. */
-static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I)
+static inline bool cell_is_coarse(const struct mesh *mesh, int64_t cell)
 {
-    return (mesh->level && mesh->level[I] > 0) || (mesh->absent && mesh->absent[I]);
+    return (mesh->level && mesh->level[cell] > 0) || (mesh->absent && mesh->absent[cell]);
 }
 
 /* Allocates an array with a byte for each cell of the mesh, all 0, and some padding at its end. label: name of the

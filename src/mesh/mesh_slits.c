@@ -377,8 +377,8 @@ static status box_extend(struct grid *g, const real *from, const real *to, int64
     return grid_extend_box(g, from, far, INT32_MAX >> g->dim, &changed);
 }
 
-status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const real *from,
-                       const real *to)
+status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                       const real *lower, const real *upper)
 {
     const int64_t n = mesh->grid.n;
     status result = OK;
@@ -394,7 +394,7 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
     slits_divide(&m);
     const bool any = m.node.n > 0 || memchr(m.open, 1 << 0, (size_t)n) || memchr(m.open, 1 << 1, (size_t)n) ||
                      memchr(m.open, 1 << 2, (size_t)n); /* of several mirrors: a node is on one only */
-    if (any) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
+    if (any) result = box_extend(&mesh->grid, lower, upper, m.node.n > m.cell.n ? m.node.n : m.cell.n);
     if (any && result == OK) slits_tables_make(mesh, &m);
     memory_free(m.point);
     memory_free(m.piece);

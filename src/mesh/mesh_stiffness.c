@@ -139,7 +139,8 @@ static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *
     return false;
 }
 
-real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any)
+real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
+                        bool after_any_conversion)
 {
     const int dim = mesh->grid.dim, sets = 1 << (1 << dim);
     bool *there = NEW("mesh.there", sets, bool);
@@ -148,7 +149,7 @@ real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *sourc
             there[mesh_stiffness_places_of(mesh, mesh->partial_cell[k])] = true;
     real most = 0;
     for (int set = 1; set < sets; set++) {
-        if (!any && !there[set] && set != sets - 1) continue;
+        if (!after_any_conversion && !there[set] && set != sets - 1) continue;
         for (int m = 0; m < source->materials; m++)
             most = real_max(
                 most, cell_eigenvalue(&source->elastic[m], dim, mesh->grid.h, mesh->volume, density[m], (unsigned)set));

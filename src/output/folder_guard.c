@@ -32,7 +32,7 @@ static status entries_guard(const struct folder_kind *kind, const char *folder)
                       kind->what);
 }
 
-status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *text, bool *exists)
+status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *scene_text, bool *exists)
 {
     const struct path sign = path_join(folder, kind->sign);
     *exists = false;
@@ -44,6 +44,6 @@ status folder_check_writable(const struct folder_kind *kind, const char *folder,
                 REFUSED, "%s is a symbolic link, and a %s would remove and write files elsewhere; choose another -o",
                 inner.text, kind->what);
     }
-    *exists = path_is_file(sign.text) && kind->is_sign(sign.text, text);
+    *exists = path_is_file(sign.text) && kind->is_sign(sign.text, scene_text);
     return *exists ? OK : entries_guard(kind, folder);
 }

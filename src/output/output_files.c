@@ -161,7 +161,7 @@ status file_check_replaceable(const char *path)
     return status_set(REFUSED, "%s is read by this command and never written over; choose another -o", path);
 }
 
-status file_check_beginning(const char *path, const char *const *begin, size_t n)
+status file_check_beginning(const char *path, const char *const *beginning, size_t beginnings)
 {
     char first[64];
     bool ours = false;
@@ -169,9 +169,9 @@ status file_check_beginning(const char *path, const char *const *begin, size_t n
     if (fd < 0 && !path_exists(path)) return OK;
     const ssize_t have = fd < 0 ? 0 : read(fd, first, sizeof first);
     if (fd >= 0) close(fd);
-    for (size_t k = 0; k < n && have >= 0; k++) {
-        const size_t length = strlen(begin[k]);
-        ours |= strncmp(first, begin[k], (size_t)have < length ? (size_t)have : length) == 0;
+    for (size_t k = 0; k < beginnings && have >= 0; k++) {
+        const size_t length = strlen(beginning[k]);
+        ours |= strncmp(first, beginning[k], (size_t)have < length ? (size_t)have : length) == 0;
     }
     return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave; move or remove it", path);
 }
@@ -308,14 +308,14 @@ status folder_make(const char *path)
     return folder_make_one(part.text);
 }
 
-status files_visit(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
-                   file_visit_fn *each)
+status files_visit(const char *folder, bool (*chosen)(const char *name, const char *ending), const char *ending,
+                   file_visit_fn *visit)
 {
     status s = OK;
     DIR *d = path_is_link(folder) ? NULL : opendir(folder);
     if (!d) return OK;
     for (struct dirent *e; s == OK && (e = readdir(d));)
-        if (chosen(e->d_name, end)) s = each(path_join(folder, e->d_name).text);
+        if (chosen(e->d_name, ending)) s = visit(path_join(folder, e->d_name).text);
     closedir(d);
     return s;
 }

@@ -407,18 +407,18 @@ static status series_index(const struct output *o, struct frame_series *series)
     return s;
 }
 
-status output_index_drop_lost_frames(struct output *o, int *lost, char *text, size_t capacity)
+status output_index_drop_lost_frames(struct output *o, int *lost, char *message, size_t capacity)
 {
     *lost = 0;
     for (int k = 0; k <= o->n_series; k++) {
         if (o->series[k].frames == 0) continue;
-        series_check(o, &o->series[k], lost, text, capacity);
+        series_check(o, &o->series[k], lost, message, capacity);
         TRY(series_index(o, &o->series[k]));
     }
     if (*lost == 0) return OK;
-    const size_t used = strlen(text);
-    if (*lost > 1) snprintf(text + used, capacity - used, ", and %d frames more are lost", *lost - 1);
-    strncat(text, ": the indices leave out what is lost; a run of its own would make it again",
-            capacity - strlen(text) - 1);
+    const size_t used = strlen(message);
+    if (*lost > 1) snprintf(message + used, capacity - used, ", and %d frames more are lost", *lost - 1);
+    strncat(message, ": the indices leave out what is lost; a run of its own would make it again",
+            capacity - strlen(message) - 1);
     return OK;
 }

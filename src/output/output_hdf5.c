@@ -194,17 +194,17 @@ static hid_t table_list(struct hdf *f, const struct table *t)
     return good(f, H5Pset_shuffle(list)) && good(f, H5Pset_deflate(list, GZIP_LEVEL)) ? list : -1;
 }
 
-void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, int stored,
+void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, int stored_columns,
                      const void *data)
 {
     const hsize_t shape[2] = {(hsize_t)rows, (hsize_t)columns};
     const int64_t chunks = (rows + CHUNK_ROWS - 1) / CHUNK_ROWS;
-    struct table t = {.rank = columns > 1 ? 2 : 1, .rows = rows, .stored = (hsize_t)stored, .data = data};
+    struct table t = {.rank = columns > 1 ? 2 : 1, .rows = rows, .stored = (hsize_t)stored_columns, .data = data};
     hid_t list = -1;
     if (rows == 0) hdf_write_rows(f, name, type, rows, columns, data);
     if (!ready(f) || rows == 0) return;
     t.chunk = (rows + chunks - 1) / chunks;
-    t.native = hdf_native(type), t.number = hdf_type_size(type), t.row = (size_t)stored * t.number;
+    t.native = hdf_native(type), t.number = hdf_type_size(type), t.row = (size_t)stored_columns * t.number;
     if (columns == 1) array_copy(&t.fill, data, 1, t.number);
     (void)(good(f, t.space = H5Screate_simple(t.rank, shape, NULL)) && good(f, list = table_list(f, &t)) &&
            good(f, t.set = H5Dcreate2(f->file, name, t.native, t.space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
@@ -385,9 +385,9 @@ void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum
 
 /* ---- files of other programs ------------------------------------------------------------------------------------- */
 
-bool hdf_lies_inside(hid_t set)
+bool hdf_lies_inside(hid_t dataset)
 {
-    hid_t made = H5Dget_create_plist(set);
+    hid_t made = H5Dget_create_plist(dataset);
     const bool inside = H5Pget_layout(made) != H5D_VIRTUAL && H5Pget_external_count(made) == 0;
     H5Pclose(made);
     return inside;
@@ -399,11 +399,11 @@ bool hdf_is_linked(hid_t file, const char *name)
     return H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 && link.type != H5L_TYPE_HARD;
 }
 
-void hdf_read_text_attribute(hid_t file, const char *set, const char *name, char *text, size_t capacity)
+void hdf_read_text_attribute(hid_t file, const char *object, const char *name, char *text, size_t capacity)
 {
     text[0] = '\0';
-    if (H5Aexists_by_name(file, set, name, H5P_DEFAULT) <= 0) return;
-    hid_t held = H5Aopen_by_name(file, set, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(held);
+    if (H5Aexists_by_name(file, object, name, H5P_DEFAULT) <= 0) return;
+    hid_t held = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(held);
     char *long_text = NULL;
     if (H5Tget_class(type) == H5T_STRING && H5Aget_storage_size(held) > 0) {
         if (H5Tis_variable_str(type) > 0) {

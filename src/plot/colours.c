@@ -134,10 +134,11 @@ struct colour part_colour(int k)
     return turn[(size_t)k % COUNT_OF(turn)];
 }
 
-struct colour colour_faded(struct colour c, double share)
+struct colour colour_faded(struct colour c, double weight)
 {
-    return (struct colour){(uint8_t)lround(255 - share * (255 - c.red)), (uint8_t)lround(255 - share * (255 - c.green)),
-                           (uint8_t)lround(255 - share * (255 - c.blue)), c.alpha};
+    return (struct colour){(uint8_t)lround(255 - weight * (255 - c.red)),
+                           (uint8_t)lround(255 - weight * (255 - c.green)),
+                           (uint8_t)lround(255 - weight * (255 - c.blue)), c.alpha};
 }
 
 struct colour colour_shaded(struct colour c, double share)

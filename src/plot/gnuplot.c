@@ -166,12 +166,12 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     return OK;
 }
 
-void error_message_read(FILE *from, char *text, size_t size)
+void error_message_read(FILE *file, char *text, size_t size)
 {
     char line[256];
     snprintf(text, size, "it gave no reason");
-    rewind(from);
-    while (fgets(line, sizeof line, from) != NULL) {
+    rewind(file);
+    while (fgets(line, sizeof line, file) != NULL) {
         line[strcspn(line, "\n")] = '\0';
         const char *word = line + strspn(line, " \t^");
         if (*word != '\0') snprintf(text, size, "%s", word);

@@ -141,12 +141,13 @@ static bool may_be_deformed(const struct output_frame *f, double spacing)
     return most > STRAIN_SEEN * spacing;
 }
 
-float *particle_gradients_make(const struct output_frame *f, double spacing, double magnify, const struct scene *scene)
+float *particle_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
+                               const struct scene *scene)
 {
-    if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing / magnify)) return NULL;
+    if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing / displacement_factor)) return NULL;
     struct pairs p = {.f = f,
                       .spacing = spacing,
-                      .magnify = magnify,
+                      .magnify = displacement_factor,
                       .scene = scene,
                       .part = {.n = f->n, .n_all = f->n, .dim = f->dim}};
     float *F = NEW("plot.gradient", 9 * f->n, float);

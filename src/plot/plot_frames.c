@@ -152,21 +152,23 @@ status pictures_folder_make(const char *path)
     return files_visit(path, is_picture_name, "", picture_check_replaceable);
 }
 
-status picture_destination(struct path *path, const char *out, const char *name, bool overwrite)
+status picture_destination(struct path *path, const char *option_argument, const char *name, bool overwrite)
 {
-    const char *end = strrchr(out, '/');
+    const char *end = strrchr(option_argument, '/');
     struct path above = {{0}};
-    if (!*out || strlen(out) >= sizeof path->text)
-        return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected", printable_name(out).text);
-    snprintf(above.text, sizeof above.text, "%.*s", end > out ? (int)(end - out) : 0, out);
+    if (!*option_argument || strlen(option_argument) >= sizeof path->text)
+        return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected",
+                          printable_name(option_argument).text);
+    snprintf(above.text, sizeof above.text, "%.*s", end > option_argument ? (int)(end - option_argument) : 0,
+             option_argument);
     if (above.text[0]) TRY(folder_make(above.text));
-    if (end > out && !end[1])
+    if (end > option_argument && !end[1])
         *path = path_join(above.text, name);
-    else if (path_is_folder(out))
-        *path = path_join(out, name);
+    else if (path_is_folder(option_argument))
+        *path = path_join(option_argument, name);
     else
-        snprintf(path->text, sizeof path->text, "%s", out);
-    if (!path->text[0]) return status_set(REFUSED, "%s: the name is too long", printable_name(out).text);
+        snprintf(path->text, sizeof path->text, "%s", option_argument);
+    if (!path->text[0]) return status_set(REFUSED, "%s: the name is too long", printable_name(option_argument).text);
     TRY(file_check_replaceable(path->text));
     if (overwrite || !path_exists(path->text) || picture_has_mark(path->text)) return OK;
     return status_set(REFUSED,

@@ -185,17 +185,17 @@ status view_make(struct view *v, const struct plot_request *r, const struct plot
     return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
 }
 
-bool matrix_invert(const double a[3][3], double to[3][3])
+bool matrix_invert(const double matrix[3][3], double inverse[3][3])
 {
     double determinant = 0;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) {
             const int m = (c + 1) % 3, n = (c + 2) % 3, o = (r + 1) % 3, q = (r + 2) % 3;
-            to[r][c] = a[m][o] * a[n][q] - a[m][q] * a[n][o];
+            inverse[r][c] = matrix[m][o] * matrix[n][q] - matrix[m][q] * matrix[n][o];
         }
-    for (int c = 0; c < 3; c++) determinant += a[0][c] * to[c][0];
+    for (int c = 0; c < 3; c++) determinant += matrix[0][c] * inverse[c][0];
     for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) to[r][c] /= determinant;
+        for (int c = 0; c < 3; c++) inverse[r][c] /= determinant;
     return fabs(determinant) > 0;
 }
 

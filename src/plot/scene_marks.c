@@ -37,16 +37,16 @@ void marks_add_point(struct marks *m, const real *X, const double *vector)
 /* Ends a line of positions in the current block of marks; the next position begins another line. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
-void marks_end_block(struct marks *m, const char *how, const char *text)
+void marks_end_block(struct marks *m, const char *style, const char *key_text)
 {
     fputs("NaN NaN NaN NaN\nEOD\n", m->to); /* a data block must not be empty */
-    fprintf(m->plot, ", $m%d %s ", m->blocks++, how);
-    if (!*text) {
+    fprintf(m->plot, ", $m%d %s ", m->blocks++, style);
+    if (!*key_text) {
         fputs("notitle", m->plot);
         return;
     }
     fputs("title ", m->plot);
-    gnuplot_quote(m->plot, text);
+    gnuplot_quote(m->plot, key_text);
 }
 
 void marks_add_colour_key(struct marks *m, struct colour c, const char *text)

@@ -24,9 +24,9 @@ void marks_begin_block(struct marks *m);
  * for none. */
 void marks_add_point(struct marks *m, const real *X, const double *vector);
 
-/* Ends the data block and adds the element that draws it to the plot command. how: style in that element; text: line
- * of the key, "" for none. */
-void marks_end_block(struct marks *m, const char *how, const char *text);
+/* Ends the data block and adds the element that draws it to the plot command. style: style in that element; key_text:
+ * line of the key, "" for none. */
+void marks_end_block(struct marks *m, const char *style, const char *key_text);
 
 /* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */
 void marks_draw_loads(struct marks *m);

@@ -67,7 +67,7 @@ void diagnostics_energy_balance(struct diagnostics *w, real t, const struct ener
 /* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
  * distances up to the horizon. list[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the middle of one
  * group in middle[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
-int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle)
+int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre)
 {
     const real along[DIM_MAX] = {0};
     int64_t cut = 0;
@@ -79,7 +79,7 @@ int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, 
         const int64_t i = list ? list[k] : k;
         if (p->flag[i] & FLAG_CRACKED) particle_reference_position(p, i, place[cut++].X);
     }
-    const int64_t ends = positions_cluster_centre(place, cut, p->dim, horizon * (1 + 1e-6), along, middle);
+    const int64_t ends = positions_cluster_centre(place, cut, p->dim, horizon * (1 + 1e-6), along, centre);
     memory_free(place);
     return ends;
 }
@@ -155,15 +155,15 @@ static int64_t first_diverged(const struct particles *p, const int32_t *list, in
     return list[k];
 }
 
-status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step,
+status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real max_speed, int64_t step,
                               real t)
 {
-    INVARIANT(limit > 0);
-    int64_t first = peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], limit) : p->n_all;
-    const int64_t free = meshed ? first_diverged(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
-                                : first_diverged(p, p->list_free, p->n_free, limit);
+    INVARIANT(max_speed > 0);
+    int64_t first = peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], max_speed) : p->n_all;
+    const int64_t free = meshed ? first_diverged(p, p->list[KIND_MPM], p->n_of[KIND_MPM], max_speed)
+                                : first_diverged(p, p->list_free, p->n_free, max_speed);
     if (free < first) first = free;
-    return first < p->n ? divergence_report(p, first, limit, step, t) : OK;
+    return first < p->n ? divergence_report(p, first, max_speed, step, t) : OK;
 }
 
 status diagnostics_save_or_load(struct diagnostics *w, struct archive *a)

@@ -165,14 +165,14 @@ int exact_stress_fronts(const struct exact *e, real t, struct exact_front front[
     return 2;
 }
 
-bool exact_constant_window(const struct exact *e, real t, enum exact_window which, real *from, real *to)
+bool exact_constant_window(const struct exact *e, real t, enum exact_window part, real *from, real *to)
 {
     struct exact_front front[EXACT_FRONTS];
     int fronts = exact_stress_fronts(e, t, front);
     real L = length(e), near, far; /* distances from the loaded end */
-    if (fronts == 0 || (which == EXACT_PRECURSOR && fronts < 2)) return false;
+    if (fronts == 0 || (part == EXACT_PRECURSOR && fronts < 2)) return false;
     bool outward = front[0].ahead == -e->loaded;
-    if (which == EXACT_PRECURSOR)
+    if (part == EXACT_PRECURSOR)
         near = depth(e, front[1].position) + 0.05 * L, far = depth(e, front[0].position) - 0.07 * L;
     else if (fronts == 2)
         near = 0.1 * L, far = depth(e, front[1].position) - 0.08 * L;

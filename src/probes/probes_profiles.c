@@ -115,10 +115,10 @@ int64_t probes_count_profiles(const struct probes *s)
     return n;
 }
 
-status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *put, void *context,
+status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write, void *context,
                              int frame)
 {
     for (int k = 0; k < s->n; k++)
-        if (has_profile(&s->probe[k])) TRY(profile_put(&s->probe[k], o, put, context, frame));
+        if (has_profile(&s->probe[k])) TRY(profile_put(&s->probe[k], o, write, context, frame));
     return OK;
 }

@@ -91,7 +91,7 @@ static struct crack_medium medium_at(const struct sif_cracks *l, const struct pa
 }
 
 bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
-                             bool closed, real K[MODES])
+                             bool faces_in_contact, real K[MODES])
 {
     const real h = l->plane.spacing, inner = real_max(3 * h, INNER * l->source->family.horizon);
     struct tip_view view = {.inner = inner, .outer = inner + WIDTH * h, .body = tip->body};
@@ -105,14 +105,14 @@ bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles 
     const bool seen = crack_tip_fit_sif(&view, p, K);
     crack_segments_free(crack, view.cracks);
     if (sif_tip_along_mirror(&l->plane, tip)) K[MODE_II] = 0;
-    if (closed) K[MODE_I] = real_max(K[MODE_I], 0); /* the fit takes contact forces for stress */
+    if (faces_in_contact) K[MODE_I] = real_max(K[MODE_I], 0); /* the fit takes contact forces for stress */
     return seen;
 }
 
-void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles *p, bool closed,
+void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact,
                               struct sif_crack_tip *tip)
 {
-    if (tip->straight > AHEAD * l->plane.spacing || !sif_tip_compute_factors(l, p, tip, closed, tip->K)) {
+    if (tip->straight > AHEAD * l->plane.spacing || !sif_tip_compute_factors(l, p, tip, faces_in_contact, tip->K)) {
         for (int d = 0; d < 2; d++) tip->heading[d] = tip->last[d];
         return;
     }
@@ -132,11 +132,11 @@ static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool 
     return first;
 }
 
-void sif_leading_factors(const struct sif_cracks *l, const struct particles *p, bool closed, real K[MODES])
+void sif_leading_factors(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact, real K[MODES])
 {
     const struct sif_crack_tip *first = tip_longest(l, true);
     K[MODE_I] = K[MODE_II] = NAN;
-    if (first) sif_tip_compute_factors(l, p, first, closed, K);
+    if (first) sif_tip_compute_factors(l, p, first, faces_in_contact, K);
 }
 
 void sif_leading_position(const struct sif_cracks *l, real position[DIM_MAX])

@@ -60,10 +60,10 @@ bool sif_tip_along_mirror(const struct sif_plane *plane, const struct sif_crack_
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
  * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
- * tip->along. closed: crack faces are in contact (crack_faces_are_in_contact), which makes K_I at least 0. Returns
- * false if too few particles are near the tip. */
+ * tip->along. faces_in_contact: crack faces are in contact (crack_faces_are_in_contact), which makes K_I at least 0.
+ * Returns false if too few particles are near the tip. */
 bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
-                             bool closed, real K[2]);
+                             bool faces_in_contact, real K[2]);
 
 /* Computes the position at which the next increment of a tip ends, two coordinates in the plane [m]. The increment is
  * 2 particle spacings long or, if the key steps.energy is set, as long as that energy suffices for; it ends at the
@@ -76,18 +76,18 @@ real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, co
 
 /* Computes the stress-intensity factors of a tip and sets tip->heading, the direction of its next increment, by the
  * criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains unchanged while tip->straight is
- * positive or if too few particles are near the tip. closed: crack faces are in contact. */
-void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles *p, bool closed,
+ * positive or if too few particles are near the tip. faces_in_contact: crack faces are in contact. */
+void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact,
                               struct sif_crack_tip *tip);
 
 /* Moves the tip with index `tip` to the end of its next increment, appends the segment to the path of the cracks, and
  * sets `ended` of the tip if it has reached a surface or another crack. */
 void sif_tip_move(struct sif_cracks *l, const struct particles *p, int tip);
 
-/* Computes the stress-intensity factors of the tip that has grown most among those that can still grow, and stores
- * them in K[] [Pa m^(1/2)]; NAN if no tip can grow. closed: crack faces are in contact. Call sif_cracks_start before.
- */
-void sif_leading_factors(const struct sif_cracks *l, const struct particles *p, bool closed, real K[2]);
+/* Computes the stress-intensity factors of the tip that has grown most among those that can still grow, and stores them
+ * in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are in contact. Call sif_cracks_start
+ * before. */
+void sif_leading_factors(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact, real K[2]);
 
 /* Stores the reference position of the tip that has grown most in position[] [m]; in three dimensions that of the
  * middle of its front. Stores NAN if there is no tip. */

@@ -14,12 +14,12 @@
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 
 /* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
- * optional: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or has
- * another size. */
-status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional, struct archive *a)
+ * optional_arrays: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or
+ * has another size. */
+status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a)
 {
     TRY(bonds_save_or_load(b, p, a));
-    return particles_save_or_load(p, optional, a);
+    return particles_save_or_load(p, optional_arrays, a);
 }
 
 void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional)

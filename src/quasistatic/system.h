@@ -18,9 +18,9 @@ void statics_unknowns_free(struct statics *s);
 void plastic_state_update(struct run *e);
 
 /* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
- * optional: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or has
- * another size. */
-status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional, struct archive *a);
+ * optional_arrays: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or
+ * has another size. */
+status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a);
 
 /* Copies the plastic state of bonds and points to *m, whose former contents it frees: the state from which the next
  * solutions start. optional: as in plastic_state_save_or_load. */

@@ -3,10 +3,10 @@
 
 #include "toughness.h"
 
-real bond_stretch_work(real elastic, real yield, real hardening)
+real bond_stretch_work(real elastic_stretch, real yield_stretch, real hardening_ratio)
 {
-    const real beyond = real_max(0, elastic - yield), slope = hardening / (1 + hardening);
-    return 0.5 * square(elastic - beyond) + (beyond > 0 ? beyond * (yield + 0.5 * slope * beyond) : 0);
+    const real beyond = real_max(0, elastic_stretch - yield_stretch), slope = hardening_ratio / (1 + hardening_ratio);
+    return 0.5 * square(elastic_stretch - beyond) + (beyond > 0 ? beyond * (yield_stretch + 0.5 * slope * beyond) : 0);
 }
 
 real toughness_of_material(const struct family *family, enum model model, const struct material *m)

@@ -16,10 +16,11 @@ real toughness_of_material(const struct family *family, enum model model, const 
 real toughness_between(const struct scene *s, const struct bond_source *source, const struct particles *p, int64_t i,
                        int64_t j);
 
-/* Returns the work that stretches a bond from zero force by the elastic stretch `elastic` beyond its plastic stretch,
- * divided by the stiffness and length of the bond [1]. The force grows linearly up to the stretch `yield` [1]
- * (INFINITY: the bond does not yield), then with the slope h/(1 + h), where h = `hardening` is the ratio of plastic
- * modulus to stiffness [1], as in a bar with linear isotropic hardening (Simo & Hughes 1998, section 1.2). */
-real bond_stretch_work(real elastic, real yield, real hardening);
+/* Returns the work that stretches a bond from zero force by the elastic stretch `elastic_stretch` beyond its plastic
+ * stretch, divided by the stiffness and length of the bond [1]. The force grows linearly up to the stretch
+ * `yield_stretch` [1] (INFINITY: the bond does not yield), then with the slope h/(1 + h), where h = `hardening_ratio`
+ * is the ratio of plastic modulus to stiffness [1], as in a bar with linear isotropic hardening (Simo & Hughes 1998,
+ * section 1.2). */
+real bond_stretch_work(real elastic_stretch, real yield_stretch, real hardening_ratio);
 
 #endif

@@ -81,8 +81,8 @@ void film_free(struct film *f);
  * are not busy, and have the same kind and fragment in every frame, become one group. */
 void film_set_group(struct film_set *s, const struct film *f);
 
-/* Returns the size of group g [m]. */
-double film_group_size(const struct film_set *s, const struct film *f, int64_t g);
+/* Returns the size of group `group` [m]. */
+double film_group_size(const struct film_set *s, const struct film *f, int64_t group);
 
 /* Fills the table of fields that a run of this dimension may have (film_fields.c). */
 void film_fields_list(struct film *f);

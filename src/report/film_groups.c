@@ -101,9 +101,9 @@ void film_set_group(struct film_set *s, const struct film *f)
     }
 }
 
-double film_group_size(const struct film_set *s, const struct film *f, int64_t g)
+double film_group_size(const struct film_set *s, const struct film *f, int64_t group)
 {
-    const int32_t i = s->member[s->first[g]];
+    const int32_t i = s->member[s->first[group]];
     const bool thins = f->thins_busy || !s->busy[i];
     const double own = s->size ? s->size[i] : f->spacing, thinned = thins ? pow(f->every, 1.0 / f->dim) : 1;
     return own * (1 << s->level[i]) * thinned;

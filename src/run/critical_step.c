@@ -88,13 +88,13 @@ static int64_t edges_of(const struct family *f, const real *longest, int64_t edg
     return n;
 }
 
-real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest,
-                              real *bound)
+real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density,
+                              const real *largest_extent, real *lower_bound)
 {
     const struct family *f = &source->family;
     const int dim = space_dim(f->space);
     int64_t edge[DIM_MAX];
-    const int64_t n = edges_of(f, longest, edge);
+    const int64_t n = edges_of(f, largest_extent, edge);
     struct bond_source s = *source;
     struct particles p;
     struct cells cells;
@@ -113,7 +113,7 @@ real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *f
     s.cells = &cells, s.cracks = 0, s.voids = NULL, s.image = NULL;
     s.room = 0, s.neighbour_volume = NULL, s.surface = NULL;
     bonds_make(&b, NULL, &p, &s);
-    if (bound) *bound = bonds_critical_step_of_existing(&b, &p);
+    if (lower_bound) *lower_bound = bonds_critical_step_of_existing(&b, &p);
     real step = critical_step_of_bonds(&b, &p, force, NULL, f->spacing);
     bonds_free(&b);
     cells_free(&cells);

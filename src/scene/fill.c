@@ -500,12 +500,12 @@ static status fill_made(struct particles *p, const struct particle_draft *d, int
 }
 
 status fill_particles(struct particles *p, const struct scene *s, const struct cells_without_particles *hollow,
-                      int optional)
+                      int optional_arrays)
 {
     struct particle_draft draft = {.scene = s, .hollow = hollow};
     *p = (struct particles){0};
     status result = s->bodies > 0 ? draft_make(&draft) : status_set(REFUSED, "%s: no bodies", s->name);
-    if (result == OK) result = fill_made(p, &draft, optional);
+    if (result == OK) result = fill_made(p, &draft, optional_arrays);
     if (result != OK) particles_free(p);
     draft_free(&draft);
     return result;

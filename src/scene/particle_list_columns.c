@@ -74,13 +74,13 @@ const char *column_value_fault(int column, real value)
     return NULL;
 }
 
-bool unit_factor(real *factor, const char *unit, enum unit of, char *message, size_t capacity)
+bool unit_factor(real *factor, const char *unit, enum unit expected, char *message, size_t capacity)
 {
     char number[UNIT_TEXT + 2];
     *factor = 1;
     if (*unit == '\0') return true;
     snprintf(number, sizeof number, "1 %.*s", UNIT_TEXT - 1, unit);
-    return number_read(factor, number, of, false, message, capacity);
+    return number_read(factor, number, expected, false, message, capacity);
 }
 
 real column_default_factor(const struct particle_list *l, int column)

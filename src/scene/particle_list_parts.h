@@ -39,9 +39,9 @@ bool column_is_unused(int column, int dim);
 /* Returns the fault of a value in a column, as the end of a sentence, or NULL if the value is valid. */
 const char *column_value_fault(int column, real value);
 
-/* Computes the factor that converts a number in `unit` to SI units; 1 if `unit` is empty. of: expected kind of unit. If
+/* Computes the factor that converts a number in `unit` to SI units; 1 if `unit` is empty. expected: kind of unit. If
  * `unit` is not of this kind, returns false and writes the fault to message[capacity], as the rest of a sentence. */
-bool unit_factor(real *factor, const char *unit, enum unit of, char *message, size_t capacity);
+bool unit_factor(real *factor, const char *unit, enum unit expected, char *message, size_t capacity);
 
 /* Returns the factor to SI units of a number in a column without a unit: in coordinates and volumes that of the form of
  * the list, else 1. */

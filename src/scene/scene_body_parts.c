@@ -15,11 +15,11 @@ status read_body_parts(struct reader *r, const struct yaml_node *list, const str
     return OK;
 }
 
-int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int material)
+int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int default_material)
 {
     for (int k = b->parts - 1; k >= 0; k--)
         if (region_contains(&b->part[k].region, X, s->dim, ON_SURFACE * s->spacing)) return b->part[k].material;
-    return material;
+    return default_material;
 }
 
 bool scene_body_has_material(const struct scene_body *b, int material)

@@ -147,8 +147,8 @@ struct quantity {
 bool quantity_parse(struct quantity *q, const char *text);
 
 /* Reads the number at the beginning of a text, and with with_unit the unit that follows. Returns the length of both;
- * 0 on failure, with the fault in *wrong. */
-size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **wrong);
+ * 0 on failure, with the fault in *fault_text. */
+size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **fault_text);
 
 /* Sets q to 1 of the unit whose symbol is at the beginning of a text. Returns the length of the symbol; 0 if there is
  * none. */
@@ -205,10 +205,10 @@ status read_variables(struct reader *r, const struct yaml_node *root);
 const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity);
 
 /* Reads a number of a scene into *value [SI]: a number with unit as number_read, or an expression of variables. unit:
- * expected unit; infinite: true if inf is allowed. On failure returns false and writes the fault to message[capacity],
- * as the rest of a sentence that begins with `text`. */
-bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *message,
-                          size_t capacity);
+ * expected unit; allow_infinity: true if inf is allowed. On failure returns false and writes the fault to
+ * message[capacity], as the rest of a sentence that begins with `text`. */
+bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool allow_infinity,
+                          char *message, size_t capacity);
 
 /* Replaces the message message[capacity] about a number of the key k if `text` is a length and the key counts spacings:
  * by one that contains the length in spacings. The spacing of the scene must have been read. */

@@ -153,12 +153,12 @@ status read_variables(struct reader *r, const struct yaml_node *root)
 /* Reads a number, or an expression of variables, into *value [SI]. unit: expected unit; infinite: true if inf is
  * allowed. Returns false if the text is invalid, with the fault in message[capacity] as the rest of a sentence that
  * begins with `text`. */
-bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *message,
-                          size_t capacity)
+bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool allow_infinity,
+                          char *message, size_t capacity)
 {
     char other[256];
     struct quantity q;
-    if (number_read(value, text, unit, infinite, message, capacity)) return true;
+    if (number_read(value, text, unit, allow_infinity, message, capacity)) return true;
     const bool known = quantity_evaluate_text(r, text, &q, other, sizeof other);
     if (known && unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
         snprintf(message, capacity, "has no unit; %s is expected, as %s", unit_rows[unit].name,

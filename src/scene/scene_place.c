@@ -73,10 +73,10 @@ static void place_of_key(const struct scene *s, const char *text, char *place)
     }
 }
 
-status scene_locate(const struct scene *s, status made)
+status scene_locate(const struct scene *s, status result)
 {
     char place[PLACE_LENGTH] = "";
-    if (made != REFUSED) return made;
+    if (result != REFUSED) return result;
     const char *text = status_message();
     for (int b = 0; b < s->boundaries && !*place; b++)
         if (begins_with(text, "boundary ", s->boundary[b].name))
@@ -87,5 +87,5 @@ status scene_locate(const struct scene *s, status made)
             snprintf(place, sizeof place, "%s", s->body[b].place);
     if (!*place) place_of_key(s, text, place);
     if (!*place) snprintf(place, sizeof place, "%.500s: ", s->path);
-    return status_prepend_location(place, made);
+    return status_prepend_location(place, result);
 }

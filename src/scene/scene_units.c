@@ -387,12 +387,12 @@ static real number_scaled(const char *text, size_t length, int ten, int clock, r
     return clock ? clock * number_value(text, length, 0) / divisor : number_value(text, length, ten) / divisor;
 }
 
-bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *message, size_t capacity)
+bool number_read(real *value, const char *text, enum unit unit, bool allow_infinity, char *message, size_t capacity)
 {
     struct complaint c = {message, capacity};
     real divisor;
     int ten;
-    if (infinite_read(value, text)) return infinite || complain(c, "is not finite", unit);
+    if (infinite_read(value, text)) return allow_infinity || complain(c, "is not finite", unit);
     size_t length = number_length(text);
     if (length == 0) return complain(c, "is not a number", unit);
     if (length > NUMBER_LONGEST) return complain(c, "has too many digits", unit);
@@ -457,15 +457,15 @@ bool quantity_parse(struct quantity *q, const char *text)
     return true;
 }
 
-size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **wrong)
+size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **fault_text)
 {
     const size_t length = number_length(text);
     struct measure m = {{0, 0, 0}, 0};
     real factor = 1;
     bool is_time = false;
-    *wrong = length == 0 ? "is no number" : length > NUMBER_LONGEST ? "has too many digits" : trap(text, length);
-    if (length > 0 && text[length] == ',') *wrong = NULL; /* the comma can separate operands of a function */
-    if (*wrong) return 0;
+    *fault_text = length == 0 ? "is no number" : length > NUMBER_LONGEST ? "has too many digits" : trap(text, length);
+    if (length > 0 && text[length] == ',') *fault_text = NULL; /* the comma can separate operands of a function */
+    if (*fault_text) return 0;
     const char *unit = text + length + strspn(text + length, " ");
     size_t letters = with_unit ? factor_length(unit, &factor, &is_time) : 0;
     *q = (struct quantity){.bare = true};

@@ -86,18 +86,18 @@ static bool spacing_fits(const struct lengths *l, const struct scene *s, real h,
     return true;
 }
 
-real spacing_that_fits_lattice(const struct scene *s, real h, bool even)
+real spacing_that_fits_lattice(const struct scene *s, real h, bool even_edges)
 {
     struct lengths l;
     real least = INFINITY;
     lengths_collect(&l, s);
     for (int k = 0; k < l.n; k++) least = real_min(least, l.of[k]);
     if (!isfinite(least)) return h;
-    for (int strict = even; strict >= 0; strict--)
+    for (int strict = even_edges; strict >= 0; strict--)
         for (real n = spacings_in(least, h); least / n > 0.75 * h; n++)
             if (spacing_fits(&l, s, least / n, strict)) return least / n;
     const real edge = box_extent(s, 0, 0), cells = spacings_in(edge, h);
-    return edge > 0 ? edge / (even ? 2 * ceil(cells / 2) : cells) : h;
+    return edge > 0 ? edge / (even_edges ? 2 * ceil(cells / 2) : cells) : h;
 }
 
 /* ---- a coarse spacing ----------------------------------------------------------------------------------------------

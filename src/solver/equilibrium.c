@@ -393,14 +393,14 @@ static bool laws_settle(struct newton_solver *q)
     return false;
 }
 
-status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool moved)
+status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool loads_changed)
 {
-    bool prescribed = moved && field_largest_component(increment, q->dim, q->n) > 0;
+    bool prescribed = loads_changed && field_largest_component(increment, q->dim, q->n) > 0;
     combine(q, &q->x, prescribed, increment, 0, increment);
     combine(q, &q->before, 1, &q->f, 0, &q->f);
     real supports = prescribed ? 0.5 * dot_held(q, increment) : 0;
     forces_at(q, &q->u, &q->f);
-    if (!moved) combine(q, &q->before, 1, &q->f, 0, &q->f);
+    if (!loads_changed) combine(q, &q->before, 1, &q->f, 0, &q->f);
     combine(q, &q->grown, 1, &q->f, -1, &q->before);
     q->bent = 0;
     if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;

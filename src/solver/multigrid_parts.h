@@ -145,9 +145,9 @@ void dense_free(struct dense *d);
 void multigrid_compute_residual(struct multigrid_level *l);
 
 /* Does one step of a polynomial smoother on level l: d = keep d + step D^-1 (b - K x) and x = x + d, with the matrix K
- * of the level and its diagonal blocks D. keep, step: coefficients of the step [1]; zero: true if x and d are 0 on
- * entry, which saves the product. */
-void multigrid_smooth(struct multigrid_level *l, real keep, real step, bool zero);
+ * of the level and its diagonal blocks D. keep, step: coefficients of the step [1]; start_from_zero: true if x and d
+ * are 0 on entry, which saves the product. */
+void multigrid_smooth(struct multigrid_level *l, real keep, real step, bool start_from_zero);
 
 /* Computes the load of the next coarser level from the residual of level l: next->b = l->up l->t. */
 void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *next);

@@ -226,12 +226,12 @@ static bool squeeze_explanation(const struct bonds *b, const struct particles *p
     return true;
 }
 
-void stability_describe_remedy(const struct run *e, const struct growth_samples *rise, real value, char *text,
+void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real value, char *text,
                                size_t capacity)
 {
     real steps;
     char others[256];
-    const enum growth_rate rate = growth_rate_classify(rise, e->clock.step, value, &steps);
+    const enum growth_rate rate = growth_rate_classify(earlier, e->clock.step, value, &steps);
     if (scene_has_load_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, capacity,
                  "this occurred in an equilibrium: use more load steps (steps.number) or a smaller solver_tolerance to "

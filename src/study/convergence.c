@@ -13,13 +13,14 @@ const char *const verdict_name[VERDICTS] = {
     [VERDICT_SLOW] = "slow",           [VERDICT_DIVERGES] = "does not converge",
 };
 
-double student_quantile(int n)
+double student_quantile(int degrees_of_freedom)
 {
     static const double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
                                    2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086};
     const double normal = 1.95996;
-    INVARIANT(n >= 1);
-    return n <= (int)COUNT_OF(table) ? table[n - 1] : normal + 2.5 / n; /* accurate to 0.2 % */
+    INVARIANT(degrees_of_freedom >= 1);
+    return degrees_of_freedom <= (int)COUNT_OF(table) ? table[degrees_of_freedom - 1]
+                                                      : normal + 2.5 / degrees_of_freedom; /* accurate to 0.2 % */
 }
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
@@ -139,13 +140,13 @@ static void convergence_judge(struct convergence *c)
     c->index = SAFETY * near / (pow(l[1].spacing / l[0].spacing, fmin(o.seen, ORDER_MOST)) - 1);
 }
 
-bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
+bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
                       int levels, const double *resolution)
 {
     INVARIANT(levels >= LEVELS_LEAST && levels <= LEVELS_MOST);
     *c = (struct convergence){.levels = levels};
     for (int k = 0; k < levels; k++) {
-        level_find(&c->level[k], spacing, value, level, n, k);
+        level_find(&c->level[k], spacing, value, level, runs, k);
         if (c->level[k].runs > 0) continue;
         if (k < LEVELS_LEAST) return false;
         c->levels = k; /* levels coarser than a gap are ignored */

@@ -93,22 +93,22 @@ static double spacing_near(const struct places *p, double wanted, double reach, 
     return best;
 }
 
-void spacings_choose(struct spacings *to, const struct scene *s, int levels, double finest)
+void spacings_choose(struct spacings *spacings, const struct scene *s, int levels, double finest)
 {
     struct places p = {0};
     places_find(&p, s);
-    *to = (struct spacings){.levels = levels};
+    *spacings = (struct spacings){.levels = levels};
     for (int k = 0; k < levels; k++) {
-        double *at = to->at[k];
+        double *at = spacings->at[k];
         const double wanted = finest * pow(2, 0.5 * k);
         at[0] = fabs(wanted / s->spacing - 1) < 1e-9 ? s->spacing : spacing_near(&p, wanted, NEAR_WANTED, NULL, 0);
         if (misfit(&p, at[0]) > MEETS) at[0] = spacing_near(&p, wanted, FAR_WANTED, NULL, 0);
         if (at[0] == 0) at[0] = wanted;
-        to->misfit[k] = misfit(&p, at[0]);
-        to->n[k] = 1;
+        spacings->misfit[k] = misfit(&p, at[0]);
+        spacings->n[k] = 1;
         for (int other = 1; other < SPACINGS_MOST; other++) {
-            const double spacing = spacing_near(&p, at[0], NEAR_CHOSEN, at, to->n[k]);
-            if (spacing > 0 && misfit(&p, spacing) <= MEETS) at[to->n[k]++] = spacing;
+            const double spacing = spacing_near(&p, at[0], NEAR_CHOSEN, at, spacings->n[k]);
+            if (spacing > 0 && misfit(&p, spacing) <= MEETS) at[spacings->n[k]++] = spacing;
         }
     }
     memory_free(p.place);

@@ -17,9 +17,9 @@
 
 /* Writes the path of the default folder of a study, results/NAME_KIND with the name of the scene and KIND = kind, into
  * to[capacity]. */
-void study_folder_default(char *to, size_t capacity, const struct scene *scene, const char *kind)
+void study_folder_default(char *folder, size_t capacity, const struct scene *scene, const char *kind)
 {
-    snprintf(to, capacity, "results/%s_%s", scene->name, kind);
+    snprintf(folder, capacity, "results/%s_%s", scene->name, kind);
 }
 
 /* Reads the scene file `path` and writes the default folder of a study of it, results/NAME_KIND with KIND = kind, into

@@ -501,12 +501,12 @@ static status draw_all(struct study_picture *p)
 }
 
 status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys,
-                  const char *const *of, int asked)
+                  const char *const *result, int results)
 {
     char header[HEADER_ROOM];
     struct study_picture p = {.table = t, .study = s, .key = key, .keys = keys, .header = header};
-    TRY(panels_of(&p, of, asked));
-    if (asked == 0) panels_choose(&p);
+    TRY(panels_of(&p, result, results));
+    if (results == 0) panels_choose(&p);
     if (p.panels == 0) return OK;
     study_read_history_header(header, sizeof header, s);
     p.value_at = NEW("study.value_at", keys, int *);

@@ -246,32 +246,32 @@ static void lattice_field(struct site_map *l, const real K[MODES])
     }
 }
 
-static void site_map_make(struct site_map *l, int edge, real degrees, const real shift[2], real speed)
+static void site_map_make(struct site_map *map, int edge, real degrees, const real shift[2], real speed)
 {
-    memset(l, 0, sizeof *l);
-    patch_make(&l->patch, edge, 0, 1);
+    memset(map, 0, sizeof *map);
+    patch_make(&map->patch, edge, 0, 1);
     const real angle = degrees * pi / 180;
-    l->tip = (struct sif_tip){.medium = glass(SPACE_PLANE_STRAIN),
-                              .place = {shift[0], shift[1]},
-                              .along = {cos(angle), sin(angle)},
-                              .face = 1,
-                              .body = -1,
-                              .thickness = THICKNESS,
-                              .speed = speed};
+    map->tip = (struct sif_tip){.medium = glass(SPACE_PLANE_STRAIN),
+                                .place = {shift[0], shift[1]},
+                                .along = {cos(angle), sin(angle)},
+                                .face = 1,
+                                .body = -1,
+                                .thickness = THICKNESS,
+                                .speed = speed};
     for (int d = 0; d < 2; d++) {
-        l->corner[0][d] = shift[d] - 2 * edge * l->tip.along[d];
-        l->corner[1][d] = shift[d];
-        l->v[d] = NEW("test.v", l->patch.p.n, real), l->a[d] = NEW("test.a", l->patch.p.n, real);
-        l->rule.tip[d] = shift[d];
+        map->corner[0][d] = shift[d] - 2 * edge * map->tip.along[d];
+        map->corner[1][d] = shift[d];
+        map->v[d] = NEW("test.v", map->patch.p.n, real), map->a[d] = NEW("test.a", map->patch.p.n, real);
+        map->rule.tip[d] = shift[d];
     }
-    l->crack = (struct crack){2, l->corner};
-    l->rule.reach = 1.5, l->rule.sight = (struct sight){.crack = &l->crack, .cracks = 1};
+    map->crack = (struct crack){2, map->corner};
+    map->rule.reach = 1.5, map->rule.sight = (struct sight){.crack = &map->crack, .cracks = 1};
 }
 
-static void site_map_free(struct site_map *l)
+static void site_map_free(struct site_map *map)
 {
-    for (int d = 0; d < 2; d++) memory_free(l->v[d]), memory_free(l->a[d]);
-    patch_free(&l->patch);
+    for (int d = 0; d < 2; d++) memory_free(map->v[d]), memory_free(map->a[d]);
+    patch_free(&map->patch);
 }
 
 static struct sif lattice_sif(const struct site_map *l, real inner, real outer)
