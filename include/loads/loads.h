@@ -181,8 +181,7 @@ static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
 status load_find_particles(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
 /* Sets selected[i] = 1 for the particles in the region and body of boundary b, 0 for all others; selected: [p->n].
- * spacing: lattice spacing, to which the tolerance of the region refers [m]. Returns false if no particle is
- * selected. */
+ * spacing: lattice spacing, to which the tolerance of the region refers [m]. Returns false if none is selected. */
 bool load_mark_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
                                    uint8_t *selected);
 
@@ -256,9 +255,9 @@ void loads_update_shares_for_work(struct loads *l, const struct particles *p, re
 /* Releases the arrays that load_prepare_shares has allocated for load l. */
 void load_time_shares_free(struct load *l);
 
-/* Computes the force of load l on its particle number `load_particle` at time t [s], from the reference position of the
+/* Computes the force of load l on its particle number `entry` at time t [s], from the reference position of the
  * particle. force: dim components [N]. In load steps the force is that at full load. */
-void load_force_at(const struct load *l, const struct particles *p, int64_t load_particle, real t, real *force);
+void load_force_at(const struct load *l, const struct particles *p, int64_t entry, real t, real *force);
 
 /* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
  * its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean displacement is
@@ -266,14 +265,14 @@ void load_force_at(const struct load *l, const struct particles *p, int64_t load
 void load_sum_force_and_motion(struct load *l, const struct particles *p, real t);
 
 /* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its particle
- * number `load_particle` at time t [s], without areas and without the profile. value: dim components, unit as
- * boundary.value. Not defined for prescribed rotations. */
-void load_value_at(const struct load *l, const struct particles *p, int64_t load_particle, real t, real *value);
+ * number `entry` at time t [s], without areas and without the profile. value: dim components, unit as boundary.value.
+ * Not defined for prescribed rotations. */
+void load_value_at(const struct load *l, const struct particles *p, int64_t entry, real t, real *value);
 
 /* Creates the loads of `boundaries` boundary conditions: finds the particles of each, sets FLAG_DRIVEN, and appends
  * mirror images of the particles within `mirror_reach` [m] of mirror planes to p. Make the bonds afterwards. boundary:
  * borrowed; spacing: lattice spacing [m]; optional_arrays: as in particles_make. Returns REFUSED, with a message, if a
- * boundary has no particles or no free face, or a mirror is misplaced. Release with loads_free. */
+ * boundary has no particles or no free face, or a mirror is misplaced. Release: loads_free. */
 status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
                   real mirror_reach, int optional_arrays);
 
@@ -353,10 +352,9 @@ struct prescribed_displacement prescribed_displacement_make(const struct boundar
  * The boundary must prescribe this component. */
 real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
 
-/* Computes the displacement that load l prescribes for its particle number `load_particle` at time t [s]. displacement:
- * dim components [m], 0 where not prescribed. */
-void load_displacement_at(const struct load *l, const struct particles *p, int64_t load_particle, real t,
-                          real *displacement);
+/* Computes the displacement that load l prescribes for its particle number `entry` at time t [s]. displacement: dim
+ * components [m], 0 where not prescribed. */
+void load_displacement_at(const struct load *l, const struct particles *p, int64_t entry, real t, real *displacement);
 
 /* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a
  * formula of t), so that its displacements are unknown; else OK. */
@@ -431,8 +429,7 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real mirror_reac
 void loads_flag_clamped_mirrors(struct loads *l, const struct particles *p);
 
 /* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles to their mirror images, reflected in the
- * mirror plane. First rounds the positions of the sources normal to the mirror to multiples of l->place_step, about the
- * last bit of the farthest position. */
+ * mirror plane. First rounds the positions of the sources normal to the mirror to multiples of l->place_step. */
 void loads_update_images(const struct loads *l, struct particles *p);
 
 /* Sets p->f = 0 for all particles of the lists of loads and supports, before the bond forces are computed. */
@@ -457,8 +454,8 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
  * Call once at set-up, and again whenever the mesh has lost points to conversion. */
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the mesh nodes found by loads_find_driven_mesh_nodes, for the step of size
- * dt about t [s]. */
+/* Sets the prescribed velocities (walls) of the nodes found by loads_find_driven_mesh_nodes, for the step dt about t
+ * [s]. */
 void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt);
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion is prescribed, by their positions: nodes in
@@ -503,8 +500,8 @@ void static_displacements_compute(struct loads *l, const struct particles *p, re
  * over the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
-/* Adds the applied forces of a static problem at full load, and the inertia forces of loads_add_inertia_relief, to the
- * particle forces p->f [N]. */
+/* Adds the applied forces of a static problem at full load, and the inertia forces of loads_add_inertia_relief, to p->f
+ * [N]. */
 void loads_add_static_forces(const struct loads *l, struct particles *p);
 
 /* Sets the reaction of each support to minus the sum of the forces p->f on its driven components, then sets these
