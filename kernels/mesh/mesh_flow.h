@@ -22,34 +22,35 @@
  * be NULL: false. */
 static ALWAYS_INLINE bool mesh_points_can_yield(const struct particles *p) { return p && p->plastic_correction[0]; }
 
-/* Computes the trial stress s of material point i at the strain e, that at its present plastic state. e: dim x dim, row
- * by row, of which the symmetric part counts; s: receives symmetric components [Pa]; m: constants of its material. */
+/* Computes the trial stress of material point i at the given strain, that at its present plastic state. strain: dim x
+ * dim, row by row, of which the symmetric part counts; stress: receives symmetric components [Pa]; m: constants of its
+ * material. */
 static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const struct elastic *m, int64_t i,
-                                               const real *e, real *s, const int dim)
+                                               const real *strain, real *stress, const int dim)
 {
-    point_hooke_stress(m, e, s, dim);
-    for (int k = 0; k < symmetric_component_count(dim); k++) s[k] -= p->plastic_correction[k][i];
+    point_hooke_stress(m, strain, stress, dim);
+    for (int k = 0; k < symmetric_component_count(dim); k++) stress[k] -= p->plastic_correction[k][i];
 }
 
 /* Returns the stretch of the thickness at point i of a sheet that yields [1]: by Hooke's law, and plastic strain
- * without change of volume; 1 in other spaces. s: stress, symmetric components [Pa]; m: constants of its material. */
+ * without change of volume; 1 in other spaces. stress: symmetric components [Pa]; m: constants of its material. */
 static ALWAYS_INLINE real thickness_stretch(const struct particles *p, const struct elastic *m, int64_t i,
-                                            const real *s)
+                                            const real *stress)
 {
     if (m->space != SPACE_PLANE_STRESS || !m->law || !mesh_points_can_yield(p)) return 1;
     const real plastic = (p->plastic_correction[0][i] + p->plastic_correction[1][i]) / (m->c11 + m->c12);
-    return 1 - m->law->poisson / m->law->young * (s[0] + s[1]) - plastic;
+    return 1 - m->law->poisson / m->law->young * (stress[0] + stress[1]) - plastic;
 }
 
-/* Returns the elastic energy per volume of material point i under the stress s [J/m^3]. In plane strain of a material
- * that yields, the energy of the out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy) is included. s: symmetric
- * components [Pa]; m: constants of its material. */
+/* Returns the elastic energy per volume of material point i under the given stress [J/m^3]. In plane strain of a
+ * material that yields, the energy of the out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy) is included. stress:
+ * symmetric components [Pa]; m: constants of its material. */
 static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p, const struct elastic *m, int64_t i,
-                                                       const real *s, const int dim)
+                                                       const real *stress, const int dim)
 {
     real sum = 0, squares = 0, shears = 0;
-    for (int k = 0; k < dim; k++) sum += s[k], squares += s[k] * s[k];
-    for (int k = dim; k < symmetric_component_count(dim); k++) shears += s[k] * s[k];
+    for (int k = 0; k < dim; k++) sum += stress[k], squares += stress[k] * stress[k];
+    for (int k = dim; k < symmetric_component_count(dim); k++) shears += stress[k] * stress[k];
     const real mean = m->c12 / (m->c11 + (dim - 1) * m->c12);
     const real across = p->out_of_plane && m->law ? p->out_of_plane[i] : 0;
     return 0.5 * (squares - mean * sum * sum) / (m->c11 - m->c12) + (dim > 1 ? 0.5 * shears / m->shear : 0) +

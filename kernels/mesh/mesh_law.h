@@ -128,26 +128,27 @@ static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const boo
     }
 }
 
-/* Adds to the stress P an antisymmetric part that balances a given moment. P, e: stress [Pa] and strain in the rotated
- * axes of the cell; m: moment per volume about each axis [Pa], in 2D m[2] only. The part is the matrix of the cross
- * product with the vector w that solves (tr U - U) w = m, with U = 1 + e. */
-static ALWAYS_INLINE void stress_add_skew_part(lanes P[3][3], const lanes e[3][3], const lanes *m, const int dim)
+/* Adds to the stress an antisymmetric part that balances a given moment. stress, strain: in the rotated axes of the
+ * cell [Pa] [1]; moment: moment per volume about each axis [Pa], in 2D moment[2] only. The part is the matrix of the
+ * cross product with the vector w that solves (tr U - U) w = moment, with U = 1 + strain. */
+static ALWAYS_INLINE void stress_add_skew_part(lanes stress[3][3], const lanes strain[3][3], const lanes *moment,
+                                               const int dim)
 {
     if (dim == 2) {
-        const lanes w = m[2] / (2.0 + e[0][0] + e[1][1]);
-        P[1][0] -= w, P[0][1] += w;
+        const lanes w = moment[2] / (2.0 + strain[0][0] + strain[1][1]);
+        stress[1][0] -= w, stress[0][1] += w;
         return;
     }
     lanes A[3][3], C[3][3], w[3];
-    const lanes trace = 3.0 + e[0][0] + e[1][1] + e[2][2];
+    const lanes trace = 3.0 + strain[0][0] + strain[1][1] + strain[2][2];
     for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) A[a][b] = (a == b ? trace - 1.0 : lanes_broadcast(0)) - e[a][b];
+        for (int b = 0; b < 3; b++) A[a][b] = (a == b ? trace - 1.0 : lanes_broadcast(0)) - strain[a][b];
     cofactors_3d(A, C);
     const lanes inverse = 1.0 / (A[0][0] * C[0][0] + A[0][1] * C[0][1] + A[0][2] * C[0][2]);
-    for (int a = 0; a < 3; a++) w[a] = inverse * (C[a][0] * m[0] + C[a][1] * m[1] + C[a][2] * m[2]);
+    for (int a = 0; a < 3; a++) w[a] = inverse * (C[a][0] * moment[0] + C[a][1] * moment[1] + C[a][2] * moment[2]);
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3; /* component k of an axial vector: entry ji less entry ij */
-        P[j][i] -= w[k], P[i][j] += w[k];
+        stress[j][i] -= w[k], stress[i][j] += w[k];
     }
 }
 
@@ -155,12 +156,13 @@ static ALWAYS_INLINE void stress_add_skew_part(lanes P[3][3], const lanes e[3][3
 
 /* Computes the stress P of the symmetric strain e by Hooke's law, for eight cells at a time [Pa]. e, P: dim x dim; m:
  * elastic constants of the material. */
-static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes e[3][3], lanes P[3][3], const int dim)
+static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes strain[3][3], lanes stress[3][3],
+                                       const int dim)
 {
     for (int a = 0; a < dim; a++) {
-        P[a][a] = m->c11 * e[a][a];
+        stress[a][a] = m->c11 * strain[a][a];
         for (int b = 0; b < dim; b++)
-            if (b != a) P[a][a] += m->c12 * e[b][b], P[a][b] = m->shear * (e[a][b] + e[b][a]);
+            if (b != a) stress[a][a] += m->c12 * strain[b][b], stress[a][b] = m->shear * (strain[a][b] + strain[b][a]);
     }
 }
 
@@ -223,30 +225,30 @@ static ALWAYS_INLINE real point_coordinate_product(const int axis_set, const int
     return (below & 1 ? -1.0 : 1.0) / (1 << 2 * axes);
 }
 
-/* Computes the strain e of eight cells at their material points number `point`: the mean strain plus the bending modes
- * times the coordinates +-1/4 of the point. e may be unsymmetric; its symmetric part is the strain. */
-static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const int point, lanes e[3][3],
+/* Computes the strain of eight cells at their material points number `point`: the mean strain plus the bending modes
+ * times the coordinates +-1/4 of the point. `strain` may be unsymmetric; its symmetric part is the strain. */
+static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const int point, lanes strain[3][3],
                                                 const int dim)
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) {
-            e[i][j] = s->e[i][j];
+            strain[i][j] = s->e[i][j];
             SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1) && M >> j & 1)
             {
-                e[i][j] += point_coordinate_product(M & ~(1 << j), point) * s->mode[M][i];
+                strain[i][j] += point_coordinate_product(M & ~(1 << j), point) * s->mode[M][i];
             }
         }
 }
 
-/* Replaces the trace of the strain e of eight whole cells at a point by that of the mean strain, if the points of the
+/* Replaces the trace of the strain of eight whole cells at a point by that of the mean strain, if the points of the
  * cells have one dilatation. */
-static ALWAYS_INLINE void cells_average(const struct elastic *m, const struct mesh_cell *s, lanes e[3][3],
+static ALWAYS_INLINE void cells_average(const struct elastic *m, const struct mesh_cell *s, lanes strain[3][3],
                                         const int dim)
 {
     lanes change = lanes_broadcast(0);
     if (!m->mean_dilatation) return;
-    for (int d = 0; d < dim; d++) change += s->e[d][d] - e[d][d];
-    for (int d = 0; d < dim; d++) e[d][d] += change / dim;
+    for (int d = 0; d < dim; d++) change += s->e[d][d] - strain[d][d];
+    for (int d = 0; d < dim; d++) strain[d][d] += change / dim;
 }
 
 /* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of eight whole cells (with

@@ -67,17 +67,18 @@ static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elas
 /* Stores the state in lane l of *e, of a point that has yielded, to point i of the particles, and its stress in
  * `stress`, whose trial value it replaces. m: constants of its material. */
 static ALWAYS_INLINE void law_store(const struct particles *p, const struct elastic *m, const struct law_points *e,
-                                    int l, int64_t i, lanes *stress, const int dim)
+                                    int lane, int64_t i, lanes *stress, const int dim)
 {
     for (int k = 0; k < symmetric_component_count(dim); k++) {
         const int c = law_place[dim][k];
-        p->plastic_correction[k][i] += stress[k][l] - e->s[c][l];
-        stress[k][l] = e->s[c][l];
-        if (p->back_stress[0]) p->back_stress[k][i] = e->back[c][l];
+        p->plastic_correction[k][i] += stress[k][lane] - e->s[c][lane];
+        stress[k][lane] = e->s[c][lane];
+        if (p->back_stress[0]) p->back_stress[k][i] = e->back[c][lane];
     }
-    if (m->space == SPACE_PLANE_STRAIN) p->out_of_plane[i] = e->s[2][l] - m->law->poisson * (e->s[0][l] + e->s[1][l]);
-    p->plastic_strain[i] = e->a[l], p->plastic_work[i] = e->work[l];
-    if (p->temperature) p->temperature[i] = e->temperature[l];
+    if (m->space == SPACE_PLANE_STRAIN)
+        p->out_of_plane[i] = e->s[2][lane] - m->law->poisson * (e->s[0][lane] + e->s[1][lane]);
+    p->plastic_strain[i] = e->a[lane], p->plastic_work[i] = e->work[lane];
+    if (p->temperature) p->temperature[i] = e->temperature[lane];
 }
 
 /* Maps the trial stresses of the points number q of eight cells back to their yield surfaces by their flow laws, and

@@ -21,44 +21,46 @@ static ALWAYS_INLINE void interpolate_to_quarters(real *low, real *high)
     *low = near;
 }
 
-/* Replaces values v at the 2^dim corners of a cell by the interpolated values at its 2^dim material points, in place.
+/* Replaces the values at the 2^dim corners of a cell by the interpolated values at its 2^dim material points, in place.
  * The interpolation matrix is symmetric, so that the same call distributes values of the points to the corners. */
-static ALWAYS_INLINE void cell_interpolate_to_points(real *v, const int dim)
+static ALWAYS_INLINE void cell_interpolate_to_points(real *value, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
-            if (!(c >> d & 1)) interpolate_to_quarters(&v[c], &v[c | 1 << d]);
+            if (!(c >> d & 1)) interpolate_to_quarters(&value[c], &value[c | 1 << d]);
 }
 
 /* Returns the value at material point number q of a cell, interpolated linearly from its corners. v: values at its
  * 2^dim corners, overwritten. */
-static ALWAYS_INLINE real cell_interpolate_to_point(real *v, int q, const int dim)
+static ALWAYS_INLINE real cell_interpolate_to_point(real *value, int point, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
             if (!(c & ((2 << d) - 1))) {
-                const real low = v[c], high = v[c | 1 << d], by = 0.25 * (high - low);
-                v[c] = q >> d & 1 ? high - by : low + by;
+                const real low = value[c], high = value[c | 1 << d], by = 0.25 * (high - low);
+                value[c] = point >> d & 1 ? high - by : low + by;
             }
-    return v[0];
+    return value[0];
 }
 
-/* Loads the values of a nodal field at the 2^dim corners of cell I into v. field: a value for each node. */
-static ALWAYS_INLINE void mesh_load_corner_values(const struct mesh *mesh, const real *field, int64_t I, real *v,
-                                                  const int dim)
+/* Loads the values of a nodal field at the 2^dim corners of cell `cell` into `corner_value`. field: a value for each
+ * node. */
+static ALWAYS_INLINE void mesh_load_corner_values(const struct mesh *mesh, const real *field, int64_t cell,
+                                                  real *corner_value, const int dim)
 {
-    const int32_t *own = mesh_cell_slit_corners(mesh, I);
-    for (int c = 0; c < 1 << dim; c++) v[c] = field[own ? own[c] : I + mesh->corner[c]];
+    const int32_t *own = mesh_cell_slit_corners(mesh, cell);
+    for (int c = 0; c < 1 << dim; c++) corner_value[c] = field[own ? own[c] : cell + mesh->corner[c]];
 }
 
-/* Computes the displacement gradient at each material point of cell I: g[q][a dim + b] = du_a/dX_b at point q [1]. */
-static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t I,
-                                               real g[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+/* Computes the displacement gradient at each material point of cell `cell`: gradient[q][a dim + b] = du_a/dX_b at point
+ * q [1]. */
+static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t cell,
+                                               real gradient[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
 {
     const real inverse = 1 / mesh->grid.h;
     for (int a = 0; a < dim; a++) {
         real u[CORNERS_MAX];
-        mesh_load_corner_values(mesh, mesh->displacement[a], I, u, dim);
+        mesh_load_corner_values(mesh, mesh->displacement[a], cell, u, dim);
         for (int b = 0; b < dim; b++) {
             real v[CORNERS_MAX];
             for (int c = 0; c < 1 << dim; c++) v[c] = u[c ^ 1 << b] - u[c];
@@ -66,7 +68,7 @@ static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t 
             for (int d = 0; d < dim; d++)
                 for (int c = 0; c < 1 << dim; c++)
                     if (d != b && !(c >> d & 1)) interpolate_to_quarters(&v[c], &v[c | 1 << d]);
-            for (int q = 0; q < 1 << dim; q++) g[q][a * dim + b] = v[q];
+            for (int q = 0; q < 1 << dim; q++) gradient[q][a * dim + b] = v[q];
         }
     }
 }
@@ -75,15 +77,15 @@ static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t 
  * rotation R of the mean deformation gradient of the cell. R: receives the rotation, dim x dim row by row; the identity
  * if `finite` (finite strain) is false or in 1D. e[q]: dim x dim row by row for point q; only its symmetric part is
  * strain. */
-static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t I, real *R,
-                                             real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
+static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t cell, real *rotation,
+                                             real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX], mean[DIM_MAX * DIM_MAX];
-    mesh_point_gradients(mesh, I, g, dim);
+    mesh_point_gradients(mesh, cell, g, dim);
     if (!finite || dim == 1) {
-        for (int a = 0; a < dim * dim; a++) R[a] = a % (dim + 1) == 0;
+        for (int a = 0; a < dim * dim; a++) rotation[a] = a % (dim + 1) == 0;
         for (int q = 0; q < 1 << dim; q++)
-            for (int a = 0; a < dim * dim; a++) e[q][a] = g[q][a];
+            for (int a = 0; a < dim * dim; a++) strain[q][a] = g[q][a];
         return;
     }
     for (int a = 0; a < dim * dim; a++) {
@@ -91,12 +93,12 @@ static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t I,
         for (int q = 0; q < 1 << dim; q++) sum += g[q][a];
         mean[a] = sum / (1 << dim) + (a % (dim + 1) == 0);
     }
-    polar_rotation(mean, R, dim);
+    polar_rotation(mean, rotation, dim);
     for (int q = 0; q < 1 << dim; q++)
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < dim; b++) {
-                e[q][a * dim + b] = R[b * dim + a] - (a == b);
-                for (int k = 0; k < dim; k++) e[q][a * dim + b] += R[k * dim + a] * g[q][k * dim + b];
+                strain[q][a * dim + b] = rotation[b * dim + a] - (a == b);
+                for (int k = 0; k < dim; k++) strain[q][a * dim + b] += rotation[k * dim + a] * g[q][k * dim + b];
             }
 }
 
@@ -143,32 +145,32 @@ static ALWAYS_INLINE void cell_differences(const struct elastic *m, const uint8_
  * where the material has the mean dilatation of its cell. e: as from mesh_point_strains; m: elastic constants of all
  * materials. */
 static ALWAYS_INLINE void mesh_strains_average(const struct mesh *mesh, const struct particles *p,
-                                               const struct elastic *m, int64_t I,
-                                               real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+                                               const struct elastic *m, int64_t cell,
+                                               real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
 {
-    const int32_t *point = &mesh->point[I << dim];
+    const int32_t *point = &mesh->point[cell << dim];
     real trace[CORNERS_MAX] = {0};
     if (!cell_averages(m, p->material, point, dim)) return;
     for (int q = 0; q < 1 << dim; q++)
-        for (int d = 0; d < dim; d++) trace[q] += e[q][d * (dim + 1)];
+        for (int d = 0; d < dim; d++) trace[q] += strain[q][d * (dim + 1)];
     cell_differences(m, p->material, point, trace, dim);
     for (int q = 0; q < 1 << dim; q++)
-        for (int d = 0; d < dim; d++) e[q][d * (dim + 1)] += trace[q] / dim;
+        for (int d = 0; d < dim; d++) strain[q][d * (dim + 1)] += trace[q] / dim;
 }
 
-/* Computes the stress s of the strain e by Hooke's law. e: dim x dim row by row, of which the symmetric part counts;
- * s: receives symmetric components [Pa]; m: elastic constants. */
-static ALWAYS_INLINE void point_hooke_stress(const struct elastic *m, const real *e, real *s, const int dim)
+/* Computes the stress from the strain by Hooke's law. strain: dim x dim row by row, of which the symmetric part counts;
+ * stress: receives symmetric components [Pa]; m: elastic constants. */
+static ALWAYS_INLINE void point_hooke_stress(const struct elastic *m, const real *strain, real *stress, const int dim)
 {
     for (int a = 0; a < dim; a++) {
-        s[a] = m->c11 * e[a * dim + a];
+        stress[a] = m->c11 * strain[a * dim + a];
         for (int b = 0; b < dim; b++)
-            if (b != a) s[a] += m->c12 * e[b * dim + b];
+            if (b != a) stress[a] += m->c12 * strain[b * dim + b];
     }
     for (int k = dim; k < symmetric_component_count(dim); k++) {
         int a, b;
         symmetric_component_axes(dim, k, &a, &b);
-        s[k] = m->shear * (e[a * dim + b] + e[b * dim + a]);
+        stress[k] = m->shear * (strain[a * dim + b] + strain[b * dim + a]);
     }
 }
 

@@ -17,25 +17,25 @@ struct predecessor {
     int32_t *now; /* [particles and images of `run`] their indices in the new run; -1: not in the new run */
 };
 
-/* Creates the state of a run as engine_make does, without the particles of the cells listed in `hollow` (cells inside
- * a body that coarse cells replace). before: if not NULL, particles, bonds and time are transferred from this run; the
- * caller sets all other state that its time steps have changed, and the refinement levels of cells. Returns as
+/* Creates the state of a run as engine_make does, without the particles of the cells listed in `hollow` (cells inside a
+ * body that coarse cells replace). predecessor: if not NULL, particles, bonds and time are transferred from this run;
+ * the caller sets all other state that its time steps have changed, and the refinement levels of cells. Returns as
  * engine_make does. */
 status engine_remake(struct run *e, const struct scene *s, struct output *out, struct cells_without_particles hollow,
-                     struct predecessor *before);
+                     struct predecessor *predecessor);
 
 /* Replaces a run by one whose particles are those that the given refinement levels of mesh cells require, with the
  * state of the present run. level: refinement level of each mesh cell. Returns FAILED if this fails or a frame in
  * progress cannot be written. */
 status engine_replace_particles(struct run *e, const uint8_t *level);
 
-/* Transfers the particles of before->run to a run that is being created, and stores the new indices of these particles
- * in before->now. Call it when the mirror images of the new particles exist. */
-void engine_transfer_particles(struct run *e, struct predecessor *before);
+/* Transfers the particles of predecessor->run to a run that is being created, and stores the new indices of these
+ * particles in predecessor->now. Call it when the mirror images of the new particles exist. */
+void engine_transfer_particles(struct run *e, struct predecessor *predecessor);
 
-/* Transfers the broken bonds of before->run to a run that is being created, and frees the bonds and particles of
- * before->run. Call it after engine_transfer_particles. */
-void engine_transfer_bonds(struct run *e, const struct predecessor *before);
+/* Transfers the broken bonds of predecessor->run to a run that is being created, and frees the bonds and particles of
+ * predecessor->run. Call it after engine_transfer_particles. */
+void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor);
 
 /* Saves the state of loads and of all parts of a run to the archive if a->saving is set, else restores it from the
  * archive. Each part saves only state that a->scope includes. Returns FAILED if an entry is missing or has another

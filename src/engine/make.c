@@ -457,7 +457,7 @@ static status make_forces(struct run *e, struct predecessor *before)
 }
 
 status engine_remake(struct run *e, const struct scene *s, struct output *out, struct cells_without_particles hollow,
-                     struct predecessor *before)
+                     struct predecessor *predecessor)
 {
     memset(e, 0, sizeof *e);
     run_parts_make(e);
@@ -468,10 +468,10 @@ status engine_remake(struct run *e, const struct scene *s, struct output *out, s
     e->frame->hollow = hollow;
     TRY(make_particles(e));
     TRY(scene_locate(s, reversion_check(e->scene)));
-    TRY(make_forces(e, before));
+    TRY(make_forces(e, predecessor));
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
-    if (!before) TRY(scene_locate(s, frame_levels_make(e, false)));
+    if (!predecessor) TRY(scene_locate(s, frame_levels_make(e, false)));
     e->coupling->damping_share =
         interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&

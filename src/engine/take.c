@@ -28,18 +28,18 @@ static int32_t *numbers_now(const struct particles *p, const struct loads *loads
     return now;
 }
 
-void engine_transfer_particles(struct run *e, struct predecessor *before)
+void engine_transfer_particles(struct run *e, struct predecessor *predecessor)
 {
-    before->now = numbers_now(&e->part, &e->loads, &before->run->part, &before->run->loads);
-    particles_copy_fields(&e->part, &before->run->part, before->now, e->optional);
+    predecessor->now = numbers_now(&e->part, &e->loads, &predecessor->run->part, &predecessor->run->loads);
+    particles_copy_fields(&e->part, &predecessor->run->part, predecessor->now, e->optional);
     particles_update_lists(&e->part);
     mirror_images_copy_kinds(&e->part, &e->source);
 }
 
-void engine_transfer_bonds(struct run *e, const struct predecessor *before)
+void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
 {
-    struct run *old = before->run;
-    bonds_transfer_damage(&e->bonds, &e->part, &e->source.limit, &old->bonds, &old->part, before->now);
+    struct run *old = predecessor->run;
+    bonds_transfer_damage(&e->bonds, &e->part, &e->source.limit, &old->bonds, &old->part, predecessor->now);
     state_update_weighted_volumes(&e->bonds, &e->part, &e->source);
     bonds_free(&old->bonds);
     particles_free(&old->part);

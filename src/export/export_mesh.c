@@ -112,13 +112,13 @@ status export_check_file(const char *path, const char *sign, bool overwrite)
     return file_check_replaceable(path);
 }
 
-status export_write_file(const char *path, status (*put)(FILE *to, void *context), void *context)
+status export_write_file(const char *path, status (*write)(FILE *to, void *context), void *context)
 {
     const struct path aside = file_begin_temporary(path);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_report_write_failure(path, errno);
-    status s = put(to, context);
+    status s = write(to, context);
     const bool whole = !ferror(to);
     const bool closed = fclose(to) == 0;
     if (s == OK && !(whole && closed)) s = file_report_write_failure(path, errno);

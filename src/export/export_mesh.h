@@ -37,8 +37,8 @@ void export_mesh_free(struct export_mesh *m);
  * first bytes of exports of this kind. Returns REFUSED otherwise. */
 status export_check_file(const char *path, const char *sign, bool overwrite);
 
-/* Writes a file under a temporary name by put(to, context), syncs and renames it. Returns FAILED, and leaves no file,
+/* Writes a file under a temporary name by write(to, context), syncs and renames it. Returns FAILED, and leaves no file,
  * if it cannot be written. */
-status export_write_file(const char *path, status (*put)(FILE *to, void *context), void *context);
+status export_write_file(const char *path, status (*write)(FILE *to, void *context), void *context);
 
 #endif

@@ -60,14 +60,15 @@ void mesh_slits_store_corners(struct mesh *mesh);
 void mesh_slits_free(struct mesh_slits *s);
 
 /* Computes nodal values of a vector field from values at the points of the mesh, by least squares weighted with mass;
- * the iteration starts from the lumped projection. value: dim arrays with a value for each particle; node: dim arrays,
- * receives a value for each node. */
-void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);
+ * the iteration starts from the lumped projection. value: dim arrays with a value for each particle; nodal_value: dim
+ * arrays, receives a value for each node. */
+void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *value,
+                           real *const *nodal_value);
 
 /* Computes nodal values of a vector field as mesh_fit_nodal_values does, but for n listed nodes only; the iteration
  * starts from their present values, and all other nodes are unchanged. list: node indices. */
-void mesh_fit_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
-                           const int32_t *list, int64_t n);
+void mesh_fit_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *value,
+                           real *const *nodal_value, const int32_t *list, int64_t n);
 
 /* Returns the cell of particle i and its number in this cell as (cell << dim) + number, from its reference position,
  * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */

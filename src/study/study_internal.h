@@ -28,8 +28,9 @@ int study_order_name_keys(int *order, const struct varied_key *key, int keys);
 
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
  * name[CASE_NAME_ROOM]. key[keys]: all keys of the study; order[n]: indices of those in the name, in order of
- * appearance; at[k]: index of the value of key k in this run. */
-void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n, const int *at);
+ * appearance; value_index[k]: index of the value of key k in this run. */
+void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n,
+                        const int *value_index);
 
 /* ---- labels of pictures (study_labels.c) ------------------------------------------------------------------------- */
 

@@ -116,7 +116,8 @@ int study_order_name_keys(int *order, const struct varied_key *key, int keys)
     return n;
 }
 
-void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n, const int *at)
+void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n,
+                        const int *value_index)
 {
     *name = '\0';
     for (int k = 0; k < n; k++) {
@@ -124,7 +125,7 @@ void study_name_compose(char *name, const struct varied_key *key, int keys, cons
         if (k > 0) name_append(name, ",");
         name_append(name, key_label(key, keys, own));
         name_append(name, "=");
-        name_append(name, key[own].value[at[own]]);
+        name_append(name, key[own].value[value_index[own]]);
     }
     if (n == 0) name_append(name, "run");
 }
