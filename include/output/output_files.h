@@ -70,8 +70,8 @@ status file_check_beginning(const char *path, const char *const *beginning, size
 /* Type of a function that acts on the file `path`. */
 typedef status file_visit_fn(const char *path);
 
-/* Calls visit(path) for every file in `folder` for whose name chosen(name, end) returns true. Links are skipped. Stops
- * at the first call that does not return OK, and returns its status. */
+/* Calls visit(path) for every file in `folder` for whose name chosen(name, ending) returns true. Links are skipped.
+ * Stops at the first call that does not return OK, and returns its status. */
 status files_visit(const char *folder, bool (*chosen)(const char *name, const char *ending), const char *ending,
                    file_visit_fn *visit);
 

@@ -122,7 +122,7 @@ void probes_visit_results(const struct probes *s, const struct observed_run *o,
  * name of probes_write_profiles. Returns the status of the write. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
-/* Prints the profile of each LINE and EXACT probe as CSV text, and calls put(context, `<probe>_<frame>.csv`, text,
+/* Prints the profile of each LINE and EXACT probe as CSV text, and calls write(context, `<probe>_<frame>.csv`, text,
  * length) for each. frame: number of the frame in these names. Returns FAILED if memory is exhausted, or the status of
  * `write` if it is not OK. */
 status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write, void *context,

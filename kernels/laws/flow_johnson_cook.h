@@ -7,8 +7,9 @@
 #include "data/law.h"
 #include "flow_power.h"
 
-/* Returns the factor (1 + C log max(rate/eps0, 1))(1 - T*^m) on the yield stress of the law m of Johnson & Cook [1],
- * for eight points. rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
+/* Returns the factor (1 + C log max(r/eps0, 1))(1 - T*^m) on the yield stress of the law of Johnson & Cook [1], for
+ * eight points, with the strain rate r. strain_rate: total deviatoric strain rates [1/s]; temperature: temperatures
+ * [K]. */
 static ALWAYS_INLINE lanes johnson_cook_factor(const struct law *law, lanes strain_rate, lanes temperature)
 {
     const lanes ratio = lanes_max(strain_rate * (1 / law->johnson_cook.eps0), lanes_broadcast(1));
@@ -20,7 +21,7 @@ static ALWAYS_INLINE lanes johnson_cook_factor(const struct law *law, lanes stra
 }
 
 /* Returns the yield stresses of eight points by the law of Johnson & Cook [Pa] and stores their derivatives by the
- * plastic strain a in *slope [Pa]. rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
+ * plastic strain in *slope [Pa]. strain_rate: total deviatoric strain rates [1/s]; temperature: temperatures [K]. */
 static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                                     lanes temperature, lanes *slope)
 {
@@ -30,7 +31,8 @@ static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes
     return (law->johnson_cook.A + power) * factor;
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to a at constant rate and temperature [J/m^3]. */
+/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` at constant strain rate and
+ * temperature [J/m^3]. */
 static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *law, lanes plastic_strain,
                                                              lanes strain_rate, lanes temperature)
 {
@@ -40,8 +42,8 @@ static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *l
     return cold * johnson_cook_factor(law, strain_rate, temperature);
 }
 
-/* Returns the plastic strain at which the yield stress at the given rate and temperature is q [Pa]; INFINITY without
- * hardening. */
+/* Returns the plastic strain at which the yield stress at the given strain rate and temperature is `stress` [Pa];
+ * INFINITY without hardening. */
 static ALWAYS_INLINE lanes plastic_strain_bound_johnson_cook(const struct law *law, lanes stress, lanes strain_rate,
                                                              lanes temperature)
 {

@@ -22,7 +22,7 @@ static ALWAYS_INLINE lanes flow_stress_linear(const struct law *law, lanes plast
     return law->yield + law->hardening * plastic_strain;
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3]. */
+/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3]. */
 static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                                        lanes temperature)
 {

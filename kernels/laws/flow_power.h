@@ -6,8 +6,9 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
-/* Returns B a^n [Pa] for the plastic strains a of eight points, and stores its derivative n B a^(n - 1) in *slope [Pa],
- * which is large but finite at a = 0. B: coefficient [Pa]; n: exponent, 0 < n <= 1. */
+/* Returns coefficient * strain^exponent [Pa] for the plastic strains `strain` of eight points, and stores its
+ * derivative by the strain in *slope [Pa], which is large but finite at strain 0. coefficient: [Pa]; exponent: in
+ * (0, 1]. */
 static ALWAYS_INLINE lanes power_of_strain(real coefficient, real exponent, lanes strain, lanes *slope)
 {
     const lanes least = lanes_max(strain, lanes_broadcast(1e-200)), power = coefficient * lanes_power(least, exponent);
@@ -15,8 +16,8 @@ static ALWAYS_INLINE lanes power_of_strain(real coefficient, real exponent, lane
     return lanes_choose(lanes_less(strain, lanes_broadcast(1e-200)), lanes_broadcast(0), power);
 }
 
-/* Returns the yield stresses sigma_y + B a^n of eight points [Pa] and stores their derivatives by the plastic strain a
- * in *slope [Pa]. Rate and temperature have no effect. */
+/* Returns the yield stresses sigma_y + B a^n of eight points with the plastic strains a [Pa] and stores their
+ * derivatives by a in *slope [Pa]. Rate and temperature have no effect. */
 static ALWAYS_INLINE lanes flow_stress_power(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                              lanes temperature, lanes *slope)
 {
@@ -24,7 +25,7 @@ static ALWAYS_INLINE lanes flow_stress_power(const struct law *law, lanes plasti
     return law->yield + power_of_strain(law->power.coefficient, law->power.exponent, plastic_strain, slope);
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3]. */
+/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3]. */
 static ALWAYS_INLINE lanes flow_stress_integral_power(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                                       lanes temperature)
 {
@@ -33,7 +34,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_power(const struct law *law, lan
     return law->yield * plastic_strain + law->power.coefficient / (n + 1) * lanes_power(plastic_strain, n + 1);
 }
 
-/* Returns the plastic strain at which the yield stress is q [Pa], 0 if q is below the first one. */
+/* Returns the plastic strain at which the yield stress is `stress` [Pa], 0 if `stress` is below the first one. */
 static ALWAYS_INLINE lanes plastic_strain_bound_power(const struct law *law, lanes stress, lanes strain_rate,
                                                       lanes temperature)
 {

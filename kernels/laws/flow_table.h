@@ -6,7 +6,7 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
-/* Returns the yield stresses of eight points, the least of the lines of all segments at the plastic strain a [Pa], and
+/* Returns the yield stresses of eight points, the least of the lines of all segments at the plastic strain [Pa], and
  * stores the slopes of these lines in *slope [Pa]. Rate and temperature have no effect. */
 static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                              lanes temperature, lanes *slope)
@@ -23,7 +23,7 @@ static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plasti
     return least;
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3], segment by segment. */
+/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3], segment by segment. */
 static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                                       lanes temperature)
 {
@@ -38,7 +38,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lan
     return work;
 }
 
-/* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is q. */
+/* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is `stress`. */
 static ALWAYS_INLINE lanes plastic_strain_bound_table(const struct law *law, lanes stress, lanes strain_rate,
                                                       lanes temperature)
 {

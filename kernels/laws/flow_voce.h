@@ -5,8 +5,8 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
-/* Returns the yield stresses sigma_y + Q (1 - exp(-b a)) of eight points [Pa] and stores their derivatives by the
- * plastic strain a in *slope [Pa]. Rate and temperature have no effect. */
+/* Returns the yield stresses sigma_y + Q (1 - exp(-b a)) of eight points with the plastic strains a [Pa] and stores
+ * their derivatives by a in *slope [Pa]. Rate and temperature have no effect. */
 static ALWAYS_INLINE lanes flow_stress_voce(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                             lanes temperature, lanes *slope)
 {
@@ -16,7 +16,7 @@ static ALWAYS_INLINE lanes flow_stress_voce(const struct law *law, lanes plastic
     return law->yield + (law->voce.saturation - left);
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to a [J/m^3]. */
+/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3]. */
 static ALWAYS_INLINE lanes flow_stress_integral_voce(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                                      lanes temperature)
 {
@@ -25,7 +25,7 @@ static ALWAYS_INLINE lanes flow_stress_integral_voce(const struct law *law, lane
            law->voce.saturation / law->voce.rate * (1.0 - lanes_exp(-law->voce.rate * plastic_strain));
 }
 
-/* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is q. */
+/* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is `stress`. */
 static ALWAYS_INLINE lanes plastic_strain_bound_voce(const struct law *law, lanes stress, lanes strain_rate,
                                                      lanes temperature)
 {

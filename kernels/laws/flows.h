@@ -12,8 +12,9 @@
     case FLOW_##upper:                                                                                                 \
         return FLOW_CALL(lower);
 
-/* Returns the yield stresses of eight points by the flow law m [Pa] and stores their derivatives by the plastic strain
- * in *slope [Pa]. a: plastic strains [1]; rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
+/* Returns the yield stresses of eight points by the flow law `law` [Pa] and stores their derivatives by the plastic
+ * strain in *slope [Pa]. plastic_strain: plastic strains [1]; strain_rate: total deviatoric strain rates [1/s];
+ * temperature: temperatures [K]. */
 static ALWAYS_INLINE lanes flow_stress(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                        lanes temperature, lanes *slope)
 {
@@ -26,8 +27,9 @@ static ALWAYS_INLINE lanes flow_stress(const struct law *law, lanes plastic_stra
 #undef FLOW_CALL
 }
 
-/* Returns for eight points the plastic strain at which the yield stress of the flow law m is q [Pa], or an upper bound
- * of it; INFINITY if there is none [1]. rate: total deviatoric strain rates [1/s]; T: temperatures [K]. */
+/* Returns for eight points the plastic strain at which the yield stress of the flow law `law` is `stress` [Pa], or an
+ * upper bound of it; INFINITY if there is none [1]. strain_rate: total deviatoric strain rates [1/s]; temperature:
+ * temperatures [K]. */
 static ALWAYS_INLINE lanes flow_strain_bound(const struct law *law, lanes stress, lanes strain_rate, lanes temperature)
 {
 #define FLOW_CALL(name) plastic_strain_bound_##name(law, stress, strain_rate, temperature)
@@ -39,8 +41,8 @@ static ALWAYS_INLINE lanes flow_strain_bound(const struct law *law, lanes stress
 #undef FLOW_CALL
 }
 
-/* Returns for eight points the integral of the yield stress of the flow law m from plastic strain 0 to a [J/m^3]. rate:
- * total deviatoric strain rates [1/s]; T: temperatures [K]. */
+/* Returns for eight points the integral of the yield stress of the flow law `law` from plastic strain 0 to
+ * `plastic_strain` [J/m^3]. strain_rate: total deviatoric strain rates [1/s]; temperature: temperatures [K]. */
 static ALWAYS_INLINE lanes flow_stress_integral(const struct law *law, lanes plastic_strain, lanes strain_rate,
                                                 lanes temperature)
 {

@@ -5,7 +5,7 @@
 
 #include "kernels/laws/law_update.h"
 
-/* Returns the particle number of material point q of a cell, -1 if it has none. cell: index of the cell, -1: no
+/* Returns the particle number of material point `number` of a cell, -1 if it has none. cell: index of the cell, -1: no
  * cell. */
 static ALWAYS_INLINE int32_t place_point(const struct mesh *mesh, int32_t cell, int number, const int dim)
 {
@@ -64,7 +64,7 @@ static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elas
         p->temperature ? lanes_of_listed(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Stores the state in lane l of *e, of a point that has yielded, to point i of the particles, and its stress in
+/* Stores the state in lane `lane` of *e, of a point that has yielded, to point i of the particles, and its stress in
  * `stress`, whose trial value it replaces. m: constants of its material. */
 static ALWAYS_INLINE void law_store(const struct particles *p, const struct elastic *m, const struct law_points *e,
                                     int lane, int64_t i, lanes *stress, const int dim)
@@ -81,10 +81,10 @@ static ALWAYS_INLINE void law_store(const struct particles *p, const struct elas
     if (p->temperature) p->temperature[i] = e->temperature[lane];
 }
 
-/* Maps the trial stresses of the points number q of eight cells back to their yield surfaces by their flow laws, and
- * updates their plastic state. cell: eight cell indices; left: bits of the lanes whose points have a law; dt: duration
- * of an explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry [Pa]; m: elastic
- * constants of all materials. Points of several materials: law by law. */
+/* Maps the trial stresses of the points number `number` of eight cells back to their yield surfaces by their flow laws,
+ * and updates their plastic state. cell: eight cell indices; yielding_lanes: bits of the lanes whose points have a law;
+ * dt: duration of an explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry [Pa]; m:
+ * elastic constants of all materials. Points of several materials: law by law. */
 static NEVER_INLINE void place_laws(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                     const int32_t *cell, int number, unsigned yielding_lanes, real dt, lanes *stress,
                                     int dim)

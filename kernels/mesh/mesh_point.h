@@ -30,8 +30,8 @@ static ALWAYS_INLINE void cell_interpolate_to_points(real *value, const int dim)
             if (!(c >> d & 1)) interpolate_to_quarters(&value[c], &value[c | 1 << d]);
 }
 
-/* Returns the value at material point number q of a cell, interpolated linearly from its corners. v: values at its
- * 2^dim corners, overwritten. */
+/* Returns the value at material point number `point` of a cell, interpolated linearly from its corners. value: values
+ * at its 2^dim corners, overwritten. */
 static ALWAYS_INLINE real cell_interpolate_to_point(real *value, int point, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -73,10 +73,10 @@ static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t 
     }
 }
 
-/* Computes e = R^T F - 1 at each material point of cell I [1], with the deformation gradient F at the point and the
- * rotation R of the mean deformation gradient of the cell. R: receives the rotation, dim x dim row by row; the identity
- * if `finite` (finite strain) is false or in 1D. e[q]: dim x dim row by row for point q; only its symmetric part is
- * strain. */
+/* Computes the strains R^T F - 1 at each material point of cell `cell` [1], with the deformation gradient F at the
+ * point and the rotation R of the mean deformation gradient of the cell. rotation: receives R, dim x dim row by row;
+ * the identity if `finite` (finite strain) is false or in 1D. strain[q]: dim x dim row by row for point q; only its
+ * symmetric part is strain. */
 static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t cell, real *rotation,
                                              real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
 {
@@ -141,9 +141,9 @@ static ALWAYS_INLINE void cell_differences(const struct elastic *m, const uint8_
     }
 }
 
-/* Replaces the trace of the strains e[q] of the points of cell I by the mean over the points of the same material,
- * where the material has the mean dilatation of its cell. e: as from mesh_point_strains; m: elastic constants of all
- * materials. */
+/* Replaces the trace of the strains of the points of cell `cell` by the mean over the points of the same material,
+ * where the material has the mean dilatation of its cell. strain: as from mesh_point_strains; m: elastic constants of
+ * all materials. */
 static ALWAYS_INLINE void mesh_strains_average(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, int64_t cell,
                                                real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)

@@ -22,8 +22,8 @@
  * steps. */
 #define SPIN_NONE 3e-5
 
-/* Rotates the stress s (xx, yy, xy) in 2D: s = R s R^T with the rotation R by the angle -`angle` from x to y, where
- * `angle` is W_xy [rad]. */
+/* Rotates the stress s = `stress` (xx, yy, xy) in 2D: s = R s R^T with the rotation R by the angle -`angle` from x to
+ * y, where `angle` is W_xy [rad]. */
 static inline void stress_rotate_2d(real *stress, real angle)
 {
     const real c = cos(2 * angle), n = sin(2 * angle), mean = 0.5 * (stress[0] + stress[1]),
@@ -40,8 +40,8 @@ static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], rea
         for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
 }
 
-/* Rotates the stress s (xx, yy, zz, xy, yz, zx) in 3D: s = R s R^T with R = exp W (Rodrigues' formula). wxy, wyz, wzx:
- * components of the antisymmetric matrix W, not all 0 [rad]. */
+/* Rotates the stress s = `stress` (xx, yy, zz, xy, yz, zx) in 3D: s = R s R^T with R = exp W (Rodrigues' formula). wxy,
+ * wyz, wzx: components of the antisymmetric matrix W, not all 0 [rad]. */
 static inline void stress_rotate_3d(real *stress, real wxy, real wyz, real wzx)
 {
     const real S[3][3] = {
@@ -60,9 +60,9 @@ static inline void stress_rotate_3d(real *stress, real wxy, real wyz, real wzx)
     stress[3] = turned[0][1], stress[4] = turned[1][2], stress[5] = turned[2][0];
 }
 
-/* Computes the first-order change of the stress by a rotation, increment = W s - s W with the stress s, for a few
- * points (one per lane). stress: symmetric components [Pa]; spin: the components W_xy, in 3D also W_yz and W_zx, of the
- * antisymmetric matrix W [rad]. */
+/* Computes the first-order change of the stress by a rotation, increment = W s - s W with the stress s = `stress`, for
+ * a few points (one per lane). stress: symmetric components [Pa]; spin: the components W_xy, in 3D also W_yz and W_zx,
+ * of the antisymmetric matrix W [rad]. */
 static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *stress, const row_of_points *spin,
                                                     row_of_points *increment, const int dim)
 {
@@ -78,8 +78,9 @@ static ALWAYS_INLINE void stress_rotation_increment(const row_of_points *stress,
     increment[5] = spin[2] * (stress[0] - stress[2]) + spin[0] * stress[4] - spin[1] * stress[3];
 }
 
-/* Computes in `more` the change of the stress s of a few points by an exact rotation, each by its own angle up to
- * SPIN_SERIES. w: components of the antisymmetric matrix W [rad]; angle2: square of the angle a [rad^2]. With
+/* Computes in `increment` the change of the stress s = `stress` of a few points by an exact rotation, each by its own
+ * angle up to SPIN_SERIES. spin: components of the antisymmetric matrix W [rad]; angle2: square of the angle a [rad^2].
+ * With
  * A s = W s - s W, whose eigenvalues are 0, +-i a and +-2i a at the angle a,
  *     R s R^T = s + c1 A s + c2 A^2 s + c3 A^3 s + c4 A^4 s,
  *     c1 = (8 sin a - sin 2a)/6a, c2 = (15 - 16 cos a + cos 2a)/12a^2,
@@ -102,9 +103,9 @@ static ALWAYS_INLINE void stress_exact_rotation_increment(const row_of_points *s
     stress_rotation_increment(sum, spin, increment, dim);
 }
 
-/* Rotates the stress s of a few points (one per lane; symmetric components), each by its own antisymmetric matrix W
- * with components w [rad]: to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second order
- * between. */
+/* Rotates the stresses of a few points (one per lane; symmetric components), each by its own antisymmetric matrix W
+ * with the components `spin` [rad]: to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second
+ * order between. */
 static ALWAYS_INLINE void stress_rotate(row_of_points *stress, const row_of_points *spin, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -179,8 +180,8 @@ static ALWAYS_INLINE row_of_points stress_update(row_of_points *stress, const ro
     return trace;
 }
 
-/* Returns the largest principal stress [Pa] of the stress s (symmetric components), in 3D by the trigonometric solution
- * of the cubic equation. */
+/* Returns the largest principal stress [Pa] of `stress` (symmetric components), in 3D by the trigonometric solution of
+ * the cubic equation. */
 static ALWAYS_INLINE real stress_largest_principal(const real *stress, const int dim)
 {
     if (dim == 1) return stress[0];
@@ -199,8 +200,8 @@ static ALWAYS_INLINE real stress_largest_principal(const real *stress, const int
     return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
 }
 
-/* Returns an upper bound of the largest principal stress [Pa] of the stress s (symmetric components). The principal
- * stress itself is computed only where this bound exceeds the conversion stress. */
+/* Returns an upper bound of the largest principal stress [Pa] of `stress` (symmetric components). The principal stress
+ * itself is computed only where this bound exceeds the conversion stress. */
 static ALWAYS_INLINE real stress_principal_bound(const real *stress, const int dim)
 {
     if (dim == 1) return stress[0];
@@ -261,7 +262,7 @@ static ALWAYS_INLINE void point_stress_on_grid(const struct particles *p, const 
     for (int a = 0; a < n; a++) stress[a] += pull * local[a];
 }
 
-/* Rotates the vector v by the unit quaternion q, in place. q: first the three components along the axes, last the real
+/* Rotates `vector` by a unit quaternion, in place. quaternion: first the three components along the axes, last the real
  * one. */
 static inline void quaternion_rotate_vector(const real *quaternion, real *vector)
 {

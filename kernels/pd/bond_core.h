@@ -45,7 +45,7 @@ static inline struct core bond_core_of(const struct bonds *b, const struct parti
     return c;
 }
 
-/* Adds the repulsive core forces of the bonds of row block g to the forces p->f on its eight particles [N]. */
+/* Adds the repulsive core forces of the bonds of `row_block` to the forces p->f on its eight particles [N]. */
 RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
@@ -58,7 +58,7 @@ RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, 
     }
 }
 
-/* Returns half the energy of the repulsive cores of the bonds of row block g [J]; the other half belongs to the bonds'
+/* Returns half the energy of the repulsive cores of the bonds of `row_block` [J]; the other half belongs to the bonds'
  * other rows. */
 RARE real row_block_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block)
 {

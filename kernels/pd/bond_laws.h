@@ -84,7 +84,7 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + first_bond) : stretch;
 }
 
-/* Returns the elastic part of the given stretch of the bond with index q in a row block [1], by the rules of
+/* Returns the elastic part of the given stretch of bond number `bond` of a row block [1], by the rules of
  * bonds_elastic_stretch. */
 static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {

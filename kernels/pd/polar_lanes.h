@@ -18,7 +18,7 @@ static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
     R[1] = -R[2];
 }
 
-/* Does one step of R <- (R + R^-T)/2 (Higham 1986) on eight 3 x 3 matrices R, and clears `sound` in lanes whose R is
+/* Does one step of R <- (R + R^-T)/2 (Higham 1986) on eight 3 x 3 matrices R, and clears *valid in lanes whose R is
  * singular or inverted. Returns the determinants of R before the step. */
 static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *valid)
 {

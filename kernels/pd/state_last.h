@@ -123,7 +123,7 @@ static inline real state_before_breaking(const struct bonds *b, const struct par
 }
 
 /* Computes the force of a state-based bond on particle i, f[dim] [N], from the states of the families of both
- * particles. now: true for their present states, false for the states before bonds broke in this step. */
+ * particles. present: true for their present states, false for the states before bonds broke in this step. */
 static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool present, real *f, const int dim)
 {

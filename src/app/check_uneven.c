@@ -10,8 +10,9 @@
 #define SAME_PLACE 2    /* largest distance of two measurements of one width [spacings] */
 enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
-/* Returns true if a part with the relative error `off` may belong to the list: the list is not full, or |off| exceeds
- * 0.9 times the smallest |off| in it. Errors of equal parts differ by up to a tenth, as they come from samples. */
+/* Returns true if a part with the relative error `error` may belong to the list: the list is not full, or |error|
+ * exceeds 0.9 times the smallest |off| in it. Errors of equal parts differ by up to a tenth, as they come from
+ * samples. */
 bool uneven_list_would_keep(const struct uneven_list *list, real error)
 {
     return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);

@@ -25,7 +25,7 @@ struct uneven_list {
 };
 
 /* Returns true if a part with the relative error `error` of its section may belong to the list: the list is not full,
- * or |off| is larger than nine tenths of the smallest error in it (errors of equal parts differ a little by
+ * or |error| is larger than nine tenths of the smallest error in it (errors of equal parts differ a little by
  * sampling). */
 bool uneven_list_would_keep(const struct uneven_list *list, real error);
 

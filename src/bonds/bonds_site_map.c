@@ -20,8 +20,7 @@ enum { HALF_MOST = 16 };
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
-/* Returns the index in the map l of the lattice site at which particle i is; -1 if its position is not a lattice
- * site. */
+/* Returns the index in `map` of the lattice site at which particle i is; -1 if its position is not a lattice site. */
 int64_t lattice_site_of(const struct site_map *map, const struct particles *p, int64_t i)
 {
     int64_t site = 0;

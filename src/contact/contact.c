@@ -12,9 +12,9 @@
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
 /* Initialises the contact of a run; no pairs are searched yet. between: what may come into contact; law: form, contact
- * distance and friction; the stiffness k follows from the materials of `source` times `stiffness` [1]. shape: shapes of
- * the bodies, for the surface above particles. shape and rigid[rigids] are kept by reference and must outlive c.
- * Release with contact_free. */
+ * distance and friction; the stiffness k follows from the materials of `source` times `stiffness_factor` [1]. shape:
+ * shapes of the bodies, for the surface above particles. shape and rigid[rigids] are kept by reference and must outlive
+ * c. Release with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids)
@@ -87,8 +87,8 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     return most;
 }
 
-/* Returns the critical time step of bodies in contact [s], INFINITY if contact is not possible. bonds: critical time
- * step of their bonds alone [s]; m: the materials.
+/* Returns the critical time step of bodies in contact [s], INFINITY if contact is not possible. bonds_time_step:
+ * critical time step of their bonds alone [s]; material: the materials.
  * Two particles in contact have the squared frequency 2 k/mass. A particle of a flat face has half of its bonds. Of the
  * other face one particle is opposite, or in 2D two and in 3D three are next to it, at 60 degrees or more to the face:
  * a normal stiffness of 1, 1.5 and 2 k in total. Rubble, with up to eight contacts per particle, needs 0.61 of the

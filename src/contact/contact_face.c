@@ -278,10 +278,10 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* Determines at which height above the face contact of row `row` begins, after a search. was: row of the particle in
- * the previous list `before`, -1: none. A row already in contact gets the overlap with which its energy does not
- * change. Otherwise contact begins where the surfaces of the bodies meet, or later if the particle is closer in the
- * reference or the present configuration. */
+/* Determines at which height above the face contact of row `row` begins, after a search. previous_entry: row of the
+ * particle in the previous list `previous`, -1: none. A row already in contact gets the overlap with which its energy
+ * does not change. Otherwise contact begins where the surfaces of the bodies meet, or later if the particle is closer
+ * in the reference or the present configuration. */
 void contact_face_set_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                              const struct particles *p, int64_t row)
 {

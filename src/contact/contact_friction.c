@@ -233,8 +233,8 @@ void contact_reactions_make(struct contact *c)
     c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
 }
 
-/* Creates the friction springs of a new contact list. Springs of particles that were in the previous list `before` are
- * copied from it; the energy of the other springs is lost. Does nothing without friction. */
+/* Creates the friction springs of a new contact list. Springs of particles that were in the previous list `previous`
+ * are copied from it; the energy of the other springs is lost. Does nothing without friction. */
 void contact_springs_copy(struct contact *c, const struct contact *previous)
 {
     if (!(c->law.friction > 0)) return;

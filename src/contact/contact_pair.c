@@ -53,8 +53,8 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
 
 /* Returns the distance at which contact between list entries k and l begins [m]: the smaller of their distance in the
  * reference configuration and their mean spacing, minus the width of a notch between them. If the pair is closer when
- * it is found, it is the present distance until the pair opens. was: contact distance on the previous list [m], NAN if
- * the pair is new. Bitwise equal for (k, l) and (l, k). */
+ * it is found, it is the present distance until the pair opens. previous_distance: contact distance on the previous
+ * list [m], NAN if the pair is new. Bitwise equal for (k, l) and (l, k). */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
                            real previous_distance)
 {

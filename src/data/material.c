@@ -12,9 +12,9 @@ real bond_based_poisson_ratio(enum space space)
     return poisson[space];
 }
 
-/* Computes the micro-modulus c of bonds in a family with the weight sum sigma, such that a uniform expansion s has
- * equal energy densities: 1/4 c s^2 sigma of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of the
- * continuum. */
+/* Computes the micro-modulus c of bonds in a family with the weight sum `family_sum`, such that a uniform expansion s
+ * has equal energy densities: 1/4 c s^2 family_sum of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of
+ * the continuum. */
 real material_micro_modulus(const struct material *m, enum space space, real family_sum)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};

@@ -47,8 +47,8 @@ bool region_bounds(const struct region *r, int dim, real lower[DIM_MAX], real up
     return bounded;
 }
 
-/* Returns the volume of the region inside the box from .. to [m^dim], estimated by the share of sample points inside
- * the region. The points are a Kronecker sequence with increments of the powers g^-1, g^-2, .. of the root g of
+/* Returns the volume of the region inside the box `lower` .. `upper` [m^dim], estimated by the share of sample points
+ * inside the region. The points are a Kronecker sequence with increments of the powers g^-1, g^-2, .. of the root g of
  * g^(dim+1) = g+1 (Roberts 2018). */
 real region_volume(const struct region *r, int dim, const real *lower, const real *upper)
 {

@@ -232,9 +232,9 @@ void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struc
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates all arrays of a mesh that covers the box from .. to [m], without points or cells. node_grid: dimension,
- * edge and origin of the nodes. p: particles whose slits divide cells and nodes; NULL: no slits. Returns REFUSED if the
- * mesh has too many nodes. */
+/* Allocates all arrays of a mesh that covers the box `lower` .. `upper` [m], without points or cells. node_grid:
+ * dimension, edge and origin of the nodes. p: particles whose slits divide cells and nodes; NULL: no slits. Returns
+ * REFUSED if the mesh has too many nodes. */
 status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
                      const struct particles *p, const struct mesh_source *source)
 {

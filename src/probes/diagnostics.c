@@ -66,7 +66,7 @@ void diagnostics_energy_balance(struct diagnostics *w, real t, const struct ener
 
 /* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
  * distances up to the horizon. list[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the middle of one
- * group in middle[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
+ * group in centre[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
 int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre)
 {
     const real along[DIM_MAX] = {0};

@@ -150,7 +150,7 @@ status read_variables(struct reader *r, const struct yaml_node *root)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Reads a number, or an expression of variables, into *value [SI]. unit: expected unit; infinite: true if inf is
+/* Reads a number, or an expression of variables, into *value [SI]. unit: expected unit; allow_infinity: true if inf is
  * allowed. Returns false if the text is invalid, with the fault in message[capacity] as the rest of a sentence that
  * begins with `text`. */
 bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool allow_infinity,

@@ -16,7 +16,7 @@
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
 /* Writes the path of the default folder of a study, results/NAME_KIND with the name of the scene and KIND = kind, into
- * to[capacity]. */
+ * folder[capacity]. */
 void study_folder_default(char *folder, size_t capacity, const struct scene *scene, const char *kind)
 {
     snprintf(folder, capacity, "results/%s_%s", scene->name, kind);
