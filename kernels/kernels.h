@@ -271,7 +271,7 @@ KERNEL(void, rotation_groups_compute_spins, (struct rotation_groups *t, struct p
 /* Gives each group the angular momentum that its points have not received from the grid (t->turn [kg m^2/s]), as a
  * rotation about its centre of mass: adds it to the velocities of the points. Then stores in t->turn, for each point,
  * the new angular velocity of its group [1/s]. Positions must be those of rotation_groups_compute_spins. */
-KERNEL(void, rotation_groups_restore_spins, (struct rotation_groups *t, struct particles *p));
+KERNEL(void, rotation_groups_restore_angular_momentum, (struct rotation_groups *t, struct particles *p));
 
 /* Stores in k the kernels for bodies of `dim` dimensions with the given peridynamic model, shape function of the grid
  * and transfer scheme (FLIP or APIC). The combination must exist in simd/variants.h. */

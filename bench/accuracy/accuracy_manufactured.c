@@ -63,8 +63,8 @@ static status accuracy_manufactured_measure(const struct accuracy_point *q, stru
     const struct observed_run seen = observed_run_of(e);
     real stiffness[SYM_MAX * SYM_MAX];
     double off[2] = {0}, all[2] = {0};
-    compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    material_stiffness(seen.material, p->dim, stiffness);
+    bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    material_stiffness_matrix(seen.material, p->dim, stiffness);
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];
         for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];

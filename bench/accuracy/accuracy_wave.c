@@ -75,7 +75,7 @@ static struct match match_of(const struct wave_pulse *start, const struct partic
     for (int64_t i = 0; i < p->n; i++) {
         if (!is_in_window(p, i)) continue;
         const real X[2] = {p->X[0][i], p->X[1][i]}, v[2] = {p->v[0][i], p->v[1][i]};
-        const double exact = wave_pulse_at(&w, X, longitudinal, 2).velocity;
+        const double exact = wave_pulse_initial_state(&w, X, longitudinal, 2).velocity;
         m.exact2 += exact * exact;
         m.product += exact * dot(v, w.polarisation, 2);
         for (int d = 0; d < 2; d++) m.off2 += square(v[d] - exact * w.polarisation[d]);

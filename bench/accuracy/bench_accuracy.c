@@ -49,7 +49,7 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     const double before = processor_seconds();
     status ran = p->problem->run ? p->problem->run(p, &e) : engine_run(&e);
     const double busy = team == 0 ? processor_seconds() - before : INFINITY;
-    r->seconds[team] = fmin(r->seconds[team], fmin(report_seconds(e.report, &e.timers).loop, busy));
+    r->seconds[team] = fmin(r->seconds[team], fmin(report_wall_clock_times(e.report, &e.timers).loop, busy));
     r->particles = (double)e.part.n, r->steps = (double)e.clock.step, r->stable = ran == OK;
     if (ran == OK && !r->known) ran = p->problem->measure(p, &e, &r->error, r->part);
     bench_engine_free(&e, &s);

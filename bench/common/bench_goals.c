@@ -44,7 +44,7 @@ status bench_jobs_run(struct bench_job *job, int n, int at_once)
 double bench_summary_figure(const char *folder, const char *key)
 {
     double value;
-    return summary_number(folder, key, &value) == OK ? value : NAN;
+    return summary_read_number(folder, key, &value) == OK ? value : NAN;
 }
 
 /* ---- goals ------------------------------------------------------------------------------------------------------- */

@@ -88,7 +88,7 @@ void bench_engine_start(struct run *e, bench_field *field, const void *context)
     for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) {
         if (!(e->frame->mesh.inverse_mass[I] > 0)) continue;
         const int64_t at = mesh_regular_node_of(&e->frame->mesh, I);
-        for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
+        for (int d = 0; d < g->dim; d++) X[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
         field(context, X, v);
         for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
     }
@@ -227,7 +227,7 @@ status bench_child_figures(const char *path, const struct scene_override *overri
     struct bench_child c;
     status s = bench_child_start(&c, path, override, overrides, 1);
     if (s == OK) s = bench_child_wait(&c);
-    for (int k = 0; k < n && s == OK; k++) s = summary_number(c.folder, key[k], &value[k]);
+    for (int k = 0; k < n && s == OK; k++) s = summary_read_number(c.folder, key[k], &value[k]);
     bench_child_free(&c);
     return s;
 }

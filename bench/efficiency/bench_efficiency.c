@@ -93,7 +93,7 @@ static status efficiency_run_once(struct result *x, int variant, int repetition)
     TRY(make(&e, &s, x, variant));
     struct run_times *r = &x->run[variant];
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
-    r->seconds[repetition] = report_seconds(e.report, &e.timers).loop;
+    r->seconds[repetition] = report_wall_clock_times(e.report, &e.timers).loop;
     parts_keep(r, e.timers.spent, repetition);
     x->particles = e.part.n, x->steps = e.clock.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);
@@ -137,7 +137,7 @@ static double median_without(const struct run_times *r, enum loop_part part, int
 {
     double t[REPETITIONS];
     for (int k = 0; k < repetitions; k++) t[k] = r->seconds[k] - r->part[part][k];
-    return median_of(t, repetitions);
+    return median_by_sorting(t, repetitions);
 }
 
 /* Returns the median over repetitions of the share of the loop time that is spent neither on bonds nor on material
@@ -147,7 +147,7 @@ static double median_rest(const struct run_times *r, int repetitions)
     double t[REPETITIONS];
     for (int k = 0; k < repetitions; k++)
         t[k] = (r->part[PART_CONVERSION][k] + r->part[PART_SAMPLES][k]) / r->seconds[k];
-    return median_of(t, repetitions);
+    return median_by_sorting(t, repetitions);
 }
 
 static status scene_measure(struct result *x, int repetitions)
@@ -160,17 +160,18 @@ static status scene_measure(struct result *x, int repetitions)
     for (int r = 0; r < repetitions; r++)
         for (int k = 0; k < VARIANTS; k++) /* the first lever is always none */
             if (efficiency_is_run(x->scene, (r + k) % VARIANTS)) TRY(efficiency_run_once(x, (r + k) % VARIANTS, r));
-    x->t[0] = median_of(x->run[0].seconds, repetitions);
+    x->t[0] = median_by_sorting(x->run[0].seconds, repetitions);
     for (int variant = 1; variant < VARIANTS; variant++) {
         if (!efficiency_is_run(x->scene, variant)) continue;
         TRY(run_shares(x, variant));
-        x->t[variant] = median_of(x->run[variant].seconds, repetitions);
+        x->t[variant] = median_by_sorting(x->run[variant].seconds, repetitions);
         x->t_r[variant] = 1 - x->t[variant] / x->t[0];
         x->t_r_stepping[variant] = 1 - median_without(&x->run[variant], PART_SAMPLES, repetitions) /
                                            median_without(&x->run[0], PART_SAMPLES, repetitions);
         x->t_r_bound[variant] = 1 - median_without(&x->run[variant], PART_CONVERSION, repetitions) / x->t[0];
         x->rest_share[variant] = median_rest(&x->run[variant], repetitions);
-        for (int k = 0; k < PARTS; k++) x->part[variant][k] = median_of(x->run[variant].part[k], repetitions) / x->t[0];
+        for (int k = 0; k < PARTS; k++)
+            x->part[variant][k] = median_by_sorting(x->run[variant].part[k], repetitions) / x->t[0];
         compare_tips(x, variant, dim);
     }
     return OK;

@@ -70,7 +70,7 @@ static status stepped_start(struct bench_child *child, const struct breaking_met
 static status stepped_take(struct bench_child *child, double *figure)
 {
     status s = bench_child_wait(child);
-    for (int f = 0; f < FIGURES && s == OK; f++) s = summary_number(child->folder, key_of[f], &figure[f]);
+    for (int f = 0; f < FIGURES && s == OK; f++) s = summary_read_number(child->folder, key_of[f], &figure[f]);
     return s;
 }
 

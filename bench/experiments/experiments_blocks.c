@@ -111,13 +111,13 @@ static double disc_stress(const char *folder, double spacing)
     double start, sum = 0;
     int n = 0;
     (void)spacing;
-    if (summary_number(folder, "crack.start_time", &start) != OK || history_read(&h, folder) != OK) return NAN;
+    if (summary_read_number(folder, "crack.start_time", &start) != OK || history_read(&h, folder) != OK) return NAN;
     const int time = history_find_column(&h, "time"), stress = history_find_column(&h, "centre.stress_xx");
     const int force = history_find_column(&h, "upper_force_y");
     for (int64_t k = 0; k < h.rows; k++) {
-        const double t = history_at(&h, k, time), P = fabs(history_at(&h, k, force));
+        const double t = history_value_at(&h, k, time), P = fabs(history_value_at(&h, k, force));
         if (t < 0.7 * start || t > start) continue;
-        sum += history_at(&h, k, stress) / (2 * P / (M_PI * DISC_DIAMETER * DISC_THICKNESS)), n++;
+        sum += history_value_at(&h, k, stress) / (2 * P / (M_PI * DISC_DIAMETER * DISC_THICKNESS)), n++;
     }
     history_free(&h);
     return n > 0 ? sum / n : NAN;
@@ -131,7 +131,7 @@ static double disc_strength(const char *folder, double spacing)
     double most = 0;
     if (history_read(&h, folder) != OK) return NAN;
     const int force = history_find_column(&h, "upper_force_y");
-    for (int64_t k = 0; k < h.rows; k++) most = fmax(most, fabs(history_at(&h, k, force)));
+    for (int64_t k = 0; k < h.rows; k++) most = fmax(most, fabs(history_value_at(&h, k, force)));
     history_free(&h);
     const double strength = DISC_YOUNG * sqrt(4 * M_PI * DISC_TOUGHNESS / (9 * DISC_YOUNG * 3.015 * spacing));
     return most / (0.5 * M_PI * DISC_DIAMETER * DISC_THICKNESS * strength);

@@ -39,7 +39,7 @@ enum { STRIP_LOADS = COUNT_OF(strip_loads) };
 static struct crack_medium strip_medium(void)
 {
     struct material m = {.young = STRIP_YOUNG, .poisson = STRIP_POISSON, .density = STRIP_DENSITY};
-    material_compute_constants(&m, SPACE_PLANE_STRESS);
+    material_compute_derived_constants(&m, SPACE_PLANE_STRESS);
     return crack_medium_of(&m, SPACE_PLANE_STRESS);
 }
 
@@ -59,9 +59,9 @@ static bool strip_window_open(struct strip_window *w, const char *folder, double
     const double straight = isnan(branches) ? INFINITY : branches - STRIP_NOTCH - 4 * spacing;
     const double last = fmin(STRIP_LAST, straight), from = fmin(STRIP_GROWN, 0.3 * last);
     const int length = history_find_column(&w->h, "crack_length");
-    while (w->first < w->h.rows && history_at(&w->h, w->first, length) < from) w->first++;
+    while (w->first < w->h.rows && history_value_at(&w->h, w->first, length) < from) w->first++;
     w->end = w->first;
-    while (w->end < w->h.rows && history_at(&w->h, w->end, length) <= last) w->end++;
+    while (w->end < w->h.rows && history_value_at(&w->h, w->end, length) <= last) w->end++;
     if (w->end - w->first >= 8) return true;
     history_free(&w->h);
     return false;
@@ -74,7 +74,8 @@ static double strip_slope(const struct strip_window *w, const char *x_name, cons
     const int cx = history_find_column(&w->h, x_name), cy = history_find_column(&w->h, y_name);
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (int64_t k = w->first; k < w->end; k++) {
-        const double a = history_at(&w->h, k, cx) - history_at(&w->h, w->first, cx), b = history_at(&w->h, k, cy);
+        const double a = history_value_at(&w->h, k, cx) - history_value_at(&w->h, w->first, cx),
+                     b = history_value_at(&w->h, k, cy);
         n++, x += a, y += b, xx += a * a, xy += a * b;
     }
     return (n * xy - x * y) / (n * xx - x * x);
@@ -110,7 +111,7 @@ static double strip_factor(const char *folder, double spacing)
     double sum = 0;
     if (!strip_window_open(&w, folder, spacing)) return NAN;
     const int K = history_find_column(&w.h, "sif.K_I");
-    for (int64_t k = w.first; k < w.end; k++) sum += history_at(&w.h, k, K);
+    for (int64_t k = w.first; k < w.end; k++) sum += history_value_at(&w.h, k, K);
     const double mean = sum / (double)(w.end - w.first);
     history_free(&w.h);
     return mean / sqrt(STRIP_TOUGHNESS * STRIP_YOUNG);

@@ -25,7 +25,7 @@ int experiment_mean(const double *value, int n, double *mean, double *deviation,
     for (int k = sum = 0; k < n; k++)
         if (isfinite(value[k])) sum += (value[k] - *mean) * (value[k] - *mean);
     *deviation = sqrt(sum / (held - 1));
-    *interval = student_quantile(held - 1) * *deviation / sqrt(held);
+    *interval = student_t_quantile_975(held - 1) * *deviation / sqrt(held);
     return held;
 }
 
@@ -40,7 +40,7 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
     if (state != CASE_DONE && state != CASE_DONE_BEFORE) return NAN;
     if (f->measure)
         value = f->measure(folder.text, s->point[k].spacing);
-    else if (summary_number(folder.text, f->key, &value) != OK)
+    else if (summary_read_number(folder.text, f->key, &value) != OK)
         return NAN;
     return f->scale * value;
 }
@@ -82,7 +82,7 @@ static void figure_take(struct experiments *x, const struct experiment_case *c, 
         spacing[k] = s->point[k].spacing, level[k] = s->point[k].level;
     }
     levels_take(&row, s, value);
-    if (convergence_find(&found, spacing, value, level, n, s->spacings.levels, NULL)) {
+    if (convergence_evaluate(&found, spacing, value, level, n, s->spacings.levels, NULL)) {
         row.verdict = verdict_name[found.verdict];
         row.interval = found.uncertainty[0];
     }

@@ -134,8 +134,8 @@ static void points_stress(struct run *e)
  * pairs, else 0. */
 static void faces_update(struct run *e, int changed)
 {
-    contact_update_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
-                        e->contact->changed + changed);
+    contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
+                             e->contact->changed + changed);
 }
 
 static void job_call(const struct job *j, struct ground *g)
@@ -192,7 +192,7 @@ static void job_call(const struct job *j, struct ground *g)
         break;
     case CONTACT_FORCE:
         faces_update(cut, 0);
-        contact_force(cut->contact, &cut->part, 0);
+        contact_compute_forces(cut->contact, &cut->part, 0);
         break;
     default:
         grid_remapped(&e->grid->field[0].grid, e->grid->smallest_mass);

@@ -104,7 +104,7 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
-        r->step = fmin(r->step, report_seconds(e.report, &e.timers).loop / (double)steps);
+        r->step = fmin(r->step, report_wall_clock_times(e.report, &e.timers).loop / (double)steps);
     }
     r->bytes = ((double)memory_peak() - before) / r->particles;
     r->frame = NAN;

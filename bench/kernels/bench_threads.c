@@ -54,7 +54,7 @@ static status time_block(struct threads_bench *b, int which, int scaling, int t,
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
-        *best = fmin(*best, report_seconds(e.report, &e.timers).loop / (double)steps);
+        *best = fmin(*best, report_wall_clock_times(e.report, &e.timers).loop / (double)steps);
     }
     bench_engine_free(&e, &s);
     return ran;

@@ -93,18 +93,18 @@ static status field_read(struct field_row *r, const char *folder, double later, 
                   {"memory_peak_bytes", &r->bytes},
                   {"loop_seconds", &r->seconds},
                   {"wall_seconds", &wall}};
-    for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
+    for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_read_number(folder, figure[k].key, figure[k].value));
     for (int k = 0; k < TIMERS; k++) {
         char key[64];
         snprintf(key, sizeof key, "laps.%s", timer_name[k]);
-        TRY(summary_number(folder, key, &r->timer[k]));
+        TRY(summary_read_number(folder, key, &r->timer[k]));
         r->timer[k] *= fmin(1, processor / wall);
     }
     r->seconds *= fmin(1, processor / wall);
     TRY(history_read(&h, folder));
     const int time = history_find_column(&h, "time"), K = history_find_column(&h, "sif.K_I");
     for (int64_t k = 0; k < h.rows && r->n < FIELD_SAMPLES + 2; k++, r->n++) {
-        r->t[r->n] = history_at(&h, k, time) + later, r->K[r->n] = history_at(&h, k, K);
+        r->t[r->n] = history_value_at(&h, k, time) + later, r->K[r->n] = history_value_at(&h, k, K);
         if (isnan(r->K[r->n])) r->K[r->n] = 0; /* before anything has moved */
         r->peak = fmax(r->peak, fabs(r->K[r->n]));
     }

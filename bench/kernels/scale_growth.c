@@ -109,13 +109,13 @@ static status growth_read(struct growth_row *r, const char *folder, double proce
     } figure[] = {{"particles_made", &r->made},      {"particles", &r->body},       {"particles_pd_end", &r->bonded},
                   {"memory_peak_bytes", &r->bytes},  {"loop_seconds", &r->seconds}, {"time_step", &step},
                   {"time_step_critical", &critical}, {"wall_seconds", &wall}};
-    for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
+    for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_read_number(folder, figure[k].key, figure[k].value));
     r->start = bench_summary_figure(folder, "crack.start_time");
     r->angle = bench_summary_figure(folder, "crack.angle_deg");
     share = r->seconds < SHORT ? 1 : fmin(1, processor / wall); /* short loops are repeated instead */
     for (int k = 0; k < TIMERS_SHOWN; k++) {
         snprintf(key, sizeof key, "laps.%s", timer_name[k]);
-        TRY(summary_number(folder, key, &r->timer[k]));
+        TRY(summary_read_number(folder, key, &r->timer[k]));
         r->timer[k] *= share;
     }
     r->seconds *= share;

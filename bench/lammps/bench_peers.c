@@ -293,7 +293,8 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     if (ran == OK) ran = peer_seconds(FOLDER "/log.lammps", STEPS, &spent);
     if (ran == OK) ran = peer_solution(peer, e.part.n);
     if (ran == OK) {
-        r->own = fmin(r->own, report_seconds(e.report, &e.timers).loop / STEPS), r->peer = fmin(r->peer, spent);
+        r->own = fmin(r->own, report_wall_clock_times(e.report, &e.timers).loop / STEPS),
+        r->peer = fmin(r->peer, spent);
         /* In LAMMPS the last positions have already broken bonds. */
         e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit, NULL);
         peers_compare(r, &e, peer, damage);

@@ -7,7 +7,7 @@
 struct law laws_material(struct law law, real young, real poisson, real yield, real density)
 {
     law.given = true;
-    law_compute_constants(&law, yield, young, poisson, young / (2 * (1 + poisson)), density);
+    law_compute_derived_constants(&law, yield, young, poisson, young / (2 * (1 + poisson)), density);
     return law;
 }
 

@@ -47,7 +47,8 @@ static status take_reaction(void *row, const char *folder)
     const int time = history_find_column(&h, "time"), force = history_find_column(&h, "reaction.force_y");
     r->n = (int)h.rows;
     r->t = NEW("bench.reaction", r->n, double), r->force = NEW("bench.reaction", r->n, double);
-    for (int k = 0; k < r->n; k++) r->t[k] = history_at(&h, k, time), r->force[k] = history_at(&h, k, force);
+    for (int k = 0; k < r->n; k++)
+        r->t[k] = history_value_at(&h, k, time), r->force[k] = history_value_at(&h, k, force);
     history_free(&h);
     const int reach = (int)lround(half / (r->t[r->n - 1] - r->t[r->n - 2]));
     for (int k = reach; k < r->n - reach; k++) {
@@ -142,8 +143,8 @@ static double modes_ratio(const struct history *h)
     double sum = 0;
     int n = 0;
     for (int64_t k = 0; k < h->rows; k++) {
-        const double ratio = history_at(h, k, K_II) / history_at(h, k, K_I);
-        if (!(history_at(h, k, length) > 2e-3 && history_at(h, k, speed) > 0) || !isfinite(ratio)) continue;
+        const double ratio = history_value_at(h, k, K_II) / history_value_at(h, k, K_I);
+        if (!(history_value_at(h, k, length) > 2e-3 && history_value_at(h, k, speed) > 0) || !isfinite(ratio)) continue;
         sum += ratio * ratio, n++;
     }
     return sqrt(sum / n);

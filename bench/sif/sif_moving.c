@@ -99,15 +99,15 @@ static status closed_form(struct moving_table *t)
     struct scene s = {0};
     TRY(scene_read(&s, SCENE, NULL, 0));
     t->medium = crack_medium_of(&s.material[0], s.space);
-    t->factor = crack_speed_factor(&t->medium, SPEED_EXACT, speed);
-    t->printed = crack_speed_factor(&t->medium, SPEED_APPROXIMATE, speed);
+    t->factor = crack_speed_sif_factor(&t->medium, SPEED_EXACT, speed);
+    t->printed = crack_speed_sif_factor(&t->medium, SPEED_APPROXIMATE, speed);
     scene_free(&s);
     return OK;
 }
 
 static double sif_moving_at_rest(const struct moving_table *t, double time)
 {
-    return crack_sif_after_wave(&t->medium, stress, time - path_length / t->medium.longitudinal);
+    return crack_sif_after_plane_wave(&t->medium, stress, time - path_length / t->medium.longitudinal);
 }
 
 /* ---- ripple ------------------------------------------------------------------------------------------------------ */
@@ -144,8 +144,8 @@ static status read_curves(struct moving_row *r, const char *folder)
     const int time = history_find_column(&h, "time"),
               K[2] = {history_find_column(&h, "sif.K_I"), history_find_column(&h, "disc.K_I")};
     for (int64_t k = 0; k < h.rows && r->n < SAMPLES + 2; k++, r->n++) {
-        r->t[r->n] = history_at(&h, k, time);
-        for (int p = 0; p < 2; p++) r->K[p][r->n] = history_at(&h, k, K[p]);
+        r->t[r->n] = history_value_at(&h, k, time);
+        for (int p = 0; p < 2; p++) r->K[p][r->n] = history_value_at(&h, k, K[p]);
     }
     history_free(&h);
     return OK;

@@ -25,7 +25,7 @@ static bool path_next(const struct history *h, int64_t *from, double place[2])
     const int x = history_find_column(h, "path_x"), y = history_find_column(h, "path_y");
     const double was[2] = {place[0], place[1]};
     for (; *from < h->rows; ++*from) {
-        place[0] = history_at(h, *from, x), place[1] = history_at(h, *from, y);
+        place[0] = history_value_at(h, *from, x), place[1] = history_value_at(h, *from, y);
         if (hypot(place[0] - was[0], place[1] - was[1]) > 1e-9) return true;
     }
     return false;
@@ -36,8 +36,8 @@ static bool path_next(const struct history *h, int64_t *from, double place[2])
 /* Stores the initial position of the crack tip in place[2] [m]. */
 static void path_start(const struct history *h, double place[2])
 {
-    place[0] = history_at(h, 1, history_find_column(h, "path_x"));
-    place[1] = history_at(h, 1, history_find_column(h, "path_y"));
+    place[0] = history_value_at(h, 1, history_find_column(h, "path_x"));
+    place[1] = history_value_at(h, 1, history_find_column(h, "path_y"));
 }
 
 /* Reads the first kink of an inclined crack from the results of a run and compares its angle with the direction of the
@@ -55,7 +55,7 @@ static status kink_take(void *row, const char *folder)
     const double side = place[0] * start[0] + place[1] * start[1] > 0 ? 1 : -1;
     start[0] *= side, start[1] *= side;
     place[0] = start[0], place[1] = start[1];
-    r->expected = crack_kink_angle(K) / degree, r->found = NAN;
+    r->expected = crack_kink_angle_of_sif(K) / degree, r->found = NAN;
     if (path_next(&h, &line, place))
         r->found =
             remainder(atan2(side * (place[1] - start[1]), side * (place[0] - start[0])) / degree - r->angle, 360);

@@ -117,7 +117,7 @@ static void slow_row_read(struct slow_row *r, const struct history *h)
     int later = 0;
     r->mean = r->farthest = 0, r->opening = s->kind == DOUBLE_CANTILEVER ? 0 : NAN;
     for (int64_t k = 1; k < h->rows && r->n < POINTS_MOST; k++) {
-        const double load = fabs(history_at(h, k, force)), grown = history_at(h, k, area) / s->thickness;
+        const double load = fabs(history_value_at(h, k, force)), grown = history_value_at(h, k, area) / s->thickness;
         const double a = crack + grown, off = load / specimen_load(s, a) - 1;
         r->crack[r->n] = a / s->width, r->load[r->n++] = load / specimen_load(s, s->crack);
         largest = fmax(largest, load);
@@ -125,12 +125,12 @@ static void slow_row_read(struct slow_row *r, const struct history *h)
         sum += off, later++;
         if (fabs(off) > fabs(r->farthest)) r->farthest = off;
         if (s->kind != DOUBLE_CANTILEVER) continue;
-        const double apart = cantilever_at_opening(s, load, 2 * fabs(history_at(h, k, displacement))) - 1;
+        const double apart = cantilever_at_opening(s, load, 2 * fabs(history_value_at(h, k, displacement))) - 1;
         if (fabs(apart) > fabs(r->opening)) r->opening = apart;
     }
     r->peak = largest / specimen_load(s, crack) - 1;
     r->mean = later > 0 ? sum / later : NAN;
-    r->released = history_at(h, h->rows - 1, lost) / history_at(h, h->rows - 1, area) / toughness;
+    r->released = history_value_at(h, h->rows - 1, lost) / history_value_at(h, h->rows - 1, area) / toughness;
 }
 
 static void slow_row_print(const struct slow_row *r)

@@ -43,7 +43,7 @@ static struct mover mover_at(const struct run *e, int64_t k)
     for (int d = 0; d < p->dim; d++) {
         a.v[d] = I < 0 ? &p->v[d][k] : &g->velocity[d][I];
         a.x[d] = I < 0 ? p->x[d][k]
-                       : grid_position(g, d, at / g->stride[d] % g->count[d]) + e->frame->mesh.displacement[d][I];
+                       : grid_node_position(g, d, at / g->stride[d] % g->count[d]) + e->frame->mesh.displacement[d][I];
     }
     return a;
 }

@@ -35,7 +35,7 @@ static status limits_motion_turn(struct run *e, double *to)
     const struct turning start = turning_of(p);
     TRY(engine_run(e));
     const struct turning end = turning_of(p);
-    if (p->n_of[KIND_MPM] == 0) compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    if (p->n_of[KIND_MPM] == 0) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     to[0] = 0, to[1] = fabs(end.momentum / start.momentum - 1), to[2] = fabs(end.kinetic / start.kinetic - 1);
     for (int64_t i = 0; i < p->n; i++)
         if (p->kind[i] == KIND_MPM || p->n_of[KIND_MPM] == 0) to[0] = fmax(to[0], fabs(p->stress[2][i]) * 1e-6);

@@ -44,7 +44,7 @@ static status crossing(const struct limits_row *r, double *to)
         grid_clear(&e.grid->field[0].grid);
         e.kernels.p2g(&e.grid->field[0].grid, &e.part, &e.grid->transfer);
         for (int64_t I = 0; I < e.grid->field[0].grid.n; I++) {
-            const double x = grid_position(&e.grid->field[0].grid, 0, I);
+            const double x = grid_node_position(&e.grid->field[0].grid, 0, I);
             if (x > 0.15 && x < 0.6 * lambda - 0.1) *to = fmax(*to, fabs(e.grid->field[0].grid.force[0][I]));
         }
     }

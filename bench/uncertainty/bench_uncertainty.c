@@ -99,7 +99,7 @@ static double width_median(const struct known_rows *rows)
 {
     double ratio[ROWS_MOST];
     for (int k = 0; k < rows->n; k++) ratio[k] = rows->at[k].c.uncertainty[0] / true_error(&rows->at[k]);
-    return median_of(ratio, rows->n);
+    return median_by_sorting(ratio, rows->n);
 }
 
 static void row_print(const struct known_row *r)

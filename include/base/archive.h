@@ -41,6 +41,6 @@ status archive_particle_array(struct archive *a, const char *name, void *array, 
 
 /* Replaces each of the n indices in `particle`, which have been restored by the new index of that particle,
  * a->now[particle[k]]; -1 if it no longer exists. Does nothing while saving, or if a->now is NULL (equal particles). */
-void archive_renumber(const struct archive *a, int32_t *particle, int64_t n);
+void archive_renumber_particles(const struct archive *a, int32_t *particle, int64_t n);
 
 #endif

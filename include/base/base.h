@@ -106,11 +106,11 @@ struct printable_name {
 struct printable_name printable_name(const char *name);
 
 /* Compares two numbers (double), for array_sort in ascending order. */
-int double_order(const void *a, const void *b);
+int compare_doubles(const void *a, const void *b);
 
 /* Sorts the `count` numbers in `value`, at least one, in place, and returns their median; for even `count` the upper of
  * the two middle ones. */
-double median_of(double *value, int64_t count);
+double median_by_sorting(double *value, int64_t count);
 
 /* Returns from the calling function with the status of `call` if it is not OK. */
 #define TRY(call)                                                                                                      \

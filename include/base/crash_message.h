@@ -8,6 +8,6 @@ void crash_message_install(void);
 
 /* Announces that HDF5 is about to read the file `path`; NULL: it has finished. A crash in between is reported as a
  * damaged file. */
-void crash_message_set_file(const char *path);
+void crash_message_set_file_in_use(const char *path);
 
 #endif

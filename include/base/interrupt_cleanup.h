@@ -14,10 +14,10 @@ void interrupt_cleanup_register(enum cleanup_kind kind, const char *path, int pr
 /* Blocks SIGINT, SIGTERM and SIGHUP in the calling thread (hold true), or unblocks them (false). Block them while a
  * temporary file or child process exists that has not yet been passed to interrupt_cleanup_register. A child process
  * inherits the block. */
-void interrupt_cleanup_block(bool block);
+void interrupt_signals_block(bool block);
 
 /* Prepares a child process, between fork and exec: puts it into a process group of its own, so that processes that it
  * starts are killed with it, and unblocks SIGINT, SIGTERM and SIGHUP. */
-void interrupt_cleanup_in_child(void);
+void interrupt_cleanup_prepare_child(void);
 
 #endif

@@ -17,12 +17,12 @@ void *memory_new_uninitialised(const char *label, int64_t count, size_t size);
 /* Allocates `count` elements of `size` bytes with undefined contents, most of which will never be written: only pages
  * that are written take memory. Never returns NULL: out of memory, the program ends with a message that contains
  * `label`. Release with memory_free. */
-void *memory_new_sparse(const char *label, int64_t count, size_t size);
+void *memory_new_lazy_uninitialised(const char *label, int64_t count, size_t size);
 
 /* Allocates `count` zeroed elements of `size` bytes, most of which will never be written: a page takes memory when it
  * is first written. Never returns NULL: out of memory, the program ends with a message that contains `label`. Release
  * with memory_free. */
-void *memory_new_lazy_zero(const char *label, int64_t count, size_t size);
+void *memory_new_lazy_zeroed(const char *label, int64_t count, size_t size);
 
 /* Grows or shrinks an array of memory_new and returns it; the first min(old, new) elements are kept, new ones are zero.
  * `pointer` may be NULL and is invalid afterwards. */
@@ -33,9 +33,9 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
  * array of memory_new, or NULL, which stays NULL for count 0. */
 void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, size_t size);
 
-/* Grows an array of memory_new_sparse or memory_new_uninitialised from old_count to `count` elements of `size` bytes
- * and returns it; it may have moved, so that `pointer` is invalid afterwards. The contents of the new elements are
- * undefined. */
+/* Grows an array of memory_new_lazy_uninitialised or memory_new_uninitialised from old_count to `count` elements of
+ * `size` bytes and returns it; it may have moved, so that `pointer` is invalid afterwards. The contents of the new
+ * elements are undefined. */
 void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
 /* Releases an array; NULL is allowed. */
@@ -61,7 +61,7 @@ struct memory_limit {
 struct memory_limit memory_limit(void);
 
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
-#define BLANK(label, count, type) ((type *)memory_new_lazy_zero(label, count, sizeof(type)))
+#define BLANK(label, count, type) ((type *)memory_new_lazy_zeroed(label, count, sizeof(type)))
 #define BARE(label, count, type) ((type *)memory_new_uninitialised(label, count, sizeof(type)))
 /* Makes array[count - 1] writable, by memory_ensure_capacity. */
 #define GROW(label, array, count) ((array) = memory_ensure_capacity(label, array, count, sizeof *(array)))

@@ -30,7 +30,7 @@ void warnings_print(const struct warnings *w, int first, FILE *out);
 void warnings_add_and_print(struct warnings *w, const char *text);
 
 /* Prints the warnings number `first`, first + 1, ... of the list w on standard error, unless the list is silent. */
-void warnings_print_new(const struct warnings *w, int first);
+void warnings_print_to_stderr(const struct warnings *w, int first);
 
 /* Saves the warnings of the list w to the archive if a->saving, else appends the stored ones to w. Returns FAILED if
  * the archive cannot be read or written or its entries are inconsistent. */

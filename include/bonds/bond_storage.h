@@ -16,8 +16,8 @@
  *     implicit    UNIT      as WHOLE, with weight 1                                                        x
  *
  * In row blocks that store columns, `nbr`, `inverse_length` and `w` are complete, and `common` is derived from them by
- * bonds_update_column_common. All kinds give equal bits. Where the rows of a row block have neighbours at equal index
- * distances (a lattice), a column has one distance, and its eight neighbours are consecutive.
+ * bond_column_update_common_properties. All kinds give equal bits. Where the rows of a row block have neighbours at
+ * equal index distances (a lattice), a column has one distance, and its eight neighbours are consecutive.
  *
  * Most row blocks of a lattice have equal bonds at equal index distances. They follow one stencil, read from the
  * nearest cache, and store nothing of their own (they are implicit) until one of their bonds is written. Address space
@@ -26,7 +26,7 @@
  * When rows are rebuilt, unchanged row blocks keep their columns; others are placed in the holes of removed row blocks,
  * or behind all stored columns.
  *
- * Invariants (bonds_find_violation, called by builds with -DCLEAVE_ASSERT whenever rows are made):
+ * Invariants (bonds_find_inconsistency, called by builds with -DCLEAVE_ASSERT whenever rows are made):
  *     rows ascend by particle, and row_of is the inverse of `particle`;
  *     an implicit row block follows a stencil, has as many columns as its stencil, and no broken bond;
  *     a bond with w != 0 has inverse_length > 0, and its neighbour, if it has a row, is within `reach` row blocks;
@@ -131,7 +131,7 @@ struct bond_length {
 };
 
 /* Common properties of the eight bonds of a column, derived from first, w and inverse_length by
- * bonds_update_column_common: on a lattice the hot loops read only these, four bytes per bond. */
+ * bond_column_update_common_properties: on a lattice the hot loops read only these, four bytes per bond. */
 struct bond_column {
     int16_t excess[LANES]; /* |inverse_length| less that of the shell, in units of the last place: positions are
                               rounded; the sum is exact */
@@ -157,7 +157,7 @@ struct stencil_column {
 
 /* Bonds that row blocks of eight consecutive particles share: equal neighbours at equal distances with equal weights,
  * no bond broken. Most row blocks of a lattice follow one of few stencils, whose columns stay in the nearest cache.
- * Columns of such row blocks are written only when a bond is accessed by index (row_block_write_columns). */
+ * Columns of such row blocks are written only when a bond is accessed by index (row_block_expand_stencil). */
 struct stencil {
     int columns;
     bool whole;                    /* all lanes have all bonds, with one weight */
@@ -230,7 +230,7 @@ struct bonds {
  * particles, which store their complete families. */
 static inline bool row_block_is_complete(const struct bonds *b, int64_t row_block)
 {
-    return load_eight_bytes(b->whole + row_block * LANES) == EIGHT_TIMES(1);
+    return eight_bytes_as_word(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
 
 /* State of a bond that softens, as in struct softened. */
@@ -239,19 +239,19 @@ struct bond_softness {
 };
 
 /* Returns the state of a bond of the given range that may not soften yet, or is brittle. */
-static inline struct bond_softness bond_softness_closed(struct softening_range range)
+static inline struct bond_softness bond_softness_initial(struct softening_range range)
 {
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST))};
 }
 
 /* Returns the state of the bond with index `bond`. */
-static inline struct bond_softness bond_softness_get(const struct softened *softened, int64_t bond)
+static inline struct bond_softness bond_softness_load(const struct softened *softened, int64_t bond)
 {
     return (struct bond_softness){softened->most[bond], softened->onset[bond], softened->end[bond]};
 }
 
 /* Stores the state of the bond with index `bond`. */
-static inline void bond_softness_put(struct softened *softened, int64_t bond, struct bond_softness state)
+static inline void bond_softness_store(struct softened *softened, int64_t bond, struct bond_softness state)
 {
     softened->most[bond] = state.most, softened->onset[bond] = state.onset, softened->end[bond] = state.end;
 }
@@ -260,34 +260,35 @@ static inline void bond_softness_put(struct softened *softened, int64_t bond, st
 static const struct bond_softness bond_softness_none = {1, 1, 2};
 
 /* Returns true if a bond of row block `row_block` (the bonds of eight particles) has begun to soften. */
-static inline bool row_block_softens(const struct bonds *b, int64_t row_block)
+static inline bool row_block_has_softening(const struct bonds *b, int64_t row_block)
 {
     return b->soft.curve && b->soft.begun[row_block];
 }
 
 /* Returns true if the bond with index `bond`, in row block `row_block`, has begun to soften or may do so without
  * question. */
-static inline bool bond_softens(const struct bonds *b, int64_t row_block, int64_t bond)
+static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, int64_t bond)
 {
-    return row_block_softens(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
+    return row_block_has_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
 }
 
 /* Returns the share 1 - d of its stiffness that the bond with index `bond`, in row block `row_block`, has at the
  * stretch `stretch` [1]. */
-static inline real bond_kept_share(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
+static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int64_t row_block, int64_t bond,
+                                                     real stretch)
 {
-    if (stretch <= 0 || !bond_softens(b, row_block, bond)) return 1;
+    if (stretch <= 0 || !bond_is_softening(b, row_block, bond)) return 1;
     const real most = b->soft.settled ? b->soft.most[bond] : real_max(b->soft.most[bond], stretch);
-    return softening_kept(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], most);
+    return softening_remaining_stiffness_fraction(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], most);
 }
 
 /* Returns half the energy that the softening of the bond with index `bond`, in row block `row_block`, has dissipated so
  * far [J], the share of one of its two rows; 0 if the bond is broken. */
-static inline real bond_half_spent(const struct bonds *b, int64_t row_block, int64_t bond)
+static inline real bond_half_softening_energy(const struct bonds *b, int64_t row_block, int64_t bond)
 {
-    if (!bond_softens(b, row_block, bond) || b->w[bond] == 0) return 0;
+    if (!bond_is_softening(b, row_block, bond) || b->w[bond] == 0) return 0;
     return 0.5 * b->stiffness * b->w[bond] *
-           softening_spent(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], b->soft.most[bond]) /
+           softening_dissipated_energy(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], b->soft.most[bond]) /
            fabs(b->inverse_length[bond]);
 }
 
@@ -302,29 +303,29 @@ static inline void softness_mark_point(struct bonds *b, struct particles *p, int
 
 /* Recomputes the common properties b->common[column] of one column (eight bonds, one of each particle of a row block)
  * from the stored weights and lengths of its bonds. Required after a change of w or of the sign of inverse_length;
- * usually called through bonds_update_common_of_bond. */
-void bonds_update_column_common(const struct bonds *b, int64_t column);
+ * usually called through bond_changed_update_column. */
+void bond_column_update_common_properties(const struct bonds *b, int64_t column);
 
 /* Recomputes the common properties of the column that contains the bond after its weight or the sign of its inverse
  * length has changed. row: the row (all bonds of one particle) of the bond, whose row block no longer follows a
  * stencil. */
-void bonds_update_common_of_bond(struct bonds *b, int64_t row, int64_t bond);
+void bond_changed_update_column(struct bonds *b, int64_t row, int64_t bond);
 
 /* Makes a row block store the state of bonds that soften, of which none has begun. limit: of the bonds. */
-void row_block_open_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                             int64_t row_block);
+void row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                    int64_t row_block);
 
 /* Writes the columns of a row block that stored none and followed a stencil (a list of columns shared by many row
  * blocks of a lattice), so that its bonds can be changed. Does nothing if the columns are already written. May be
  * called by several threads at once. */
-void row_block_write_columns(struct bonds *b, int64_t row_block);
+void row_block_expand_stencil(struct bonds *b, int64_t row_block);
 
 /* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond `number` of the particle in lane `lane` (0
  * to 7) of a row block, so that the caller may write to it. Expands the row block first if its columns are not written.
- * After a change of w or of the sign of inverse_length the caller calls bonds_update_common_of_bond. */
-static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t number, int lane)
+ * After a change of w or of the sign of inverse_length the caller calls bond_changed_update_column. */
+static inline int64_t bond_writable_index(struct bonds *b, int64_t row_block, int64_t number, int lane)
 {
-    if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_write_columns(b, row_block);
+    if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_expand_stencil(b, row_block);
     return (b->column[row_block] + number) * LANES + lane;
 }
 

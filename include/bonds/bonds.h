@@ -26,7 +26,7 @@ static inline void spring_bound_add_spring(struct spring_bound *bound, real stif
 
 /* Returns the block-Gershgorin upper bound of the largest eigenvalue of the springs added to `bound`: the maximum row
  * sum of the matrix sum K n n, plus the sum of all K [N/m]. */
-static inline real spring_bound_eigenvalue(const struct spring_bound *bound, int dim)
+static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bound, int dim)
 {
     real norm = 0;
     for (int a = 0; a < dim; a++) {
@@ -64,9 +64,9 @@ void mirror_images_copy_kinds(struct particles *p, const struct bond_source *sou
  * peridynamic). source: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
 void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Returns an upper bound (spring_bound_eigenvalue) of the largest eigenvalue of the stiffness matrix of the bonds of
- * one row, i.e. of one particle [N/m]. */
-real bonds_row_stiffness_bound(const struct bonds *b, const struct particles *p, int64_t row);
+/* Returns an upper bound (spring_bound_largest_eigenvalue) of the largest eigenvalue of the stiffness matrix of the
+ * bonds of one row, i.e. of one particle [N/m]. */
+real bonds_row_largest_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Releases all arrays of b. */
 void bonds_free(struct bonds *b);
@@ -74,11 +74,11 @@ void bonds_free(struct bonds *b);
 /* Returns the critical time step of intact bonds [s]: 2 / omega_max with the block-Gershgorin bound of omega. The
  * maximum is over all particles of the body, material points included, each with the bonds that it would have if all
  * particles were peridynamic. No stored rows are needed. */
-real bonds_critical_step(const struct particles *p, const struct bond_source *source);
+real bonds_critical_time_step(const struct particles *p, const struct bond_source *source);
 
 /* Returns the critical time step 2/omega_max of the existing bonds b [s]. Valid only while all particles are
  * peridynamic and no bond is broken. */
-real bonds_critical_step_of_existing(const struct bonds *b, const struct particles *p);
+real bonds_critical_time_step_of_rows(const struct bonds *b, const struct particles *p);
 
 /* Copies broken bonds, counts of broken bonds and damage from the bonds `old` of an earlier particle set
  * `old_particles` to the bonds b of the particles p. new_index: index in p of each particle of `old_particles`, images
@@ -94,7 +94,7 @@ status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *
 
 /* Returns the weighted volume Q = sum w r^2 of the intact bonds of a row, i.e. of one particle [m^2], summed anew,
  * because subtracting broken bonds from a stored sum would leave round-off when few bonds remain. */
-real state_intact_weighted_volume(const struct bonds *b, int64_t row);
+real state_row_intact_weighted_volume(const struct bonds *b, int64_t row);
 
 /* Recomputes the weighted volume Q = sum w r^2 of every particle with bonds from its present bonds. Only for
  * state-based models. source: inputs as in bonds_make. */
@@ -102,10 +102,10 @@ void state_update_weighted_volumes(struct bonds *b, const struct particles *p, c
 
 /* Checks the invariants of stored bonds that are listed in bond_storage.h. Returns a text that describes the first
  * violated one, or NULL if all hold. */
-const char *bonds_find_violation(const struct bonds *b);
+const char *bonds_find_inconsistency(const struct bonds *b);
 
 /* Returns the energy that bonds which still exist have dissipated by softening [J]. */
-real bonds_softening_energy(const struct bonds *b);
+real bonds_dissipated_softening_energy(const struct bonds *b);
 
 /* Returns true if a bond of a row (all bonds of one particle) that is intact has begun to soften or been started by
  * the strength surface; false if row is -1. */
@@ -125,13 +125,13 @@ void bonds_surface_shares(const struct bonds *b, const struct particles *p, cons
 
 /* Returns the damage that the softening of its intact bonds adds to the particle of a row, the sum of d V_j over its
  * family's volume [1]; 0 if row is -1. */
-real bonds_row_softening(const struct bonds *b, const struct particles *p, int64_t row);
+real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Returns the energy released by all bonds broken since the start, and dissipated by softening [J]. */
 real bonds_fracture_energy(const struct bonds *b);
 
 /* Returns eight bits: bit l is set if the particle in lane l (0 to 7) of row block `row_block` has an intact bond. */
-static inline unsigned row_block_intact_lanes(const struct bonds *b, int64_t row_block)
+static inline unsigned row_block_lanes_with_intact_bonds(const struct bonds *b, int64_t row_block)
 {
     const struct stencil *stencil = b->stencil[row_block];
     unsigned bits = 0;
@@ -147,7 +147,7 @@ static inline unsigned row_block_intact_lanes(const struct bonds *b, int64_t row
 static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
 {
     const int64_t row = b->row_of[i];
-    return row >= 0 && row_block_intact_lanes(b, row / LANES) >> row % LANES & 1;
+    return row >= 0 && row_block_lanes_with_intact_bonds(b, row / LANES) >> row % LANES & 1;
 }
 
 /* Clears the bits in `marks` (one bit per particle and image) of all particles and images to which the particle of
@@ -166,7 +166,7 @@ static inline int64_t row_block_column_count(const struct bonds *b, int64_t row_
 
 /* Returns the neighbour in lane 0 of column `column` of a row block (the `column`-th bonds of eight particles), if the
  * eight neighbours of the column are consecutive particles; else -1. */
-static inline int64_t column_first_if_consecutive(const struct bonds *b, int64_t row_block, int64_t column)
+static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, int64_t row_block, int64_t column)
 {
     const struct stencil *stencil = b->stencil[row_block];
     return stencil ? b->particle[row_block * LANES] + stencil->column[column].offset

@@ -68,8 +68,8 @@ static inline real bond_breaking_stretch(const struct particles *p, const struct
 
 /* Returns the stretches [1] at which the bond between particles i and j begins to soften and ends; both are the
  * critical stretch where it is brittle. */
-static inline struct softening_range bond_range_of(const struct particles *p, const struct bond_limit *limit, int64_t i,
-                                                   int64_t j)
+static inline struct softening_range bond_softening_range(const struct particles *p, const struct bond_limit *limit,
+                                                          int64_t i, int64_t j)
 {
     const real critical = bond_breaking_stretch(p, limit, i, j);
     if (!limit->softening) return (struct softening_range){critical, critical};
@@ -92,7 +92,8 @@ struct state_modulus {
 
 /* Returns the moduli A and B [Pa] of a state-based model (kernels/pd/state_laws.h) for material m. with_rotations: true
  * for the model with particle rotations (PD_MOSPD). */
-static inline struct state_modulus state_modulus_of(const struct material *m, enum space space, bool with_rotations)
+static inline struct state_modulus state_modulus_of_material(const struct material *m, enum space space,
+                                                             bool with_rotations)
 {
     const real D = space_dim(space);
     return (struct state_modulus){D * D * (with_rotations ? m->c12 : m->c12 - m->shear),
@@ -142,11 +143,11 @@ void family_elastic_constants(const struct family *f, const struct material *m, 
 /* Returns the work per area of separating a lattice along a plane in the model with particle rotations, divided by the
  * square of the stretch at which its bonds break [N/m] (separation.c). modulus: moduli of the material; present_family:
  * true if sums are normalised by the present family. */
-real family_separation_work(const struct family *f, const struct state_modulus *modulus, bool present_family);
+real family_separation_work_per_area(const struct family *f, const struct state_modulus *modulus, bool present_family);
 
 /* Returns the energy per area of all bonds that cross a lattice plane normal to an axis, each at the critical stretch
  * of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */
-real family_crossing_energy(const struct family *f, const struct material *m);
+real family_crack_energy_per_area(const struct family *f, const struct material *m);
 
 /* Returns true if all bonds of family f have one weight: no partial volumes, influence function 1, and equal weights in
  * all directions. */

@@ -23,7 +23,7 @@ struct site_map {
 };
 
 /* Returns the index of the lattice site at which particle i is, -1 if its position is not a lattice site of `map`. */
-int64_t lattice_site_of(const struct site_map *map, const struct particles *p, int64_t i);
+int64_t site_map_find_site(const struct site_map *map, const struct particles *p, int64_t i);
 
 /* Creates the map `map` from lattice sites to the particles and images of p. source: inputs of the bonds (spacing,
  * cutoff). Returns false, with nothing to release, if the particles are not on a lattice. Release with
@@ -35,7 +35,8 @@ void site_map_free(struct site_map *map);
 
 /* Returns a site map (from lattice sites to particles) for use by rebuilt bonds: `existing` with one more user if it is
  * not NULL, else a new map of p. Release with site_map_release. */
-struct site_map *site_map_share(struct site_map *existing, const struct bond_source *source, const struct particles *p);
+struct site_map *site_map_share_or_make(struct site_map *existing, const struct bond_source *source,
+                                        const struct particles *p);
 
 /* Removes one user of a site map shared by several sets of bonds; the last user releases it. Does nothing if `map` is
  * NULL. */
@@ -47,6 +48,6 @@ void site_map_release(struct site_map *map);
 int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *found);
 
 /* Returns true if a pre-crack of `source` may cut a bond of particle i; false if all are too far away. */
-bool cracks_near_particle(const struct bond_source *source, const struct particles *p, int64_t i);
+bool particle_is_near_crack(const struct bond_source *source, const struct particles *p, int64_t i);
 
 #endif

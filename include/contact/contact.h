@@ -41,7 +41,7 @@ struct contact_law {
     real friction;                  /* coefficient of friction [1] */
     int materials;
     real *stiffness;           /* [materials^2] k/(V_i V_j) [N/m^7] */
-    real spacing, section;     /* of the lattice [m]; thickness or cross section (lattice_volume) */
+    real spacing, section;     /* of the lattice [m]; thickness or cross section (lattice_particle_volume) */
     const struct image *image; /* images of particles, of the loads; kept by reference */
     const struct crack *crack; /* kept by reference; cracks with a width are notches */
     int cracks;
@@ -156,39 +156,39 @@ void contact_free(struct contact *c);
 
 /* Returns the critical time step of particles that contact forces push on one side and bonds hold on the other [s].
  * material: array of the materials; bonds_time_step: critical time step of the bonds alone [s]. */
-real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *material,
-                           real bonds_time_step);
+real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *material,
+                                real bonds_time_step);
 
 /* Updates the list of pairs of particles that may come into contact, before a step. A new search is done if particles
  * have moved farther than the list allows since the last search, if bonds have been broken since that search and it was
  * at least BREAKS_WAIT steps ago, or if a search was requested (c->due). Particles on which contact forces may act are
  * marked as loaded in `loads`, and their bonds as active in b. family: horizon and lattice; step: number of the step;
  * broken_bonds: number of directed bonds broken so far; conversions: number of conversions and reversions so far. */
-void contact_update_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
-                         const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions);
+void contact_update_pair_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
+                              const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions);
 
 /* Requests a search for pairs before the next step if one of n listed particles is at the surface of a body, i.e.
  * lacks a part of its family. list: indices of particles that have become peridynamic; family: horizon and lattice.
  * Does nothing if contact is not possible in this run. */
-void contact_request_search(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list,
-                            int64_t n);
+void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
+                                          const int32_t *list, int64_t n);
 
 /* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds as active in b. Called by
- * contact_update_list; to be called by the user only after a restart. */
+ * contact_update_pair_list; to be called by the user only after a restart. */
 void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
  * updates the largest overlap c->overlap. To be called after the forces of bonds and before those of loads. dt: time
  * for which particles have moved with p->v since the last call [s], by which friction springs are stretched. */
-void contact_force(struct contact *c, struct particles *p, real dt);
+void contact_compute_forces(struct contact *c, struct particles *p, real dt);
 
-/* Allocates c->push, in which contact_force stores the contact force on each particle while c->recorded is set. Does
- * nothing if contact is not possible in this run, or if the array exists. */
+/* Allocates c->push, in which contact_compute_forces stores the contact force on each particle while c->recorded is
+ * set. Does nothing if contact is not possible in this run, or if the array exists. */
 void contact_allocate_forces(struct contact *c, const struct particles *p);
 
 /* Sets the last time of contact, and the first one if there is none yet, to t [s], if particles were in contact at the
- * last call of contact_force. */
-void contact_update_times(struct contact *c, real t);
+ * last call of contact_compute_forces. */
+void contact_record_first_and_last_time(struct contact *c, real t);
 
 /* Returns the elastic energy of all contacts at the present positions, of contacts with rigid bodies and friction
  * springs included [J]. A pair with a mirror image of a particle counts half. */
@@ -196,26 +196,26 @@ real contact_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal of the bounding box of all particles in contact with rigid body number `rigid_body` [m], or 0 if
  * there is none. */
-real contact_patch_diameter(const struct contact *c, const struct particles *p, int rigid_body);
+real contact_patch_diagonal(const struct contact *c, const struct particles *p, int rigid_body);
 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
 real contact_friction_work(const struct contact *c);
 
-/* Searches for pairs (contact_update_list) and selects the contacts that act in an equilibrium solution: those that
- * overlap, and those between bodies whose gap is less than `gap_limit` [spacings]. Selected contacts act as linear
+/* Searches for pairs (contact_update_pair_list) and selects the contacts that act in an equilibrium solution: those
+ * that overlap, and those between bodies whose gap is less than `gap_limit` [spacings]. Selected contacts act as linear
  * springs, also with a positive gap, until the next selection, so that forces are smooth; an equilibrium satisfies the
  * contact law if exactly the overlapping contacts are selected. Corrections of contact forces from earlier time steps
  * (struct contact_balance) are set to 0. family: horizon and lattice. Returns the number of contacts whose selection
  * changed. */
-int64_t contact_search_and_select(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
-                                  const struct family *family, real gap_limit);
+int64_t contact_search_and_select_active(struct contact *c, const struct particles *p, struct bonds *b,
+                                         struct loads *loads, const struct family *family, real gap_limit);
 
 /* Selects the contacts that act in an equilibrium solution, as contact_search does, from the existing list of pairs. A
  * gap within round-off of 0 does not change the selection. gap_limit: gap between bodies below which a contact is
  * selected [spacings]. Returns the number of contacts whose selection changed. */
-int64_t contact_select(struct contact *c, const struct particles *p, real gap_limit);
+int64_t contact_select_active(struct contact *c, const struct particles *p, real gap_limit);
 
-/* Selects which contacts act in the next forces: with `use` those selected by contact_select, as linear springs;
+/* Selects which contacts act in the next forces: with `use` those selected by contact_select_active, as linear springs;
  * otherwise those that overlap. */
 void contact_use_selection(struct contact *c, bool use);
 
@@ -230,10 +230,10 @@ bool contact_search_needed(struct contact *c, const struct particles *p);
 
 /* Returns how far any particle may move after a search before a pair that is missing in the list could come into
  * contact [m]. */
-real contact_list_safe_distance(const struct contact *c);
+real contact_list_largest_safe_motion(const struct contact *c);
 
-/* Calls visit(context, term) for each contact selected by contact_select, with the contact as a linear spring; term is
- * valid during the call only. Does nothing if no contacts have been selected. */
+/* Calls visit(context, term) for each contact selected by contact_select_active, with the contact as a linear spring;
+ * term is valid during the call only. Does nothing if no contacts have been selected. */
 void contact_visit_springs(const struct contact *c, const struct particles *p,
                            void (*visit)(void *context, const struct contact_term *term), void *context);
 

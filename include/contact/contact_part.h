@@ -7,6 +7,6 @@
 /* Checks the largest overlap of two particles in contact in the last step. Adds a warning to the run, at most once, if
  * it exceeds 0.3 spacings. Returns FAILED, with a message, if it exceeds 0.9 spacings, where particles are about to
  * pass each other. */
-status contact_overlap_check(struct run *e);
+status contact_check_largest_overlap(struct run *e);
 
 #endif

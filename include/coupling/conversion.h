@@ -44,7 +44,7 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
 
 /* Makes every particle peridynamic, before step 0, that has a bond cut by a pre-crack (Zeng et al. 2022, eq. 28), and
  * the particles in `region` (NULL: none). */
-void convert_cut_particles(struct particles *p, const struct bond_source *source, const struct region *region);
+void convert_particles_at_precracks(struct particles *p, const struct bond_source *source, const struct region *region);
 
 /* Computes the region that is peridynamic from step 0 on, and stores it in `region`: the region of the scene
  * (`scene_region`, NULL: none), and a ball of `tip_radius` [m] round each end of a pre-crack inside the body (in 3D a

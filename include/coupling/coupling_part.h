@@ -34,8 +34,8 @@ status coupling_make_mesh(struct run *e, bool motion_set_later);
 
 /* Rebuilds, after the bonds b have changed, the marks of material points with PD-MPM bonds (c->bonded, only for FLIP)
  * and the interface zone, in which motion is damped (c->zone, only for FLIP with partial stress). */
-void interface_rebuild(struct coupling_state *c, const struct particles *p, const struct bonds *b,
-                       const struct bond_source *source);
+void interface_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p, const struct bonds *b,
+                                         const struct bond_source *source);
 
 /* Updates p->end_strain, the contribution of a material point to the mean strain of its family, of all points with
  * state-based PD-MPM bonds: in a mesh from the strain of the cell, on the background grid from the stress of the point.
@@ -52,7 +52,7 @@ status precracks_apply(struct run *e);
 /* Writes how pre-crack number `crack` is represented, in words, to `text` (`capacity` bytes): as a slit of the
  * mesh, with the size of the zones of bonds at its ends, or by cut bonds, with the reason. spacing: of the particles
  * [m]. */
-void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t capacity);
+void notch_describe_representation(const struct notches *n, int crack, real spacing, char *text, size_t capacity);
 
 /* Marks (FLAG_NEAR) material points beside slits and narrow voids whose faces approach each other, so that they convert
  * before the faces touch. The faces are examined every APPROACH_STEPS steps, and only if the scene allows contact of a
@@ -71,21 +71,21 @@ bool mesh_ignores_voids(const struct grid *g, const struct scene *s);
 /* Adds warnings to `to` for voids that are too narrow, so that the run treats them as closed: voids whose two sides
  * share nodes of the background grid, and gaps of one or two particles in bodies made from particle lists or images,
  * whose surfaces are not known. */
-void voids_warn(const struct run *e, struct warnings *to);
+void warn_of_voids(const struct run *e, struct warnings *to);
 
 /* Adds warnings to `to` for bodies that will pass through each other or stick together, and for voids that are too
- * narrow to stay open (voids_warn). */
+ * narrow to stay open (warn_of_voids). */
 void warn_of_joined_bodies(const struct run *e, struct warnings *to);
 
 /* Prepares the conversion of a step: marks (FLAG_NEAR) material points that are near other bodies or beside crack faces
  * that approach each other, and updates the active row blocks of bonds. Returns true if the faces of cracks and voids
  * were examined in this step, so that points beside them may be marked. */
-bool conversion_prepare(struct run *e);
+bool conversion_flag_points(struct run *e);
 
 /* Converts the marked material points to peridynamic particles (convert) and updates all that depends on it: bonds,
  * contact, partial stresses, interface zone and mesh. broken_bonds: number of directed bonds broken in this step;
- * faces_examined: result of conversion_prepare; bonds_fade: true if bonds of growing cracks lose strength gradually.
- * Returns the number of particles converted. */
+ * faces_examined: result of conversion_flag_points; bonds_fade: true if bonds of growing cracks lose strength
+ * gradually. Returns the number of particles converted. */
 int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade);
 
 /* Updates the mesh, and the material points with state-based PD-MPM bonds, after `converted` particles have become
@@ -96,7 +96,7 @@ void conversion_update_mesh(struct run *e, int64_t converted);
 /* Checks that the other settings of a scene allow reversion (`conversion.reversion: true`). Returns REFUSED, with a
  * message, if it has no conversion by stress, another coupling than partial stress or hand-shake, growing cracks, a
  * solver of a single equilibrium, or a material that yields. Returns OK if the scene has no reversion. */
-status reversion_check(const struct scene *s);
+status reversion_check_scene(const struct scene *s);
 
 /* Turns peridynamic particles back into material points if their stress has been low for long enough and none of their
  * bonds was ever cut (reversion_select_particles, reversion_apply). Called before each step, but examines the particles

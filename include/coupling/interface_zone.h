@@ -40,11 +40,11 @@ void interface_zone_free(struct interface_zone *r);
 /* Damps the motion in the interface zone before the forces of a step are computed: changes the velocities of its
  * members by impulses J of fourth-order viscosity. strength: strength k [1], at most 1/16, at which motion that
  * alternates from point to point stops in one step. Returns the first half of the energy removed [J], -J . v/2 with the
- * velocities v before the change; interface_damped_second_half returns the second half. */
+ * velocities v before the change; interface_zone_damped_energy_second_half returns the second half. */
 real interface_zone_damp_velocities(struct interface_zone *r, struct particles *p, real strength);
 
 /* Returns the second half of the energy that interface_zone_damp_velocities has removed in this step [J]: -J . v'/2
  * with its impulses J and the velocities v' after the step. */
-real interface_damped_second_half(const struct interface_zone *r, const struct particles *p);
+real interface_zone_damped_energy_second_half(const struct interface_zone *r, const struct particles *p);
 
 #endif

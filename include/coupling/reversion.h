@@ -14,12 +14,12 @@ struct reversion_rule {
 };
 
 /* Selects the peridynamic particles that may become material points at time t [s], by their present stress (call
- * compute_bond_stress before), and updates p->low_since, the time since which the stress of each is low. *list receives
- * their indices in ascending order, an array that the caller frees. Returns their number. A particle is selected if it
- * and all peridynamic particles of its family have had a low stress for rule->hold_time, outside rule->kept; no bond of
- * it or of a particle within two horizons was ever cut, by load or by a pre-crack; it is inside a ball with the radius
- * of one horizon that will contain material points only. The remaining peridynamic regions thus consist of full
- * families, as conversion makes them, and the regions that revert are at least as wide as a family. */
+ * bonds_compute_particle_stress before), and updates p->low_since, the time since which the stress of each is low.
+ * *list receives their indices in ascending order, an array that the caller frees. Returns their number. A particle is
+ * selected if it and all peridynamic particles of its family have had a low stress for rule->hold_time, outside
+ * rule->kept; no bond of it or of a particle within two horizons was ever cut, by load or by a pre-crack; it is inside
+ * a ball with the radius of one horizon that will contain material points only. The remaining peridynamic regions thus
+ * consist of full families, as conversion makes them, and the regions that revert are at least as wide as a family. */
 int64_t reversion_select_particles(const struct reversion_rule *rule, struct particles *p, const struct bonds *b,
                                    real t, int32_t **list);
 

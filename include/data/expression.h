@@ -74,12 +74,12 @@ real expression_evaluate(const struct expression *e, const real *X, int dim, rea
 
 /* Returns the result of the operation op on the operands a and b [SI]; b is ignored by functions of one argument. Not
  * for operations that push a value on the stack. */
-real expression_apply_operation(enum expression_op op, real a, real b);
+real expression_op_apply(enum expression_op op, real a, real b);
 
 /* Returns true if the operation has no operands: it pushes a number, a coordinate or the time on the stack. */
-static inline bool expression_is_leaf(enum expression_op op) { return op <= EXPRESSION_T; }
+static inline bool expression_op_is_leaf(enum expression_op op) { return op <= EXPRESSION_T; }
 
 /* Returns true if the operation has two operands, which it replaces on the stack by their result. */
-static inline bool expression_has_two(enum expression_op op) { return op >= EXPRESSION_ADD; }
+static inline bool expression_op_is_binary(enum expression_op op) { return op >= EXPRESSION_ADD; }
 
 #endif

@@ -107,7 +107,7 @@ void grid_clear_constraints(struct grid *g);
 #define GRID_MASS_STATIC 1e-3
 
 /* Returns coordinate `axis` of the `node`-th node along direction `axis` of the box of g [m]. */
-static inline real grid_position(const struct grid *g, int axis, int64_t node)
+static inline real grid_node_position(const struct grid *g, int axis, int64_t node)
 {
     return g->anchor[axis] + g->h * (real)(g->first[axis] + node);
 }
@@ -115,16 +115,16 @@ static inline real grid_position(const struct grid *g, int axis, int64_t node)
 /* Returns the coordinate of position x [m] in direction `axis` in units of the node distance, counted from node 0 at
  * g->anchor; its floor is the index of the cell that contains x. All callers use this function, so that they round
  * alike. */
-static inline real grid_cell_coordinate(const struct grid *g, int axis, real x)
+static inline real grid_coordinate_in_cells(const struct grid *g, int axis, real x)
 {
     return (x - g->anchor[axis]) * (1 / g->h);
 }
 
 /* Returns the index in direction `axis` of the cell that contains position x [m], counted from node 0 at g->anchor: the
- * floor of grid_cell_coordinate, without a library call. */
+ * floor of grid_coordinate_in_cells, without a library call. */
 static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, real x)
 {
-    const real place = grid_cell_coordinate(g, axis, x);
+    const real place = grid_coordinate_in_cells(g, axis, x);
     const int64_t k = (int64_t)place;
     return k - (place < (real)k);
 }
@@ -134,12 +134,13 @@ static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, 
  * `axis`. */
 static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t cell, int corner, int axis)
 {
-    return grid_position(g, axis, cell / g->stride[axis] % g->count[axis]) + (corner >> axis & 1 ? 0.75 : 0.25) * g->h;
+    return grid_node_position(g, axis, cell / g->stride[axis] % g->count[axis]) +
+           (corner >> axis & 1 ? 0.75 : 0.25) * g->h;
 }
 
 /* Returns the index in grid `to` of the cell that has index `cell` in grid `from`; -1 if the box of `to` does not
  * contain the cell. Both grids must have the same node positions, but may have different boxes. */
-static inline int64_t grid_cell_in_other_grid(const struct grid *from, int64_t cell, const struct grid *to)
+static inline int64_t grid_cell_index_in_other_grid(const struct grid *from, int64_t cell, const struct grid *to)
 {
     int64_t J = 0;
     for (int d = 0; d < from->dim; d++) {
@@ -153,6 +154,6 @@ static inline int64_t grid_cell_in_other_grid(const struct grid *from, int64_t c
 /* Sets the box of g (first, count, n, stride) to the nodes of all cells that contain positions between the corners
  * `lower` and `upper` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns false if the box
  * would have more than `max_nodes` nodes. */
-bool grid_compute_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes);
+bool grid_set_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes);
 
 #endif

@@ -19,7 +19,7 @@ void cells_without_particles_free(struct cells_without_particles *h);
 
 /* Returns true if the particle at the reference position X [m] is not created, because its cell is part of a coarse
  * cell (mesh/levels.h) and needs no particles. h: these cells; NULL: all particles are created. */
-static inline bool particle_is_left_out(const struct cells_without_particles *h, const real *X)
+static inline bool cells_without_particles_contain(const struct cells_without_particles *h, const real *X)
 {
     int64_t cell = 0;
     if (!h || !h->absent) return false;

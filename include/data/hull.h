@@ -69,7 +69,7 @@ bool hull_is_within(const struct hull *s, const real *X, real max_distance);
 
 /* Returns the maximum of the scalar product X . direction over the corners X of the hull [m] (support function).
  * direction: unit vector. */
-real hull_support(const struct hull *s, const real *direction);
+real hull_support_function(const struct hull *s, const real *direction);
 
 /* Returns the share of about 4000 sample points in the bounding box of the surface at which inside and outside cannot
  * be distinguished [1]: the winding number there is farther than 0.3 from any integer, or below -0.3. 0 for a closed
@@ -82,6 +82,6 @@ void hull_build_face_tree(struct hull *s);
 
 /* Computes the area vector of the face, its outward normal times its area [m^2]; in 2D, where a face is a segment, the
  * normal times the length [m]. */
-void hull_face_area(const struct hull *s, int64_t face, real area[DIM_MAX]);
+void hull_face_area_vector(const struct hull *s, int64_t face, real area[DIM_MAX]);
 
 #endif

@@ -25,7 +25,7 @@ enum { FLOW_POINTS = 16 };
 struct flow_curve {
     int points;
     real strain[FLOW_POINTS], stress[FLOW_POINTS];
-    real start[FLOW_POINTS], slope[FLOW_POINTS]; /* derived by law_compute_constants */
+    real start[FLOW_POINTS], slope[FLOW_POINTS]; /* derived by law_compute_derived_constants */
 };
 
 /* The law of one material. */
@@ -47,7 +47,7 @@ struct law {
         real modulus, recall; /* C [Pa], 0: no kinematic hardening; gamma [1] */
     } kinematic;
     real specific_heat, taylor_quinney; /* c [J/(kg K)], 0: no heating; share of the plastic work that heats [1] */
-    /* values derived by law_compute_constants */
+    /* values derived by law_compute_derived_constants */
     real yield;                 /* yield stress at no plastic strain, at the reference rate and room temperature [Pa] */
     real young, poisson, shear; /* elastic constants [Pa] [1] [Pa]; shear is 0 in 1D */
     real heating;               /* increase of temperature per plastic work, beta/(rho c) [K m^3/J]; 0: no heating */
@@ -57,7 +57,8 @@ struct law {
 /* Computes the derived members of a law. yield_stress: of the material, unless the flow law has its own [Pa]; young,
  * poisson, shear: its elastic constants [Pa] [1] [Pa], shear 0 in 1D; density [kg/m^3]. Does nothing if the law is not
  * given. */
-void law_compute_constants(struct law *law, real yield_stress, real young, real poisson, real shear, real density);
+void law_compute_derived_constants(struct law *law, real yield_stress, real young, real poisson, real shear,
+                                   real density);
 
 /* Returns true if plastic work heats the material. */
 static inline bool law_heats_material(const struct law *law) { return law->given && law->specific_heat > 0; }

@@ -40,7 +40,7 @@ struct material {
     struct law law;                  /* by which its material points yield */
     struct strength_surface surface; /* by which its bonds begin to soften; none without one of these strengths */
     int surface_means;               /* number of means over families by which the strain is averaged for it */
-    /* values derived by material_compute_constants */
+    /* values derived by material_compute_derived_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
     real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */
     real wave_speed;                  /* longitudinal, of the space: sqrt(c11/rho) [m/s] */
@@ -63,19 +63,19 @@ static inline bool material_yields(const struct material *m)
 /* Returns true if the material points of a cell have one dilatation, the mean of theirs: where the material yields, or
  * is nearly incompressible (Poisson's ratio above 0.4), linear cells would be too stiff (kernels/mpm/dilatation.h). In
  * plane stress and 1D the volume is not constrained. */
-static inline bool material_averages_dilatation(const struct material *m, enum space space)
+static inline bool material_uses_mean_dilatation(const struct material *m, enum space space)
 {
     return (space == SPACE_PLANE_STRAIN || space == SPACE_SOLID) && (material_yields(m) || m->poisson > 0.4);
 }
 
 /* Returns the stress at which the material begins to yield [Pa]; only if material_yields. */
-static inline real material_first_yield(const struct material *m)
+static inline real material_initial_yield_stress(const struct material *m)
 {
     return m->law.given ? m->law.yield : m->yield_stress;
 }
 
 /* Returns true if the material has bulk viscosity. */
-static inline bool material_viscous(const struct material *m)
+static inline bool material_has_viscosity(const struct material *m)
 {
     return m->viscosity.linear > 0 || m->viscosity.quadratic > 0;
 }
@@ -98,17 +98,17 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
 /* Returns the critical stretch of the bonds of material m [1]: at this stretch, all bonds that cross a unit area of a
  * plane have the energy release rate G_c. horizon [m]; model: STRETCH_BOND bond-based with the continuum micro-modulus
  * (Silling & Askari 2005), STRETCH_OSPD ordinary state-based (Madenci & Oterkus 2014). For the model with particle
- * rotations use family_separation_work. */
+ * rotations use family_separation_work_per_area. */
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
 /* Returns the stress in monotonic uniaxial loading at the given strain [1] [Pa]: Young's modulus times strain up to the
  * yield stress, then with the slope m->yield_tangent; for materials without another hardening law. */
-real material_stress_at(const struct material *m, real strain);
+real material_uniaxial_stress(const struct material *m, real strain);
 
 /* Computes the members of m that follow from those given by the scene: hardening modulus, elastic constants and wave
  * speeds, for the given space (1D, plane stress, plane strain, 3D). */
-void material_compute_constants(struct material *m, enum space space);
+void material_compute_derived_constants(struct material *m, enum space space);
 
 /* Strengths of a material with a surface, in the states of a space: uniaxial and equal biaxial tension, shear,
  * hydrostatic tension [Pa]; in plane strain the first two with the stress across the plane. */
@@ -128,10 +128,10 @@ real material_stress_share(const struct material *m, enum space space, const rea
 
 /* Computes the elastic stiffness as a matrix over symmetric components, symmetric_component_count(dim) squared, row
  * major [Pa] (tensor shear strain: shear rows contain 2G). */
-void material_stiffness(const struct material *m, int dim, real *matrix);
+void material_stiffness_matrix(const struct material *m, int dim, real *matrix);
 
-/* Computes the inverse of the elastic stiffness of material_stiffness [1/Pa], as a row-major matrix of
+/* Computes the inverse of the elastic stiffness of material_stiffness_matrix [1/Pa], as a row-major matrix of
  * symmetric_component_count(dim) squared entries. */
-void material_compliance(const struct material *m, int dim, real *matrix);
+void material_compliance_matrix(const struct material *m, int dim, real *matrix);
 
 #endif

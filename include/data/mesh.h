@@ -120,7 +120,7 @@ struct mesh {
 
 /* Returns the array of the 2^dim nodes at the corners of cell `cell` if one of them is an extra node (a node that a
  * slit doubles); NULL otherwise: the corners are then the nodes `cell` + mesh->corner[c] of the grid. */
-static inline const int32_t *mesh_cell_slit_corners(const struct mesh *mesh, int64_t cell)
+static inline const int32_t *mesh_cell_corner_nodes_at_slit(const struct mesh *mesh, int64_t cell)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && s->cell[cell] >= 0 ? s->corner + ((int64_t)s->cell[cell] << mesh->grid.dim) : NULL;
@@ -130,13 +130,13 @@ static inline const int32_t *mesh_cell_slit_corners(const struct mesh *mesh, int
  * 2^dim - 1, bit d is set on the upper side in direction d. */
 static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cell, int corner)
 {
-    const int32_t *own = mesh_cell_slit_corners(mesh, cell);
+    const int32_t *own = mesh_cell_corner_nodes_at_slit(mesh, cell);
     return own ? own[corner] : cell + mesh->corner[corner];
 }
 
 /* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of a group of partial cells, if one
  * of them is an extra node at a slit; NULL otherwise: all corners are then nodes of the grid. */
-static inline const int32_t *mesh_group_slit_corners(const struct mesh *mesh, int64_t group, const int dim)
+static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *mesh, int64_t group, const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
@@ -151,9 +151,9 @@ static inline int64_t mesh_regular_node_of(const struct mesh *mesh, int64_t node
 }
 
 /* Returns the cell of the regular grid whose corner `corner` is at the position of node `node`; -1 if there is none.
- * Where slits divide this cell, mesh_cell_next_part lists its further parts, and mesh_node shows which of the parts has
- * node `node` itself. */
-static inline int64_t mesh_cell_at_node(const struct mesh *mesh, int64_t node, int corner)
+ * Where slits divide this cell, mesh_cell_next_slit_part lists its further parts, and mesh_node shows which of the
+ * parts has node `node` itself. */
+static inline int64_t mesh_cell_with_corner_at_node(const struct mesh *mesh, int64_t node, int corner)
 {
     const int64_t cell = mesh_regular_node_of(mesh, node) - mesh->corner[corner];
     return cell >= 0 ? cell : -1;
@@ -161,7 +161,7 @@ static inline int64_t mesh_cell_at_node(const struct mesh *mesh, int64_t node, i
 
 /* Returns the next one of the cells into which slits divide one cell of the regular grid; -1 after the last one, and
  * for a cell that is not divided. */
-static inline int64_t mesh_cell_next_part(const struct mesh *mesh, int64_t cell)
+static inline int64_t mesh_cell_next_slit_part(const struct mesh *mesh, int64_t cell)
 {
     return mesh->slits.next ? mesh->slits.next[cell] : -1;
 }
@@ -179,7 +179,7 @@ static inline int cell_deformation_mode_count(int dim)
 
 /* Returns the number of groups of LANES (eight) partial cells, which are processed side by side; the last group may be
  * incomplete. */
-static inline int64_t mesh_partial_group_count(const struct mesh *mesh)
+static inline int64_t mesh_partial_cell_group_count(const struct mesh *mesh)
 {
     return (mesh->partial_cells + LANES - 1) / LANES;
 }
@@ -190,7 +190,7 @@ static inline bool mesh_exceeds_conversion_stress(const struct mesh *mesh)
 {
     bool any = false;
     for (int64_t r = 0; r < mesh->runs; r++) any |= mesh->run[r].stressed;
-    for (int64_t k = 0; k < mesh_partial_group_count(mesh) * LANES; k++) any |= mesh->partial_stressed[k];
+    for (int64_t k = 0; k < mesh_partial_cell_group_count(mesh) * LANES; k++) any |= mesh->partial_stressed[k];
     return any;
 }
 
@@ -231,7 +231,7 @@ static inline real mesh_shape_function_value(int dim, int corner, int point)
 
 /* Returns the derivative of the linear shape function of a corner node at a quadrature point of its cell along
  * direction `axis`, in units of 1/h with h the edge of the cell. corner, point: as for mesh_shape_function_value. */
-static inline real mesh_shape_function_slope(int dim, int corner, int point, int axis)
+static inline real mesh_shape_function_derivative(int dim, int corner, int point, int axis)
 {
     real slope = corner >> axis & 1 ? 1 : -1;
     for (int b = 0; b < dim; b++)

@@ -41,9 +41,9 @@ struct particles {
     const struct material *plane_strain; /* [materials] of a body in plane strain, borrowed; NULL in other spaces */
     int64_t n_of[KINDS];                 /* number of particles of each kind */
     int64_t n_grid_coupled;              /* peridynamic particles moved by the grid */
-    int32_t *list[KINDS];                /* [n_of] indices of each kind, ascending; rebuilt by particles_update_lists */
-    int64_t n_free;                      /* material points on the grid, not of the mesh */
-    int32_t *list_free;                  /* [n_free] indices of these points, ascending */
+    int32_t *list[KINDS]; /* [n_of] indices of each kind, ascending; rebuilt by particles_update_kind_lists */
+    int64_t n_free;       /* material points on the grid, not of the mesh */
+    int32_t *list_free;   /* [n_free] indices of these points, ascending */
     /* every array below has n_all (+ LANES) entries */
     real *X[DIM_MAX];       /* reference position [m] */
     real *x[DIM_MAX];       /* position [m] */
@@ -52,8 +52,8 @@ struct particles {
     real *mass;             /* [kg] */
     real *volume0, *volume; /* reference and current volume [m^3] */
     /* Cauchy stress [Pa]. Points on the grid: updated by g2p in every step. Points of a mesh: updated by
-     * frame_update_points, peridynamic particles: by compute_bond_stress, for frames (run_update_particles) and for
-     * samples and reversion that read it; out of date in between. */
+     * frame_update_points, peridynamic particles: by bonds_compute_particle_stress, for frames (run_update_particles)
+     * and for samples and reversion that read it; out of date in between. */
     real *stress[SYM_MAX];
     real *gradient[DIM_MAX *
                    DIM_MAX]; /* velocity gradient dv_a/dx_b at [a dim + b], only APIC (Jiang et al. 2015) [1/s] */
@@ -96,7 +96,7 @@ struct image {
 };
 
 /* Returns the eight bytes from[0] .. from[7] as one number, in the byte order of the machine. */
-static inline uint64_t load_eight_bytes(const uint8_t *from)
+static inline uint64_t eight_bytes_as_word(const uint8_t *from)
 {
     uint64_t eight;
     memcpy(&eight, from, sizeof eight);
@@ -107,14 +107,17 @@ static inline uint64_t load_eight_bytes(const uint8_t *from)
 #define EIGHT_TIMES(byte) ((uint64_t)(byte)*0x0101010101010101)
 
 /* Returns true if the eight bytes from[0] .. from[7] are all equal. */
-static inline bool eight_bytes_are_equal(const uint8_t *from) { return load_eight_bytes(from) == EIGHT_TIMES(from[0]); }
+static inline bool eight_bytes_are_equal(const uint8_t *from)
+{
+    return eight_bytes_as_word(from) == EIGHT_TIMES(from[0]);
+}
 
 /* Returns the index of the first entry of mark[count], from `first` on, that is not 0, or `count` if there is none.
  * mark must have LANES more entries, all 0, because eight entries are tested at a time. */
 static inline int64_t next_marked_index(const uint8_t *mark, int64_t first, int64_t count)
 {
     while (first < count && !mark[first])
-        if (load_eight_bytes(mark + first))
+        if (eight_bytes_as_word(mark + first))
             first++;
         else
             first += LANES;
@@ -131,7 +134,7 @@ static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((u
 static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i / 64] >> i % 64 & 1; }
 
 /* Returns how many of the eight indices from `first` on are below `limit`. */
-static inline int count_of_eight_below(int64_t first, int64_t limit)
+static inline int count_of_eight_indices_below(int64_t first, int64_t limit)
 {
     return limit - first < LANES ? (int)(limit - first) : LANES;
 }
@@ -228,7 +231,7 @@ static inline bool particle_moves_with_nodes(const struct particles *p, int64_t 
 /* Returns the stress sigma_zz of particle i in plane strain [Pa]: nu (sigma_xx + sigma_yy) plus a part due to plastic
  * flow; 0 in all other spaces. In the reference frame it has a relative error of the size of the strain. Bonds have nu
  * = 1/4, as does their material; plastic sigma_zz is kept at conversion, and yielding of bonds adds nothing to it. */
-static inline real particle_plane_strain_stress(const struct particles *p, int64_t i)
+static inline real particle_out_of_plane_stress(const struct particles *p, int64_t i)
 {
     if (!p->plane_strain) return 0;
     const real flow = p->out_of_plane ? p->out_of_plane[i] : 0;
@@ -267,11 +270,11 @@ int64_t particles_nearest(const struct particles *p, const real *X);
 
 /* Returns the longest edge of the bounding box of the reference positions of all particles [m], without mirror
  * images. */
-real particles_longest_edge(const struct particles *p);
+real particles_bounding_box_longest_edge(const struct particles *p);
 
 /* Returns the volume of a lattice particle [m^3]. section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One function, so
  * that a quotient of two such volumes is exactly 1. */
-static inline real lattice_volume(real section, real spacing, int dim)
+static inline real lattice_particle_volume(real section, real spacing, int dim)
 {
     real volume = section;
     for (int d = 0; d < dim; d++) volume *= spacing;
@@ -289,10 +292,10 @@ static inline bool lattice_contains_coordinate(real coordinate, real origin, rea
 
 /* Rebuilds the particle lists of p: the particles of each kind (n_of, list) from p->kind, and the material points on
  * the background grid (n_free, list_free) from p->kind and p->flag. */
-void particles_update_lists(struct particles *p);
+void particles_update_kind_lists(struct particles *p);
 
 /* Returns true if at least one particle is flagged for conversion: it has lost a bond, has a large stress, or is near
  * another body (FLAG_LOST_BOND, FLAG_STRESSED, FLAG_NEAR). */
-bool conversion_is_due(const struct particles *p);
+bool particles_are_flagged_for_conversion(const struct particles *p);
 
 #endif

@@ -21,7 +21,7 @@ real region_level_set_value(const struct region *r, const real *X, int dim);
 
 /* Computes a box between the corners `lower` and `upper` [m] that contains the region. It may be too large, because
  * intersections and differences are ignored. Returns false if the box is infinite. */
-bool region_bounds(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX]);
+bool region_bounding_box(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* Returns the signed distance of the point X (dim components [m]) from the surface of the region, negative inside [m].
  * normal: receives the outward unit normal of the nearest surface. For a single solid, exact outside and beside flat
@@ -30,11 +30,11 @@ real region_distance(const struct region *r, const real *X, int dim, real *norma
 
 /* Returns true if a box of the region, also within a group, has an infinite side, so that region_distance is not
  * defined. */
-bool region_has_endless_box(const struct region *r, int dim);
+bool region_has_infinite_box(const struct region *r, int dim);
 
 /* Returns an upper bound of the scalar product X . direction over all points X of the region [m]. direction: unit
  * vector, dim components. */
-real region_support_bound(const struct region *r, const real *direction, int dim);
+real region_support_function_bound(const struct region *r, const real *direction, int dim);
 
 /* Returns the volume of the part of the region within the box between the corners `lower` and `upper` [m^dim], by
  * quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
@@ -42,7 +42,7 @@ real region_volume(const struct region *r, int dim, const real *lower, const rea
 
 /* Builds search trees over the solids of a long list, so that later queries of the region examine only solids near the
  * point; results stay bitwise equal. The list must not change afterwards. */
-void region_build_index(struct region *r, int dim);
+void region_build_search_trees(struct region *r, int dim);
 
 /* Releases all solids and the index. */
 void region_free(struct region *r);
@@ -78,7 +78,7 @@ real time_function_integral(const struct time_function *f, real t);
 
 /* Returns the largest magnitude of the slope of the time function f between the times 0 and `t_end` [1/s], INFINITY if
  * f jumps there. */
-real time_function_largest_slope(const struct time_function *f, real t_end);
+real time_function_largest_slope_until(const struct time_function *f, real t_end);
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
@@ -92,11 +92,11 @@ struct crack {
 /* Returns true if the crack cuts the bond between reference positions a and b. Symmetric in a and b to the last bit. A
  * particle closer to the crack's plane than 1e-9 crack lengths counts as on its positive side; a bond that passes
  * exactly through the crack's end is cut. */
-bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
+bool crack_cuts_bond(const struct crack *c, const real *a, const real *b, int dim);
 
 /* Returns false if the crack certainly cuts no bond of length `bond_length` [m] or less of a particle at X; true if it
  * may cut one. A fast test, by which particles far from the crack are skipped. */
-bool crack_may_cut_near(const struct crack *c, const real *X, real bond_length, int dim);
+bool crack_may_cut_bonds_near(const struct crack *c, const real *X, real bond_length, int dim);
 
 /* Computes the area of a crack in 3D as a vector along its normal [m^2]: half of the sum of cross products of
  * consecutive vectors from its first corner to the others (Newell). */
@@ -111,8 +111,8 @@ struct mirror_plane {
 /* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror[mirrors] and a corner
  * of the crack is inside: the mirror image continues the crack there, so that `end` is no crack tip. tolerance:
  * distance from a plane up to which a point is on it [m]. */
-bool mirrors_continue_crack(const struct mirror_plane *mirror, int mirrors, const struct crack *c, const real *end,
-                            real tolerance);
+bool mirrors_continue_crack_end(const struct mirror_plane *mirror, int mirrors, const struct crack *c, const real *end,
+                                real tolerance);
 
 /* Cracks; of[k]: index of the crack of which crack k is a part or an image. */
 struct crack_list {
@@ -155,6 +155,6 @@ struct wave_state {
 
 /* Returns velocity, displacement and strain of the plane wave w at time 0 and the position X (dim components [m]), in
  * material with the wave speed `wave_speed` [m/s]. */
-struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real wave_speed, int dim);
+struct wave_state wave_pulse_initial_state(const struct wave_pulse *w, const real *X, real wave_speed, int dim);
 
 #endif

@@ -54,7 +54,7 @@ struct softening_curve softening_curve_of(enum softening law);
 
 /* Returns the stretch s_f at which a bond ends that dissipates as much as a brittle one of critical stretch `critical`
  * [1]. onset: s_0, at most `critical` [1]. */
-static inline real softening_end(const struct softening_curve *c, real onset, real critical)
+static inline real softening_end_stretch(const struct softening_curve *c, real onset, real critical)
 {
     return onset + (square(critical) - square(onset)) / (2 * onset * c->area);
 }
@@ -64,11 +64,11 @@ static inline real softening_end(const struct softening_curve *c, real onset, re
 static inline struct softening_range softening_range_of(const struct softening_curve *c, real onset, real critical)
 {
     if (!(onset < critical * (1 - SOFTENING_LEAST))) return (struct softening_range){critical, critical};
-    return (struct softening_range){onset, softening_end(c, onset, critical)};
+    return (struct softening_range){onset, softening_end_stretch(c, onset, critical)};
 }
 
 /* Returns G(x) [1]. */
-static inline real softening_level(const struct softening_curve *c, real x)
+static inline real softening_curve_value(const struct softening_curve *c, real x)
 {
     real level = 0;
     for (int k = 0; k < c->pieces; k++) level = real_max(level, c->level[k] - c->slope[k] * x);
@@ -77,27 +77,29 @@ static inline real softening_level(const struct softening_curve *c, real x)
 
 /* Returns 1 - d(k), the share of its stiffness that a bond keeps in tension [1]. largest_stretch: its largest stretch
  * k, at least the onset [1]. */
-static inline real softening_kept(const struct softening_curve *c, real onset, real end, real largest_stretch)
+static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset, real end,
+                                                          real largest_stretch)
 {
-    return onset * softening_level(c, (largest_stretch - onset) / (end - onset)) / largest_stretch;
+    return onset * softening_curve_value(c, (largest_stretch - onset) / (end - onset)) / largest_stretch;
 }
 
 /* Returns the energy that a bond has dissipated, over stiffness, weight and length [1]. largest_stretch: as in
- * softening_kept. */
-real softening_spent(const struct softening_curve *c, real onset, real end, real largest_stretch);
+ * softening_remaining_stiffness_fraction. */
+real softening_dissipated_energy(const struct softening_curve *c, real onset, real end, real largest_stretch);
 
 /* Computes the peaks of stress of uniformly strained bonds of all directions, over s_0 E', from the curve, by
  * quadrature over directions. squared_ratio: square of the ratio of critical stretch to onset [1]. Each bond is taken
  * to be at its largest stretch. */
-struct softening_strength softening_strength_of(const struct softening_curve *c, enum space space, real squared_ratio);
+struct softening_strength softening_curve_strength(const struct softening_curve *c, enum space space,
+                                                   real squared_ratio);
 
 /* Returns the onset s_0 at which the tensile strength of bonds is m->tensile_strength [1], by fixed-point iteration:
  * s_0 = strength/(E' tension(kappa)). m->critical_stretch must be set. The result exceeds m->critical_stretch where the
  * horizon is too large for this strength. */
-real softening_onset_of(const struct material *m, enum space space);
+real softening_onset_from_strength(const struct material *m, enum space space);
 
 /* Returns E', the modulus of uniaxial tension: E, in plane strain E/(1 - nu^2) [Pa]. */
-static inline real material_tension_modulus(const struct material *m, enum space space)
+static inline real material_uniaxial_tension_modulus(const struct material *m, enum space space)
 {
     return space == SPACE_PLANE_STRAIN ? m->young / (1 - square(m->poisson)) : m->young;
 }

@@ -49,11 +49,11 @@ struct placement {
 
 /* A set of points: union, difference and intersection of solids in the order of the list, starting with nothing, or
  * with everything if the first solid is to be intersected. An empty list means everywhere. A run is a sequence of
- * solids of the list that are all added or all subtracted (region_build_index). */
+ * solids of the list that are all added or all subtracted (region_build_search_trees). */
 struct region {
     int n;
     struct solid *solid;
-    int runs;               /* number of runs; 0: no index (region_build_index) */
+    int runs;               /* number of runs; 0: no index (region_build_search_trees) */
     struct region_run *run; /* [runs] */
 };
 
@@ -128,11 +128,11 @@ void solid_bounding_box(const struct solid *s, int dim, struct bounds *box);
 
 /* Returns the maximum of the scalar product X . direction over the points X of the solid [m] (support function).
  * direction: unit vector, dim components. */
-real solid_support(const struct solid *s, const real *direction, int dim);
+real solid_support_function(const struct solid *s, const real *direction, int dim);
 
 /* Returns the radius of a ball, cylinder, tube or ring, or the smallest half axis of an ellipsoid [m]; INFINITY for all
  * other kinds. */
-real solid_radius(const struct solid *s, int dim);
+real solid_radius_if_round(const struct solid *s, int dim);
 
 /* Returns the smallest thickness of the solid, where its dimensions give it directly [m]: the diameter of a ball or
  * cylinder, the smallest axis of an ellipsoid, the wall of a tube or ring, the diameter of the section of a torus;
@@ -147,7 +147,7 @@ bool solid_add_motion(struct solid *s, const struct solid_motion *motion, int di
 /* Returns an upper bound of the distance along any axis between the bounding box of a solid and a point at which
  * solid_level_set_value is `level` [m]. Outside the solid a level is at least 1/sqrt(3) of the distance (least beside
  * the corner of a box), so that 1.75 times the level suffices; a negative level is returned as it is. */
-static inline real solid_level_distance_bound(real level) { return level > 0 ? 1.75 * level : level; }
+static inline real solid_distance_bound_from_level(real level) { return level > 0 ? 1.75 * level : level; }
 
 /* Estimates the cost of one query of the solid, in queries of a simple solid such as a ball [1]: adds up all copies,
  * the solids of a group, and the edges of a polygon. */
@@ -162,6 +162,6 @@ enum polygon_fault { POLYGON_FINE, POLYGON_SHORT, POLYGON_FLAT, POLYGON_CROSSED,
 /* Checks the polygon p and computes its orientation (p->sense) and the arcs of its rounded corners (p->bend) from its
  * corners and corner radius. Returns POLYGON_FINE, or the fault that was found; *faulty_corner then receives the number
  * of the corner at which it is, if it is at one. */
-enum polygon_fault polygon_make(struct polygon *p, int *faulty_corner);
+enum polygon_fault polygon_check_and_complete(struct polygon *p, int *faulty_corner);
 
 #endif

@@ -26,7 +26,7 @@ struct voids {
 
 /* Returns true if the region contains a solid made from a voxel image, also within a group of solids; the surface of
  * such a solid is only known to about a voxel. */
-bool region_has_image(const struct region *r);
+bool region_has_voxel_image(const struct region *r);
 
 /* Returns true if a void may be between two points of the shape; false for a single convex solid, an image, or no
  * shape. */

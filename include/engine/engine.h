@@ -53,7 +53,7 @@ status engine_run_mpm_baseline(struct run *e);
 
 /* Checks the scene for input that is allowed but probably unintended, and adds warnings to e->warnings. Call it once,
  * before the first step. */
-void engine_warn_of_input(struct run *e);
+void engine_warn_of_suspicious_input(struct run *e);
 
 /* Writes summary.json, and fragments.csv if bodies can break into fragments, for the steps done so far. Does nothing
  * for a run without files. end_status: status with which the run ended; threads: number of threads. Returns FAILED if a

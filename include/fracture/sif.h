@@ -60,7 +60,8 @@ void gradient_stencil_free(struct gradient_stencil *s);
 
 /* Computes the gradient of a plane vector field at particle i: gradient[a][b] = d field_a/dX_b. s: stencil of particle
  * i (gradient_stencil_compute); field[a]: component a for every particle, mirror images included. */
-void gradient_evaluate(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2]);
+void gradient_stencil_apply(const struct gradient_stencil *s, int64_t i, const real *const field[2],
+                            real gradient[2][2]);
 
 /* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
 
@@ -97,26 +98,27 @@ struct sif {
 /* Computes the weight `weight` of the interaction integral at distance `distance` from the crack tip [m]: *weight
  * receives the weight, 1 inside contour->inner and 0 outside contour->outer; *slope receives dq/dr [1/m]. form:
  * function that decreases between the two radii. */
-void sif_weight_function(enum sif_weight form, const struct contour *contour, real distance, real *weight, real *slope);
+void sif_contour_weight(enum sif_weight form, const struct contour *contour, real distance, real *weight, real *slope);
 
 /* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
  * frame of the crack tip, x[0] ahead of the tip [m]; contour: contour with the weight q; actual, auxiliary: the two
  * motions at the point, in the same frame; inertia_factor: factor 0 to 1 on the second sum of I, which has the inertia
  * terms [1]. */
-real sif_integrand(const struct sif_tip *tip, const struct contour *contour, const real x[2],
-                   const struct crack_state *actual, const struct crack_state *auxiliary, real inertia_factor);
+real sif_interaction_integrand(const struct sif_tip *tip, const struct contour *contour, const real x[2],
+                               const struct crack_state *actual, const struct crack_state *auxiliary,
+                               real inertia_factor);
 
 /* Computes the stress-intensity factors and J of a crack tip by the interaction integral, for `contours` contours in
  * one pass over the particles. motion: displacement, velocity, acceleration and loads of all particles; rule: how
  * gradients are computed; c: neighbour search over the reference positions. result: receives `contours` results, K [Pa
  * m^(1/2)] and J [J/m^2]. */
-void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int contours,
-                   const struct sif_motion *motion, const struct gradient_rule *rule, const struct particles *p,
-                   const struct cells *c, struct sif *result);
+void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct contour *contour, int contours,
+                                         const struct sif_motion *motion, const struct gradient_rule *rule,
+                                         const struct particles *p, const struct cells *c, struct sif *result);
 
 /* Returns the largest relative difference between the results of `contours` contours [1]: of K_I or K_II over |K|, or
  * of J over J, with means over the contours in the denominators; NAN if one of them is 0. result: `contours` results of
- * sif_integrate. */
+ * sif_compute_by_interaction_integral. */
 real sif_contour_spread(const struct sif *result, int contours);
 
 #endif

@@ -54,7 +54,7 @@ struct crack_tips {
 /* Excludes particles that pre-cracks have damaged from all cracks, so that crack tips do not grow through them. For
  * pre-cracks represented as slits of the mesh. cut_fraction: for each particle, the share of its bonds that pre-cracks
  * cut once the particle has bonds [1]. */
-void tips_exclude_precracks(struct crack_tips *t, const real *cut_fraction);
+void tips_exclude_precrack_damage(struct crack_tips *t, const real *cut_fraction);
 
 /* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already
  * include the pre-cracks; c: neighbour search over the reference positions; crack: `cracks` pre-cracks; spacing: of
@@ -79,12 +79,12 @@ const struct crack_tip *tips_longest(const struct crack_tips *t);
 
 /* Returns the number of crack ends, over all tips, whose growth is within one spacing of the largest growth; 0 if no
  * tip has grown. */
-int64_t tips_count_longest(const struct crack_tips *t);
+int64_t tips_count_longest_ends(const struct crack_tips *t);
 
 /* Returns true if a crack grows along a plane of symmetry, so that the modelled body has only one face of the crack.
  * mirror: `mirrors` planes of symmetry. */
-bool tip_is_on_mirror(const struct crack_tips *t, const struct crack_tip *tip, const struct mirror_plane *mirror,
-                      int mirrors);
+bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_tip *tip,
+                               const struct mirror_plane *mirror, int mirrors);
 
 /* Quantities besides tips on which areas of cracks depend. */
 struct tip_surroundings {

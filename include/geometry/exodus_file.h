@@ -37,36 +37,38 @@ void exodus_close(struct exodus_file *f);
 bool is_exodus_name(const char *path);
 
 /* Sets the message `path: text` and returns REFUSED. format: text as in printf. */
-status exodus_fault(const struct exodus_file *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+status exodus_report_fault(const struct exodus_file *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Returns the length of the dimension that is called `name` followed by `number` (0: without a number), or 0 if the
  * file has no such dimension. */
-int64_t exodus_dimension(const struct exodus_file *f, const char *name, int64_t number);
+int64_t exodus_read_dimension(const struct exodus_file *f, const char *name, int64_t number);
 
 /* Returns true if the file has an array that is called `name` followed by `number` (0: without a number). */
-bool exodus_has(const struct exodus_file *f, const char *name, int64_t number);
+bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t number);
 
 /* Reads the array that is called `name` followed by `number` (0: without a number) into *value, allocated, of `count`
  * finite numbers in all; the caller frees it with memory_free. Returns REFUSED, with a message and *value NULL, if it
  * is missing, is not one of numbers, or has another size. */
-status exodus_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t count, real **value);
+status exodus_read_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t count, real **value);
 
-/* Reads an array of `count` whole numbers, as exodus_reals does. */
-status exodus_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t count, int64_t **value);
+/* Reads an array of `count` whole numbers, as exodus_read_reals does. */
+status exodus_read_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t count,
+                            int64_t **value);
 
 /* Reads the coordinates of all nodes [unit of the file] into axis[d], d below f->dim, allocated, f->nodes numbers each;
  * the caller frees them with memory_free, also after a failure. axis[d] are NULL before. Returns REFUSED, with a
  * message, if they are missing or not finite. */
-status exodus_coordinates(const struct exodus_file *f, real *axis[DIM_MAX]);
+status exodus_read_coordinates(const struct exodus_file *f, real *axis[DIM_MAX]);
 
 /* Reads row `row` of `rows` rows of text in the array that is called `name` followed by `number` into
  * text[NAME_MAX_LENGTH], without blanks at its end; "" if the file has no such array. */
-void exodus_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t rows, char *text);
+void exodus_read_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t rows,
+                      char *text);
 
 /* Reads the type, the number of elements and the number of nodes per element of block `number` (from 1).
  * type[NAME_MAX_LENGTH]: in capital letters. Returns REFUSED, with a message, if the block has no list of nodes for
  * each element. */
-status exodus_block(const struct exodus_file *f, int64_t number, char *type, int64_t *elements,
-                    int64_t *nodes_per_element);
+status exodus_read_block_header(const struct exodus_file *f, int64_t number, char *type, int64_t *elements,
+                                int64_t *nodes_per_element);
 
 #endif

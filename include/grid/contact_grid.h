@@ -63,11 +63,11 @@ real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_co
  * transfer [J], and adds it to c->dissipated: half the contact impulse of each node times the difference between the
  * relative velocity of the bodies after a second mapping of the moved points to the nodes, which strains the points,
  * and that just after the impulse. side: grids of the bodies, c->sides elements. */
-real grid_contact_remap_loss(struct grid_contact *c, const struct grid_contact_side *side);
+real grid_contact_remap_energy_loss(struct grid_contact *c, const struct grid_contact_side *side);
 
 /* Sets the last time of contact, and the first one if there is none yet, to t [s], if bodies touched at nodes in the
  * last step. */
-void grid_contact_update_times(struct grid_contact *c, real t);
+void grid_contact_record_first_and_last_time(struct grid_contact *c, real t);
 
 /* Saves energies and times of contact to the archive if a->saving, else restores them. Returns FAILED if the archive
  * cannot be read or written or a stored size differs. */

@@ -20,11 +20,12 @@ struct grid_coupled {
  * and sorts them into cells. coupling: at the interface (pm, pg) the particles in cells that share a node with a cell
  * holding a material point, else (pmg, pgg) all particles. g: grid that covers all material points, in the second case
  * all particles. To be called before the forces. */
-void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g);
+void grid_coupled_select_particles(struct grid_coupled *c, enum coupling coupling, struct particles *p,
+                                   const struct grid *g);
 
 /* Empties the list of peridynamic particles that the grid moves, and clears FLAG_GRID_COUPLED of these particles. For
  * steps in which no material points are left on the grid. */
-void grid_coupled_clear(struct grid_coupled *c, struct particles *p);
+void grid_coupled_release_particles(struct grid_coupled *c, struct particles *p);
 
 /* Frees the arrays of c. */
 void grid_coupled_free(struct grid_coupled *c);

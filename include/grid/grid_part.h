@@ -35,9 +35,9 @@ struct grid_method {
 };
 
 /* Makes the background grids of a run: one, or one for each body if material points of several bodies can be in
- * contact. Sets cell size and position of the nodes; nodes are allocated later (grid_sort_points). A second call moves
- * the nodes. s: scene; meshed: true if bodies are in the reference frame, whose particles must be midway between nodes.
- */
+ * contact. Sets cell size and position of the nodes; nodes are allocated later (grid_sort_points_into_cells). A second
+ * call moves the nodes. s: scene; meshed: true if bodies are in the reference frame, whose particles must be midway
+ * between nodes. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed);
 
 /* Makes groups of material points that share a rotation (data/turning.h), so that FLIP conserves angular momentum.
@@ -53,30 +53,30 @@ void grid_choose_anchor(const struct scene *s, const real *body_corner, const re
 
 /* Returns the number in the scene of body `group` = 0, 1, ..., where bodies joined to each other count once, under the
  * first of them. Returns -1 if there are no more than `group` bodies. */
-int joined_group_first_body(const struct scene *s, int group);
+int joined_bodies_first_body(const struct scene *s, int group);
 
 /* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits and voids then
  * cannot divide a mesh on these nodes, because the doubled nodes have no mirror nodes. */
-bool grid_mirror_off_nodes(const struct grid *g, const struct scene *s);
+bool grid_has_mirror_off_nodes(const struct grid *g, const struct scene *s);
 
 /* Sorts the material points into the cells of their background grids, extends the grids as needed, and selects the
  * peridynamic particles that a grid moves. not_finite: receives true if the position of a point is not finite; nothing
  * is sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
-status grid_sort_points(struct run *e, bool *not_finite);
+status grid_sort_points_into_cells(struct run *e, bool *not_finite);
 
 /* Maps mass, momentum and forces of the material points to the nodes of the background grids. kernels: compiled loops
  * for the vector instructions of this machine; timers: receives the time spent. */
-void grid_map_points(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
-                     struct timers *timers);
+void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
+                              struct timers *timers);
 
 /* Advances the material points on the background grids by one time step: moves the nodes under their forces, with
  * contact and boundary conditions, then updates positions, velocities, strain and stress of the points. t_middle: time
  * in the middle of the step [s]. */
-void grid_step(struct run *e, real t_middle);
+void grid_advance_points(struct run *e, real t_middle);
 
 /* Returns the power of all forces on the material points on the background grids, the sum of v . f over the nodes at
  * the present positions [W], without moving anything. t_middle: present time plus half a time step [s]. Changes the
  * recorded reactions and work of the loads. Returns 0 if no particles are on a grid. */
-real grid_power(struct run *e, real t_middle);
+real grid_power_of_forces(struct run *e, real t_middle);
 
 #endif

@@ -95,7 +95,7 @@ struct load {
 };
 
 /* Returns true if a formula of boundary b contains the time t. */
-static inline bool boundary_uses_time(const struct boundary *b)
+static inline bool boundary_formula_uses_time(const struct boundary *b)
 {
     bool in_time = false;
     for (int d = 0; d < DIM_MAX; d++) in_time |= b->formula[d].in_time;
@@ -237,7 +237,7 @@ void pressure_visit_faces(const struct boundary *boundary, int boundaries, int n
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
  * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that change.
  * Returns REFUSED, with a message, if a formula has no finite value at a particle. */
-status load_prepare_shares(struct load *l, const struct particles *p);
+status load_prepare_varying_shares(struct load *l, const struct particles *p);
 
 /* Checks that the formulas of all loads and supports have finite values at their particles at time t [s]. Returns
  * FAILED, with a message that contains boundary, position and time, if one has not. */
@@ -245,29 +245,29 @@ status loads_check_finite(const struct loads *l, const struct particles *p, real
 
 /* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time, for
  * loads_add_forces: to their mean over the velocity update of duration dt_velocity [s] that ends at time t [s]. */
-void loads_update_shares_for_kick(struct loads *l, const struct particles *p, real t, real dt_velocity);
+void loads_update_shares_for_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
 /* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time, for
  * loads_add_work: to the mean of the two velocity updates before and after the change of positions in the step of size
  * dt about t [s]. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
-/* Releases the arrays that load_prepare_shares has allocated for load l. */
-void load_time_shares_free(struct load *l);
+/* Releases the arrays that load_prepare_varying_shares has allocated for load l. */
+void load_varying_shares_free(struct load *l);
 
 /* Computes the force of load l on its particle number `entry` at time t [s], from the reference position of the
  * particle. force: dim components [N]. In load steps the force is that at full load. */
-void load_force_at(const struct load *l, const struct particles *p, int64_t entry, real t, real *force);
+void load_force_on_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *force);
 
 /* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
  * its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean displacement is
  * the work; it is not weighted if the forces sum to zero. */
-void load_sum_force_and_motion(struct load *l, const struct particles *p, real t);
+void load_sum_force_and_mean_displacement(struct load *l, const struct particles *p, real t);
 
 /* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its particle
  * number `entry` at time t [s], without areas and without the profile. value: dim components, unit as boundary.value.
  * Not defined for prescribed rotations. */
-void load_value_at(const struct load *l, const struct particles *p, int64_t entry, real t, real *value);
+void load_value_at_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *value);
 
 /* Creates the loads of `boundaries` boundary conditions: finds the particles of each, sets FLAG_DRIVEN, and appends
  * mirror images of the particles within `mirror_reach` [m] of mirror planes to p. Make the bonds afterwards. boundary:
@@ -287,17 +287,17 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
 /* Combines loads that have equal lists of particles, so that each list is traversed once; last part of loads_make. */
-void loads_merge_equal_lists(struct loads *l, int dim);
+void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the shares (areas, volumes, masses) of all loads, also those that several loads have in common. */
 void loads_shares_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
- * of the velocity update [s], to l->impulse. Part of loads_finish_particle_forces. */
+ * of the velocity update [s], to l->impulse. Part of loads_complete_particle_forces. */
 void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
 
 /* Adds the work of the applied forces over the displacements of the step of size dt about t [s] to l->work. Part of
- * loads_impose_motion. */
+ * loads_impose_prescribed_motion. */
 void loads_add_work(struct loads *l, struct particles *p, real t, real dt);
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
@@ -315,7 +315,7 @@ void absorbing_dashpots_make(struct loads *l, const struct particles *p, const s
 void absorbing_dashpots_free(struct loads *l);
 
 /* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
- * dt_velocity: duration of the velocity update [s]. Part of loads_finish_particle_forces. */
+ * dt_velocity: duration of the velocity update [s]. Part of loads_complete_particle_forces. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
 /* Appends the absorbing dashpots of grid nodes to g, after the prescribed velocities of nodes are set; part of
@@ -330,12 +330,12 @@ void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct pa
 
 /* Adds the energy and impulse in `absorbed`, the effect of the dashpots of one grid or mesh in a step, to the sums in
  * l. */
-void loads_add_absorbed(struct loads *l, const struct absorbed *absorbed);
+void loads_add_absorbed_energy(struct loads *l, const struct absorbed *absorbed);
 
 /* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For
  * `displacement` its value, for a velocity its integral from 0, for a rotation the rotation by the accumulated angle;
  * static formulas are evaluated at `frozen_at`. Made once for a load and time, then evaluated at many positions. Not
- * for a velocity by a formula of t, whose integral has no closed form: load_check_displacement_known refuses it. */
+ * for a velocity by a formula of t, whose integral has no closed form: boundary_check_displacement_known refuses it. */
 struct prescribed_displacement {
     const struct boundary *boundary;
     int dim;
@@ -354,11 +354,12 @@ real prescribed_displacement_at(const struct prescribed_displacement *prescribed
 
 /* Computes the displacement that load l prescribes for its particle number `entry` at time t [s]. displacement: dim
  * components [m], 0 where not prescribed. */
-void load_displacement_at(const struct load *l, const struct particles *p, int64_t entry, real t, real *displacement);
+void load_displacement_of_particle(const struct load *l, const struct particles *p, int64_t entry, real t,
+                                   real *displacement);
 
 /* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a
  * formula of t), so that its displacements are unknown; else OK. */
-status load_check_displacement_known(const struct boundary *b);
+status boundary_check_displacement_known(const struct boundary *b);
 
 /* Motion that a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
 struct prescribed_motion {
@@ -392,27 +393,28 @@ static inline bool boundary_motion_varies_in_space(const struct boundary *b)
 
 /* Returns the largest speed of the displacement that load l prescribes between the times 0 and `t_end` [s] [m/s],
  * INFINITY if the displacement jumps. Formulas are sampled at MOMENTS times and at some of the load's particles. */
-real load_displacement_speed(const struct load *l, const struct particles *p, real t_end);
+real load_largest_displacement_speed(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest difference between the velocity that load l prescribes between the times 0 and `t_end` [s] and
  * the velocity of its particles in p, the state at time 0 [m/s]. Sampled at MOMENTS times and some particles. For
  * rotations the difference of speeds; 0 for prescribed displacements. */
-real load_velocity_jump(const struct load *l, const struct particles *p, real t_end);
+real load_largest_velocity_jump(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest speed that load l gives to its particles in p between the times 0 and `t_end` [s] [m/s]:
- * load_displacement_speed for a prescribed displacement, else load_velocity_jump. */
-real load_driven_speed(const struct load *l, const struct particles *p, real t_end);
+ * load_largest_displacement_speed for a prescribed displacement, else load_largest_velocity_jump. */
+real load_largest_driven_speed(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest change, within any time span of length `time_span` [s], of the velocity that load l (velocity or
  * displacement) prescribes between the times 0 and `t_end` [s] [m/s]. Before time 0 the particles of the load have the
  * velocity in p. Sampled at MOMENTS times and some particles; a span shorter than the sampling interval is extended to
  * that interval. */
-real load_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span);
+real load_largest_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span);
 
 /* Returns the largest difference between the velocities that loads a and b prescribe between the times 0 and `t_end`
  * [s], each less the velocity of its particles in p, over the components that both prescribe [m/s]. 0 if no component
  * is prescribed by both; INFINITY if one load rotates or depends on position. */
-real loads_velocity_difference(const struct load *a, const struct load *b, const struct particles *p, real t_end);
+real loads_largest_velocity_difference(const struct load *a, const struct load *b, const struct particles *p,
+                                       real t_end);
 
 /* tolerance of region membership, over the spacing: points on the border belong to the region */
 #define LOADS_TOLERANCE ON_SURFACE
@@ -422,15 +424,15 @@ real loads_velocity_difference(const struct load *a, const struct load *b, const
 /* Checks all mirror boundaries and appends mirror images of the particles within `mirror_reach` [m] of their planes to
  * p. optional_arrays: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED, with a
  * message, if a mirror plane is inside its body or two mirrors coincide. */
-status loads_mirrors_make(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
+status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
 
 /* Sets the flag MOVES_LATER in l->loaded for particles whose bonds may cross a clamped mirror plane: the reactions of
  * such bonds are added after all bond forces, so these particles must not be moved before. */
-void loads_flag_clamped_mirrors(struct loads *l, const struct particles *p);
+void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct particles *p);
 
 /* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles to their mirror images, reflected in the
  * mirror plane. First rounds the positions of the sources normal to the mirror to multiples of l->place_step. */
-void loads_update_images(const struct loads *l, struct particles *p);
+void loads_update_mirror_images(const struct loads *l, struct particles *p);
 
 /* Sets p->f = 0 for all particles of the lists of loads and supports, before the bond forces are computed. */
 void loads_clear_forces(struct loads *l, struct particles *p);
@@ -439,7 +441,7 @@ void loads_clear_forces(struct loads *l, struct particles *p);
  * l->impulse, adds applied forces and dashpots, and replaces f of driven peridynamic particles by the force that
  * produces the prescribed velocity. t: time at which the velocity update of duration dt_velocity ends, the middle of
  * the step of size dt [s]. */
-void loads_finish_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
+void loads_complete_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
 /* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]: nodes in a driven
  * region, nodes on a mirror plane, and nodes at least half of whose mass belongs to driven points. Nodes beyond a
@@ -460,18 +462,18 @@ void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, r
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion is prescribed, by their positions: nodes in
  * driven regions and on mirror planes. Stores them in `driven_nodes`. */
-void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
-                                   const struct particles *p);
+void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
+                                    const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the nodes in `driven_nodes`, found by loads_find_driven_level_nodes, on
+/* Sets the prescribed velocities (walls) of the nodes in `driven_nodes`, found by loads_find_driven_coarse_nodes, on
  * grid g of a mesh of coarse cells, for the step of size dt about t [s]. */
-void loads_prescribe_level_velocities(const struct loads *l, const struct constrained_set *driven_nodes, struct grid *g,
-                                      real t, real dt);
+void loads_prescribe_coarse_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
+                                       struct grid *g, real t, real dt);
 
 /* Sets the velocity of driven material points and the position of particles with prescribed displacement exactly, after
  * the grid-to-particle transfer of the step of size dt about t [s], and adds the work of applied forces to l->work.
  * Returns true if the position of a point on a grid was changed. */
-bool loads_impose_motion(struct loads *l, struct particles *p, real t, real dt);
+bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
  * reactions of their loads. dt_velocity: duration of the velocity update [s]. */
@@ -486,14 +488,14 @@ bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spaci
 /* Converts the `boundaries` boundary conditions in `boundary` to those of a static problem in pseudo-time, copied into
  * `static_boundary`: forces have their value at time `duration` [s], prescribed motion its displacement until then.
  * Both grow linearly from 0 at pseudo-time 0 to full size at `ramp_time` [s] and stay constant. */
-void loads_make_static_boundaries(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
-                                  real duration, real ramp_time);
+void static_boundaries_make(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
+                            real duration, real ramp_time);
 
 /* Computes the displacement of every driven component at full load (pseudo-time `ramp_time` [s]). displacement:
  * [dim][p->n] [m]; driven_components: [p->n], bit d: component d is driven. Of overlapping loads the later one in the
  * scene is used, as in dynamic runs. */
-void static_displacements_compute(struct loads *l, const struct particles *p, real ramp_time, real *const *displacement,
-                                  uint8_t *driven_components);
+void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
+                                        real *const *displacement, uint8_t *driven_components);
 
 /* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
  * loads with a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns that moment

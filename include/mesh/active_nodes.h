@@ -13,7 +13,7 @@ void active_nodes_update(struct mesh *mesh, const struct loads *loads);
 
 /* Adds the blocks of nodes around exposed points (material points to which bonds or loads attach) to those that
  * computations include, after new points have become exposed. */
-void active_nodes_add_exposed(struct mesh *mesh);
+void active_nodes_add_exposed_points(struct mesh *mesh);
 
 /* Makes all blocks of nodes active, i.e. included in computations, until the next active_nodes_update; for use after
  * boundary conditions or cells have changed. */

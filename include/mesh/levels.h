@@ -57,7 +57,7 @@ struct mesh_levels {
     bool any_wanted;
     bool returned;   /* points whose conversion was postponed are marked again in this step */
     real wave_speed; /* [m/s] */
-    /* distances of converting points from coarse cells, in cells of level 0 (levels_set_distances) */
+    /* distances of converting points from coarse cells, in cells of level 0 (levels_set_conversion_distances) */
     int safe_cells, roomy_cells;
     int64_t changes; /* changes of levels since the start */
     struct mesh_level at[LEVELS_MAX + 1];
@@ -105,7 +105,7 @@ void levels_free(struct mesh_levels *l);
 /* Sets two distances between a material point that converts and a coarse cell, in cells of level 0 (the finest):
  * `postpone_distance`, below which conversion is postponed, as forces of the point would reach the coarse cell;
  * `refine_distance`, below which finer cells are requested, as points near breaking bonds convert next. */
-void levels_set_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
+void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
 
 /* Sets the inertia of coarse cells, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that waves
  * in them have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that would have
@@ -117,25 +117,26 @@ void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, 
  * at most one. finest_required: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required;
  * highest_level: highest level of each cell, NULL for all levels; admissible: receives the level of the cell to which
  * each cell of level 0 shall belong. */
-void levels_coarsest_admissible(const struct mesh_levels *l, const struct particles *p, const uint8_t *finest_required,
-                                const uint8_t *highest_level, uint8_t *admissible);
+void levels_compute_coarsest_admissible(const struct mesh_levels *l, const struct particles *p,
+                                        const uint8_t *finest_required, const uint8_t *highest_level,
+                                        uint8_t *admissible);
 
 /* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
  * present, the motion of the nodes inside is compared with the interpolation from its corners; if the energy of the
  * difference exceeds `max_energy` [J/kg], `highest_level` is set to one level less there. level, highest_level: a byte
- * for each cell of level 0, the finest. The motion of the nodes of level 0 must be up to date (levels_prolong_motion).
- * Returns true if a limit was lowered. */
-bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level, real max_energy,
-                               uint8_t *highest_level);
+ * for each cell of level 0, the finest. The motion of the nodes of level 0 must be up to date
+ * (levels_prolong_motion_to_fine_nodes). Returns true if a limit was lowered. */
+bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *level, real max_energy,
+                                    uint8_t *highest_level);
 
 /* Extends marks to complete coarse cells: if one cell of level 0 (the finest) in a coarse cell is marked, all cells of
  * level 0 in it become marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each
  * cell of level 0. */
-void levels_extend_marks_to_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
+void levels_extend_marks_to_coarse_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
 
 /* Marks all cells of level 0 (the finest) within `reach` cells of a marked one, in all directions including diagonals.
  * mark: a byte for each cell of level 0, not 0 if marked. */
-void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach);
+void levels_dilate_marks(const struct mesh_levels *l, uint8_t *mark, int reach);
 
 /* Changes the refinement level of cells to level[fine->grid.n], for each cell of level 0 (the finest) the level of the
  * cell to which it shall belong. Where cells are split, displacement and velocity are interpolated; where cells are
@@ -149,22 +150,22 @@ void levels_change_refinement(struct mesh_levels *l, const struct particles *p, 
  * to the same time (dt > 0) or back again (dt < 0): velocities of level L are half a step of 2^L dt behind. elastic:
  * array of the elastic constants of all materials; finite: true if strains are finite, false if small; dt: time step of
  * level 0 [s]. */
-void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
-                             bool finite, real dt);
+void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
+                                       bool finite, real dt);
 
 /* Copies displacement and velocity of finer nodes to all ghosts, the nodes of a coarser mesh at their positions. (A
  * time step does so only for the levels that it moves.) */
-void levels_copy_to_ghosts(struct mesh_levels *l);
+void levels_copy_motion_to_ghosts(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
-void levels_prolong_motion(struct mesh_levels *l);
+void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to the nodes of level 0 (the finest) inside them that have
  * particles in an adjacent cell. */
-void levels_prolong_motion_to_points(struct mesh_levels *l);
+void levels_prolong_motion_near_points(struct mesh_levels *l);
 
 /* Returns the highest refinement level whose forces act in step number `step`; level L acts every 2^L steps. */
-int levels_highest_acting(const struct mesh_levels *l, int64_t step);
+int levels_highest_due_in_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `highest_level` on their nodes and on nodes of finer levels at the
  * interfaces. The forces of level 0 (the finest) must be complete before. elastic: array of the elastic constants of
@@ -176,8 +177,8 @@ void levels_compute_forces(struct mesh_levels *l, const struct particles *p, con
  * of level 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]; impulse, work: impulse [N s]
  * and work [J] of nodes with prescribed velocity, whose velocities must be set before, are added to these. Returns the
  * largest component of a nodal velocity [m/s]. */
-real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX],
-                 real *work);
+real levels_move_nodes(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX],
+                       real *work);
 
 /* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
 real levels_kinetic_energy(const struct mesh_levels *l);
@@ -193,11 +194,11 @@ real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt);
 
 /* Returns the power of the forces on the nodes of all coarse levels, the sum of v . f times 2^L, the number of steps
  * for which forces of level L act [W]. */
-real levels_power(const struct mesh_levels *l);
+real levels_power_of_forces(const struct mesh_levels *l);
 
 /* Lists the coarse cells of a level that contain cells without particles (particles that were never made, as they are
  * not needed). cell: receives the indices of the cells, NULL to count only. Returns their number. */
-int64_t levels_list_hollow_cells(const struct mesh_levels *l, int level, int64_t *cell);
+int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell);
 
 /* Returns true if the deformation has turned a coarse cell inside out; X then receives the reference position of its
  * first quarter point, dim components [m]. */
@@ -205,7 +206,7 @@ bool levels_find_inverted_cell(const struct mesh_levels *l, real *X);
 
 /* Connects the levels to a finest mesh that has been rebuilt with other particles; coarse cells, their motion and
  * their levels are kept. source: material constants. */
-void levels_reconnect_finest(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
+void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
 
 /* Saves the refinement levels, the motion of their nodes and the data for the next change of levels to the archive if
  * a->saving, else restores them. The finest mesh must be restored before. source: material constants. Returns FAILED,

@@ -43,8 +43,8 @@ void mesh_free(struct mesh *mesh);
 /* Returns the number of parts of a mesh of all particles that share no node with each other. node_grid: grid whose
  * anchor and cell size define the nodes; hollow: cells whose particles are not made. Returns 0 if the particles are not
  * two per cell and direction, so that no mesh is possible. */
-int64_t mesh_count_parts(const struct particles *p, const struct grid *node_grid,
-                         const struct cells_without_particles *hollow);
+int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
+                                   const struct cells_without_particles *hollow);
 
 /* Updates the mesh after n particles `changed` (NULL: unknown ones) have become peridynamic or have changed their
  * partial stress: removes peridynamic particles from their cells and recomputes the cells. Nodal velocities are kept;
@@ -72,13 +72,14 @@ bool mesh_cell_has_body(const struct mesh *mesh, int64_t cell);
 
 /* Lists the exposed points of the mesh, material points with bonds, loads or mirror images: other parts of a run need
  * their positions and velocities in every step. loads: boundary conditions. */
-void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *loads);
+void mesh_find_exposed_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
+                              const struct loads *loads);
 
 /* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega of the largest frequency of
  * one cell, a lower bound for the mesh. after_any_conversion: true to include cells that have lost any subset of their
  * points by conversion, false for the present cells. density: mass density of each material [kg/m^3]. */
-real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
-                        bool after_any_conversion);
+real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
+                             bool after_any_conversion);
 
 /* Computes the stiffness matrix of the cell for displacements of its corners in the undeformed state [N/m], from the
  * points that the cell still has, without partial stresses. elastic: array of the elastic constants of all materials;
@@ -97,7 +98,8 @@ enum { CELLS_ACROSS = 6 };
 /* Computes for each cell the highest refinement level that the thickness of the body around it allows, into
  * highest[mesh->grid.n]. mirror: `mirrors` planes of symmetry, beyond which the body continues. Returns the largest of
  * these levels. */
-int mesh_level_limits(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *highest);
+int mesh_compute_level_limits(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors,
+                              uint8_t *highest);
 
 /* Marks all cells of grid g within `reach` cells of a marked one, in all directions including diagonals. mark: g->n
  * bytes, not 0 if marked. */

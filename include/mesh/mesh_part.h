@@ -73,7 +73,7 @@ status reference_frame_make(struct run *e, const struct mesh_source *source, boo
 /* Returns the critical time step of the cells of the reference frame [s], INFINITY if there are none. With the
  * adaptive method and without partial stress (coupling), cells that have lost any of their points by conversion are
  * included. */
-real reference_frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
+real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
 /* Finds again the points of the mesh that have bonds, loads or mirror images (exposed points), and the nodes on which
  * the boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
@@ -165,15 +165,15 @@ void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, 
 
 /* Returns the number of coarse refinement levels for scene s, given by the scene or chosen from loads and thickness of
  * the body, with the reason. dt_critical: critical time step [s]. */
-struct levels_choice frame_levels_choice(const struct reference_frame *r, const struct particles *p,
-                                         const struct scene *s, real dt_critical);
+struct levels_choice frame_levels_choose_count(const struct reference_frame *r, const struct particles *p,
+                                               const struct scene *s, real dt_critical);
 
 /* Writes the number of refinement levels and its reason in words to `text` (`capacity` bytes). c: result of
- * frame_levels_choice. */
+ * frame_levels_choose_count. */
 void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity);
 
 /* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
- * why to `reason` (`capacity` bytes). c: result of frame_levels_choice. */
+ * why to `reason` (`capacity` bytes). c: result of frame_levels_choose_count. */
 bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
                                const struct scene *s, char *reason, size_t capacity);
 
@@ -207,7 +207,7 @@ void frame_levels_update_node_lists(struct reference_frame *r, const struct part
 
 /* Returns the reason in words why all particles of scene s must be made, or NULL if particles inside coarse cells may
  * be left out. */
-const char *why_all_particles_are_needed(const struct scene *s);
+const char *scene_why_all_particles_needed(const struct scene *s);
 
 /* Decides which cells need no particles because they will be inside coarse cells, before particles are made: away from
  * pre-cracks, loads and probes. h: receives these cells; no change if all particles must be made or too few can be

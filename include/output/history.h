@@ -33,7 +33,7 @@ void history_free(struct history *h);
 int history_find_column(const struct history *h, const char *name);
 
 /* Returns the value in the given row and column of the table, in SI units; NAN if `column` is -1. */
-static inline double history_at(const struct history *h, int64_t row, int column)
+static inline double history_value_at(const struct history *h, int64_t row, int column)
 {
     return column < 0 ? __builtin_nan("") : h->value[row * h->columns + column];
 }

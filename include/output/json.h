@@ -25,21 +25,21 @@ void json_close(struct json *j, char bracket);
 
 /* Writes the string `text` as the next entry, with special characters escaped. key: name of the entry; NULL in a list.
  */
-void json_text(struct json *j, const char *key, const char *text);
+void json_write_text(struct json *j, const char *key, const char *text);
 
 /* Writes the integer `value` as the next entry. key: name of the entry; NULL in a list. */
-void json_count(struct json *j, const char *key, int64_t value);
+void json_write_integer(struct json *j, const char *key, int64_t value);
 
 /* Writes the number `value` with `digits` significant digits as the next entry. key: name of the entry; NULL in a
  * list. Writes no entry if `value` is NaN or infinite, which marks a quantity that a run does not have. */
-void json_number(struct json *j, const char *key, real value, int digits);
+void json_write_rounded(struct json *j, const char *key, real value, int digits);
 
 /* Writes the number `value` with 17 significant digits, which restore the same double, as the next entry. key: name of
  * the entry; NULL in a list. Writes no entry if `value` is NaN or infinite. */
-void json_real(struct json *j, const char *key, real value);
+void json_write_real(struct json *j, const char *key, real value);
 
 /* Writes the dim coordinates x[] of a point as the entries PREFIXx, PREFIXy and PREFIXz of the innermost object,
  * PREFIX being the text `prefix`. */
-void json_point(struct json *j, const char *prefix, const real *x, int dim);
+void json_write_point(struct json *j, const char *prefix, const real *x, int dim);
 
 #endif

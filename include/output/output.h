@@ -96,7 +96,7 @@ status output_check_series_folder(const char *folder, const char *name);
 /* Adds a series of frames of one region of the body to the output: the subfolder frames_NAME and its index files
  * NAME.hdf.series and so on, with NAME = name. region: kept by reference until output_close. Call it after
  * output_open. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be created. */
-status output_add_series(struct output *o, const char *name, const struct region *region);
+status output_add_frame_series(struct output *o, const char *name, const struct region *region);
 
 /* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their
  * checksums, not by their paths. */
@@ -107,7 +107,7 @@ bool scene_texts_are_equal(const char *a, const char *b);
 bool scene_file_has_text(const char *path, const char *scene_text);
 
 /* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
-bool scene_text_is_echo(const char *text);
+bool scene_text_is_from_cleave(const char *text);
 
 /* Writes `length` bytes of `text` to the file `name` in the folder of the run, first under a temporary name, which is
  * then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be written. */
@@ -182,11 +182,11 @@ status output_frame_begin(struct output *o, int series, const struct particles *
 /* Writes all frames of each series as one temporal file for ParaView, frames.vtkhdf (output_temporal.c), at the end of
  * a run. scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more
  * frames than such a file can serve efficiently. Returns FAILED if a file cannot be written. */
-status output_write_temporal(struct output *o, const char *scene_text);
+status output_write_temporal_file(struct output *o, const char *scene_text);
 
-/* Removes the temporal files that output_write_temporal of an earlier process wrote to the folder of the run, since
- * they lack the frames of a run that continues. */
-void output_temporal_remove(const struct output *o);
+/* Removes the temporal files that output_write_temporal_file of an earlier process wrote to the folder of the run,
+ * since they lack the frames of a run that continues. */
+void output_remove_temporal_file(const struct output *o);
 
 /* Discards the stored order in which particles are written. Call this function when the number of particles or their
  * ids have changed, after output_wait_for_frame. */

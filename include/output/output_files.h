@@ -33,8 +33,8 @@ status folder_make(const char *path);
 /* Returns PATH.cleave.tmp, the temporary name under which a file is written before it is renamed to `path`. */
 struct path path_temporary(const char *path);
 
-/* Returns the temporary name PATH.cleave.tmp and adds `path` to the list of unfinished files. file_publish or
- * file_discard with the same path removes it from the list. */
+/* Returns the temporary name PATH.cleave.tmp and adds `path` to the list of unfinished files. file_replace_by_temporary
+ * or file_discard_temporary with the same path removes it from the list. */
 struct path file_begin_temporary(const char *path);
 
 /* Removes the temporary files of all unfinished files (file_begin_temporary). Call it before the program ends because
@@ -100,10 +100,10 @@ status file_append_and_sync(const char *path, const void *tail, size_t length);
 /* Renames the synced temporary file PATH.cleave.tmp to `path` and syncs the folder. Returns REFUSED if the file `path`
  * must not be replaced (file_check_replaceable), FAILED if the renaming or the sync fails. If the file is not renamed,
  * PATH.cleave.tmp is removed. */
-status file_publish(const char *path);
+status file_replace_by_temporary(const char *path);
 
 /* Removes the temporary file PATH.cleave.tmp and frees its disk space even if the file is still open. */
-void file_discard(const char *path);
+void file_discard_temporary(const char *path);
 
 /* Reads the complete regular file `path`. Stores an allocated text in *text, which the caller releases with
  * memory_free, and its length [byte] in *length; a 0 byte follows the last byte. Returns FAILED, with no memory to

@@ -17,14 +17,14 @@ size_t hdf_type_size(enum hdf_type type);
 /* An open HDF5 file and its first fault. */
 struct hdf {
     hid_t file;
-    bool compress; /* gzip the tables of hdf_write_table */
+    bool compress; /* gzip the tables of hdf_write_rows_zero_padded */
     bool failed;   /* a call failed: make no further one */
     int cause;     /* errno of the failed call, 0 if unknown */
 };
 
-/* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the
- * tables that hdf_write_table writes with gzip. No time stamps are stored, so that equal content gives equal bytes. A
- * failure is stored in f->failed. */
+/* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the tables
+ * that hdf_write_rows_zero_padded writes with gzip. No time stamps are stored, so that equal content gives equal bytes.
+ * A failure is stored in f->failed. */
 void hdf_create(struct hdf *f, const char *path, bool compress);
 
 /* Opens the HDF5 file `path` for reading and stores its handle in *f. A failure is stored in f->failed. */
@@ -49,8 +49,8 @@ void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t
  * dimension if `columns` is 1. Rows are stored in chunks; a chunk that holds one number throughout, 0 or in a dataset
  * of one column the number of its first row, takes no space either, as readers then return the fill value. A failure is
  * stored in f->failed. */
-void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, int stored_columns,
-                     const void *data);
+void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns,
+                                int stored_columns, const void *data);
 
 /* Creates the external link `name` to the dataset of the same path in another file. file: its path relative to the
  * folder of f. A failure is stored in f->failed. */
@@ -114,11 +114,11 @@ void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum
 /* ---- files of other programs, by HDF5's own handles -------------------------------------------------------------- */
 
 /* Returns true if `name` is a soft or external link of the file or group; does not follow the link. */
-bool hdf_is_linked(hid_t file, const char *name);
+bool hdf_is_link(hid_t file, const char *name);
 
 /* Returns true if the data of the dataset are stored in its file, neither in an external file nor as a virtual
  * dataset. */
-bool hdf_lies_inside(hid_t dataset);
+bool hdf_dataset_is_in_its_file(hid_t dataset);
 
 /* Reads the attribute `name` of the dataset or group `object` as text of at most `capacity` bytes; "" if there is no
  * such text. */

@@ -9,7 +9,7 @@
 #define PAGE_BEGINNING "<!doctype html>\n<!-- page of cleave report -->\n"
 
 /* Returns true if the regular file `path` begins as a page does. */
-bool page_file_is_own(const char *path);
+bool page_file_is_from_cleave(const char *path);
 
 /* Removes the page in the folder of a run that is overwritten; a file of this name that is no page stays. */
 void page_file_remove(const char *folder);

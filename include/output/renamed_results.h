@@ -8,6 +8,6 @@ const char *result_current_name(const char *name);
 
 /* Returns the other of the two names of a renamed column or figure: the present name of an earlier one, the earlier
  * name of a present one; NULL if `name` is neither. Files of either version can thus be read by both names. */
-const char *result_other_name(const char *name);
+const char *result_name_in_other_version(const char *name);
 
 #endif

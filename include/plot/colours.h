@@ -25,7 +25,7 @@ enum colour_table {
 #define COLOUR_TABLE_WORDS "usual|viridis|cividis|inferno|magma|grey|diverging"
 
 /* Returns the colour at a position of a table, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
-struct colour colour_of_table(enum colour_table table, double position);
+struct colour colour_from_table(enum colour_table table, double position);
 
 /* Returns a colour of the sequential scale, which goes from dark at 0 to light at 1 with uniformly increasing
  * lightness. position: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
@@ -41,10 +41,10 @@ struct colour colour_damage(double position);
 
 /* Returns the colour of a peridynamic particle in maps of the particle kind, which darkens from light to dark blue
  * with its damage. position: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
-struct colour colour_bonds(double position);
+struct colour colour_of_peridynamic_particle(double position);
 
 /* Returns the colour of material points in maps of the particle kind. */
-struct colour colour_points(void);
+struct colour colour_of_material_points(void);
 
 /* Returns the colour of the fragment with index `fragment`, 0 for the heaviest; -1: the colour of particles without
  * bonds. */

@@ -53,7 +53,7 @@ status gnuplot_close(struct gnuplot *g);
 
 /* Copies the last line that is not blank of the error messages of a program to text[size]; writes `it gave no reason`
  * if there is none. file: file with the messages, read from its beginning. */
-void error_message_read(FILE *file, char *text, size_t size);
+void error_message_last_line(FILE *file, char *text, size_t size);
 
 /* Writes `text` to the file `to` as a quoted gnuplot string in which no character has a special meaning. */
 void gnuplot_quote(FILE *to, const char *text);

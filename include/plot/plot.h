@@ -29,7 +29,7 @@ extern const struct camera camera_isometric;
 
 /* Returns the directions of a view along the coordinate axis `axis`, 0 .. 2 for x, y, z. side: +1 if the viewer is on
  * the side of larger coordinates, -1 if on the other side. */
-struct camera camera_along(int axis, int side);
+struct camera camera_along_axis(int axis, int side);
 
 struct plot_field;
 
@@ -118,7 +118,7 @@ status pictures_folder_make(const char *path);
  * `option_argument` is a file, or a folder (which exists or ends in /) in which the file `name` is created. Missing
  * folders are created. Returns REFUSED if the name is empty or too long, or if the file exists, Cleave did not draw it,
  * and `overwrite` is false. */
-status picture_destination(struct path *path, const char *option_argument, const char *name, bool overwrite);
+status picture_choose_path(struct path *path, const char *option_argument, const char *name, bool overwrite);
 
 /* Prints that the picture `path` is not drawn, with the reason `why`, and removes an older picture of that name if
  * Cleave drew it. Returns FAILED if standard output cannot be written. */
@@ -149,7 +149,7 @@ struct unit unit_for_length(double largest);
 
 /* Returns the unit with the prefix for which the number for `largest` has one to three digits before the point, if
  * `name` is a unit that takes prefixes (s, m, m/s, N, J, Pa, W); else the unit itself. name: unit without prefix. */
-struct unit unit_of_figure(const char *name, double largest);
+struct unit unit_with_allowed_prefix(const char *name, double largest);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
@@ -241,8 +241,8 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
  * displacements of near particles that a crack does not separate. spacing: of the particles [m]; displacement_factor:
  * factor on displacements; scene: for its pre-cracks; NULL: none are known. Returns an allocated array, which the
  * caller releases with memory_free, or NULL if no deformation is visible. */
-float *particle_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
-                               const struct scene *scene);
+float *deformation_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
+                                  const struct scene *scene);
 
 /* Inverts `matrix`. Returns false, and leaves *inverse undefined, if its determinant is 0 or not a number. */
 bool matrix_invert(const double matrix[3][3], double inverse[3][3]);
@@ -267,8 +267,8 @@ enum map map_of_field(const struct plot_field *field);
 
 /* Adds the rigid bodies of the scene s (NULL: none) at frame `number` of the run in `folder` to the particles of the
  * frame f. Adds none if the run has no files of rigid bodies. s: kept by reference. */
-void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
-                       const char *folder, int number);
+void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
+                                  const char *folder, int number);
 
 /* Number of named values that part_colour can distinguish. */
 enum { CATEGORIES_MOST = 9 };
@@ -388,7 +388,7 @@ struct series {
 
 /* Returns the largest absolute value in the column with index `column` of the history h; 0 if the column has no
  * values. */
-double curves_largest_value(const struct history *h, int column);
+double history_largest_magnitude(const struct history *h, int column);
 
 /* Writes the time and the columns column[columns] of the history of s, each divided by its factor[columns], to gnuplot
  * as the data block $data. Long histories are reduced to a few thousand rows, the last one included. */
@@ -441,7 +441,7 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
 
 /* Finds an EXACT probe, which compares a bar with a closed-form solution, by the profiles in the folder of a run and
  * stores its name in `name`. Returns false if there is none. */
-bool exact_probe_find(const char *folder, char name[NAME_MAX_LENGTH]);
+bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH]);
 
 /* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe`, with
  * the closed-form solution, to the file `sheet`. title: heading of the picture; show[frames]: frames of the run in

@@ -43,20 +43,20 @@ void diagnostics_make(struct diagnostics *w);
 /* Computes the total momentum of the particles and of the mesh nodes, stores it in w->now.momentum, and updates
  * w->now.momentum_error, the largest error so far. nodes[grids]: grids whose nodes carry the mass of their points.
  * impulse: impulse of loads and supports from the start to the time of the velocities, dim components [N s]. */
-void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
-                          const real *impulse);
+void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
+                                 int grids, const real *impulse);
 
 /* Computes the angular momentum of the free bodies about their common centre of mass, stores it in w->now.spin, and
  * updates w->now.spin_error, the largest error so far. mesh: mesh of the reference frame, NULL if none of its nodes
  * carries mass. bodies: number of bodies of the scene. Call this function only if no load, support or mirror acts on
  * the bodies, since angular momentum is conserved only then. */
-void diagnostics_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
-                                  int bodies);
+void diagnostics_update_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
+                                         int bodies);
 
 /* Stores the energies *energy of the run at time t [s] and the work of loads and supports since the start, `work` [J],
  * in w->now, and computes the error of the energy balance, w->now.balance_error. Call this function after
- * diagnostics_momentum; its first call defines the energy and momentum at the start. */
-void diagnostics_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
+ * diagnostics_update_momentum; its first call defines the energy and momentum at the start. */
+void diagnostics_update_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
 
 /* Returns the relative energy change (E - E_0 - work)/E_0 at the last sample [1]. E is the sum of all energies except
  * the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN if
@@ -67,7 +67,7 @@ real diagnostics_energy_change(const struct diagnostics *w);
  * `horizon` apart (fracture/places.h). list[n]: numbers of the particles that are searched; NULL for particles 0 .. n
  * - 1. horizon: length of the longest bond [m]. centre: receives the reference position of the middle of one cut, dim
  * components [m]. Returns the number of separate cuts; if it is 0, `centre` is unchanged. */
-int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre);
+int64_t diagnostics_locate_cuts(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre);
 
 /* Adds the bonds that broke in the step at time t [s] to the number of broken bonds, and stores time and position of
  * the first break of the run. broken_bonds: number of directed bonds that broke in the step. horizon: length of the
@@ -84,8 +84,8 @@ real diagnostics_largest_speed(const struct particles *p, const int32_t *list, i
  * mesh too. Both are false in most steps, since the functions that move these particles detect divergence. step, t:
  * number and time [s] of the step, for the message. Returns FAILED if there is such a particle, with its position and
  * the cause in the message. */
-status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real max_speed, int64_t step,
-                              real t);
+status diagnostics_check_divergence(const struct particles *p, bool peridynamic, bool meshed, real max_speed,
+                                    int64_t step, real t);
 
 /* Saves the diagnostics to the archive if a->saving is set, else restores them from it. Returns FAILED if an entry is
  * missing or has another size. */

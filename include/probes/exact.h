@@ -53,7 +53,7 @@ enum { EXACT_FRONTS = 2 };
  * front, the one that was reflected last; PLASTIC BAR has the elastic precursor and, if the load exceeds the yield
  * stress, the plastic front. Returns the number of fronts; 0 for solutions without jumps and for times at which the
  * closed form does not apply. */
-int exact_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
+int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
 /* Regions in which the exact stress is constant, at a distance from fronts and ends. PLATEAU: behind the last front,
  * at least 0.1 bar lengths from it (0.08 from a plastic front) and from the ends. PRECURSOR: from 0.07 bar lengths
@@ -64,6 +64,6 @@ enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
  * at time t [s]. part: EXACT_PLATEAU the part behind the last front, EXACT_PRECURSOR that between the elastic precursor
  * and the plastic front, both at some distance from fronts and ends. Returns false if there is no such part at time
  * t. */
-bool exact_constant_window(const struct exact *e, real t, enum exact_window part, real *from, real *to);
+bool exact_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *from, real *to);
 
 #endif

@@ -21,10 +21,10 @@
  * `_strain` compare E x strain with E x exact strain, with strain by central differences over neighbours in the bar:
  *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
  *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
- *   plateau                 mean stress behind the last front, away from fronts and ends (exact_constant_window) [Pa]
- *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
- *   end_displacement        of the outermost particle at the loaded end, half a spacing from the end [m]
- *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, at the time of the velocities */
+ *   plateau                 mean stress behind the last front, away from fronts and ends (exact_constant_stress_range)
+ * [Pa] strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1] end_displacement of the
+ * outermost particle at the loaded end, half a spacing from the end [m] L1_velocity, L2_velocity, L2_displacement as L1
+ * and L2, at the time of the velocities */
 
 /* Final state of the run on material points alone with which PULSE probes are compared (engine_run_mpm_baseline). */
 struct baseline {
@@ -136,7 +136,7 @@ enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 
 /* Writes the file name of profile number `profile` >= 0 of frame number `frame` to name[PROFILE_NAME]. Returns false,
  * without a name, if there are at most `profile` profiles. */
-bool probes_profile_name(const struct probes *s, int profile, int frame, char *name);
+bool probes_write_profile_name(const struct probes *s, int profile, int frame, char *name);
 
 /* Copies the stress-intensity factors of the SIF probe called `name` at its last sample, and the direction of its
  * crack tip, to *found. Returns false if the probe has no values yet. */
@@ -144,8 +144,8 @@ bool probes_get_sif(const struct probes *s, const char *name, struct growth_cont
 
 /* Computes the present position of the crack tip of the probe, two components [m], and the outer radius of its
  * contours, *radius [m]. Returns false if the probe is not a SIF probe. */
-bool probes_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real position[2],
-                        real *radius);
+bool probes_get_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real position[2],
+                            real *radius);
 
 /* Saves the state of the probes to the archive if a->saving is set, else restores it from the archive. Returns FAILED
  * if an entry is missing or its size does not fit the probes. */

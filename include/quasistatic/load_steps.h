@@ -34,7 +34,7 @@ status engine_find_trial_equilibrium(struct run *e, real t);
  * of the present equilibrium are scaled; where loads reverse or further loads begin, equilibria are computed.
  * first_load_time: load time of the preceding engine_find_trial_equilibrium [s]. Returns FAILED if an equilibrium is
  * not found. */
-status engine_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio);
+status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio);
 
 /* Returns the load size at pseudo-time t [s], a measure proportional to the loads: the root of the sum of squares of
  * all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all applied forces [N].

@@ -36,8 +36,8 @@ struct rigid_body {
     real moment[DIM_MAX];         /* and its moment about the centre [N m] */
     real force_most;              /* largest |force| so far [N] */
     real increment[DIM_MAX];      /* displacement in the last step [m] */
-    real force_previous[DIM_MAX]; /* force at the last call of rigid_add_work [N] */
-    real work;                    /* work of the drive up to the last call of rigid_add_work [J] */
+    real force_previous[DIM_MAX]; /* force at the last call of rigid_add_drive_work [N] */
+    real work;                    /* work of the drive up to the last call of rigid_add_drive_work [J] */
     /* kinetic energy of the last step as leap-frog conserves it, 1/2 m v_old . v_new with the rotation likewise [J] */
     real kinetic;
 };
@@ -63,22 +63,22 @@ static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, re
 real rigid_distance(const struct rigid_body *r, const real *x, real *normal);
 
 /* Computes the present position x of the material point of the body that was at X at t = 0 [m]. */
-void rigid_point_position(const struct rigid_body *r, const real *X, real *x);
+void rigid_present_position_of_point(const struct rigid_body *r, const real *X, real *x);
 
 /* Computes the velocity v of the point of the rigid body at the present position x [m/s], from the velocity of the
  * centre and the angular velocity. */
-void rigid_velocity(const struct rigid_body *r, const real *x, real *v);
+void rigid_velocity_at_point(const struct rigid_body *r, const real *x, real *v);
 
 /* Computes the velocity v that is prescribed for a driven rigid body at time t [s] (dim components [m/s]). */
-void rigid_driven_velocity(const struct rigid_body *r, real t, real *v);
+void rigid_prescribed_velocity(const struct rigid_body *r, real t, real *v);
 
 /* Computes the displacement u that is prescribed for a driven rigid body between the times 0 and t [s] (dim components
  * [m]); 0 for other bodies. Returns its length [m]. */
-real rigid_driven_displacement(const struct rigid_body *r, real t, real *u);
+real rigid_prescribed_displacement(const struct rigid_body *r, real t, real *u);
 
 /* Moves a driven body to its prescribed position at time t [s], and adds the displacement to r->increment, from which
- * rigid_add_work computes the work of the drive. Does nothing for other bodies. */
-void rigid_set_position(struct rigid_body *r, real t);
+ * rigid_add_drive_work computes the work of the drive. Does nothing for other bodies. */
+void rigid_move_to_prescribed_position(struct rigid_body *r, real t);
 
 /* Advances a rigid body by one leap-frog step: a free body under r->force, r->moment and its weight, a driven one with
  * its prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. t_middle: time in the middle of the
@@ -87,14 +87,14 @@ void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
 /* Adds the work that the drive of a driven body has done since the last call to r->work: its displacement times the
  * mean of the contact forces then and now, with opposite sign. */
-void rigid_add_work(struct rigid_body *r);
+void rigid_add_drive_work(struct rigid_body *r);
 
 /* Updates r->force_most, the largest contact force on the body so far [N], by the present force. */
 void rigid_update_largest_force(struct rigid_body *r);
 
 /* Returns the work done on the body since t = 0 by its drive and by its weight, up to the present position and force
  * [J]. */
-real rigid_work(const struct rigid_body *r);
+real rigid_total_work(const struct rigid_body *r);
 
 /* Returns the kinetic energy of a rigid body at its present velocity and angular velocity [J]. */
 real rigid_kinetic_energy(const struct rigid_body *r);

@@ -38,7 +38,7 @@ void rigids_move(struct rigid_set *rigid, real t_middle, real dt, real dt_veloci
 
 /* Returns FAILED if a body moves more than half a spacing in a step, so that particles would be inside it before
  * contact acts. */
-status rigids_speed_check(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock);
+status rigids_check_speed(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock);
 
 /* Adds a warning to `to`, once in a run, if a freely moving rigid body is more than half a spacing inside another rigid
  * body at time t [s]: rigid bodies exert no forces on each other. spacing: of the particles [m]. */
@@ -52,30 +52,30 @@ struct rigid_energy {
 
 /* Returns the sums of the energies of all rigid bodies, in the sense of struct rigid_energy, from their present motion
  * and forces [J]. dt: time step [s]. */
-struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt);
+struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt);
 
 /* Describes the columns of rigid bodies in history.csv; column NULL: counts only. Returns the number of columns: force
  * [N], moment [N m], position of the centre [m] and velocity [m/s] of each body. */
-int rigids_columns(const struct run *e, struct column *column);
+int rigids_list_columns(const struct run *e, struct column *column);
 
-/* Writes the values of the columns described by rigids_columns to `record`: for each rigid body the forces and moments
- * of the last step, then position and velocity at the time of the sample (rigids_store_motion). */
-void rigids_record(struct run *e, real *record);
+/* Writes the values of the columns described by rigids_list_columns to `record`: for each rigid body the forces and
+ * moments of the last step, then position and velocity at the time of the sample (rigids_store_motion_for_sample). */
+void rigids_write_record(struct run *e, real *record);
 
 /* Stores the positions and velocities of all rigid bodies in rigid->motion, before a step, for the sample at time t
  * [s]. The stored velocity of a driven body is the prescribed one at t. */
-void rigids_store_motion(struct rigid_set *rigid, real t);
+void rigids_store_motion_for_sample(struct rigid_set *rigid, real t);
 
-/* Replaces the velocities of free bodies that rigids_store_motion stored before the step by the mean of these and the
- * present velocities, after the step: the velocities at the time of the sample. */
+/* Replaces the velocities of free bodies that rigids_store_motion_for_sample stored before the step by the mean of
+ * these and the present velocities, after the step: the velocities at the time of the sample. */
 void rigids_average_velocities(struct rigid_set *rigid);
 
-/* Replaces the velocities stored by rigids_store_motion by those at time t [s] (rigids_velocity), for the sample after
- * the last time step. dt: time step [s]. */
+/* Replaces the velocities stored by rigids_store_motion_for_sample by those at time t [s] (rigids_velocity_of_body),
+ * for the sample after the last time step. dt: time step [s]. */
 void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt);
 
 /* Computes the velocity v of rigid body number `body` at time t [m/s], from the velocity half a step dt [s] behind t
  * and the present forces; of a driven body, the prescribed velocity. */
-void rigids_velocity(const struct rigid_set *rigid, int body, real t, real dt, real *v);
+void rigids_velocity_of_body(const struct rigid_set *rigid, int body, real t, real dt, real *v);
 
 #endif

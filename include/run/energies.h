@@ -7,7 +7,7 @@
 /* Returns the share of its strain energy density that material point i keeps while bonds across its cell carry the
  * rest [1]: 1 - tr M/n, with M the matrix of its partial stress and n the number of components of a symmetric tensor;
  * exact if M is a multiple of the identity, as in 1D. partial: partial stresses of all points; NULL returns 1. */
-real point_mpm_fraction(const struct partial_stress *partial, int dim, int64_t i);
+real point_mpm_energy_fraction(const struct partial_stress *partial, int dim, int64_t i);
 
 /* Returns the kinetic energy 1/2 sum m v^2 of all particles [J], except material points of a mesh in the reference
  * frame, whose kinetic energy is that of the mesh nodes (frame_kinetic_energy). */
@@ -55,7 +55,7 @@ static inline void family_states_precompute(struct bonds *b, struct particles *p
 /* Computes the stress of all peridynamic particles from their bonds at the present positions [Pa], into the stress
  * arrays of p. Time steps do not use this stress; call the function before a sample, a frame or reversion. source: bond
  * law; kernels: compiled loops for the vector instructions of this machine. */
-void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *source,
-                         const struct kernels *kernels);
+void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *source,
+                                   const struct kernels *kernels);
 
 #endif

@@ -57,6 +57,6 @@ extern const struct ledger_row ledger[LEDGER_ROWS];
 real energy_sum(const struct energy *u);
 
 /* Returns the sum of the absolute values of all energies of u [J], with which errors of their balance are compared. */
-real energy_magnitude(const struct energy *u);
+real energy_sum_of_magnitudes(const struct energy *u);
 
 #endif

@@ -7,7 +7,7 @@
 /* Lowers the conversion stress (`trigger`) of each material to the smallest one of its particles, if the strength of
  * particles is random (p->strength). Does nothing if strength is uniform. elastic: array of the constants of all
  * materials, changed in place. */
-void lower_conversion_stress(struct elastic *elastic, const struct particles *p);
+void conversion_stress_reduce_to_weakest(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials] that the caller frees: for
  * each material and each method that moves its particles (bonds, grid or mesh). Returns NULL if the scene has no
@@ -17,7 +17,7 @@ struct impedance *absorbing_impedances(const struct scene *s, const struct bond_
 /* Lists in tables->voids the shapes of bodies that may contain voids, and in tables->void_mirror the planes of the
  * mirror boundaries. Bodies made from particle lists or images are left out. loads: boundary conditions. Returns true
  * if at least one shape was listed. */
-bool run_voids_list(struct material_tables *tables, const struct scene *s, const struct loads *loads);
+bool run_list_shapes_with_voids(struct material_tables *tables, const struct scene *s, const struct loads *loads);
 
 /* Returns the largest distance across which particles interact [m], through bonds shorter than `cutoff` [m] or through
  * common cells of the mesh; voids narrower than this distance must be handled explicitly. */
@@ -25,7 +25,7 @@ real voids_interaction_distance(const struct scene *s, real cutoff);
 
 /* Returns true if the surface of a body and of all bodies joined to it is given by solids: none of them is made from a
  * particle list or an image. body: number of the first of the joined bodies. */
-bool body_surface_is_exact(const struct scene *s, int body);
+bool joined_bodies_have_exact_surface(const struct scene *s, int body);
 
 /* Computes factors on the weights of bonds near free surfaces (pd.surface: moments) into w and sets source->surface =
  * w; w must therefore outlive `source`. Returns REFUSED, with a message, if particles that can have bonds, mirror

@@ -7,6 +7,6 @@
 
 /* Adds warnings to `to` for the materials of scene s whose bonds yield: how their plasticity differs from von Mises
  * plasticity. */
-void warn_of_yielding(const struct scene *s, struct warnings *to);
+void warn_of_bond_plasticity(const struct scene *s, struct warnings *to);
 
 #endif

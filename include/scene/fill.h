@@ -34,11 +34,11 @@ status fill_check_particle_lists(const struct particles *p, const struct scene *
 
 /* Sets the strength factor of each particle [1] (fill_strength.c): random where the strength of its material scatters,
  * else 1. Does nothing if p->strength is NULL. */
-void fill_strength(struct particles *p, const struct scene *s);
+void fill_strength_factors(struct particles *p, const struct scene *s);
 
 /* Sets the temperature of each particle [K] (fill_strength.c): the room temperature of its material, ROOM_TEMPERATURE
  * if that has none. Does nothing if p->temperature is NULL. */
-void fill_temperature(struct particles *p, const struct scene *s);
+void fill_initial_temperature(struct particles *p, const struct scene *s);
 #define ROOM_TEMPERATURE 293.15
 
 #endif

@@ -252,10 +252,10 @@ static inline bool scene_bonds_break(const struct scene *s)
 }
 
 /* Returns true if a material has bulk viscosity. */
-static inline bool scene_viscous(const struct scene *s)
+static inline bool scene_has_viscosity(const struct scene *s)
 {
     bool viscous = false;
-    for (int m = 0; m < s->materials; m++) viscous |= material_viscous(&s->material[m]);
+    for (int m = 0; m < s->materials; m++) viscous |= material_has_viscosity(&s->material[m]);
     return viscous;
 }
 
@@ -278,7 +278,10 @@ static inline bool scene_probes_broken_bonds(const struct scene *s)
 }
 
 /* Returns true if the scene silences a warning by its key `accept`. */
-static inline bool scene_accepts(const struct scene *s, enum accept warning) { return s->accept >> warning & 1; }
+static inline bool scene_silences_warning(const struct scene *s, enum accept warning)
+{
+    return s->accept >> warning & 1;
+}
 
 /* Returns true if new surfaces can form: by pre-cracks, growing cracks, or bonds that break. */
 static inline bool scene_can_crack(const struct scene *s)
@@ -296,7 +299,7 @@ static inline bool scene_bodies_can_meet(const struct scene *s)
 
 /* Returns the factor from the measure of a region to its volume: the cross-section in 1D [m^2], the thickness in 2D
  * [m], 1 in 3D. */
-static inline real scene_section_factor(const struct scene *s)
+static inline real scene_section_or_thickness(const struct scene *s)
 {
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
@@ -315,22 +318,22 @@ void scene_free(struct scene *s);
 /* Puts before the message of a refusal the place of what the message begins with: of a body, of a boundary, or of a key
  * or its group, else the path of the scene file. Messages that have a place keep it. Returns `result`; does nothing
  * unless it is REFUSED. */
-status scene_locate(const struct scene *s, status result);
+status scene_prepend_location(const struct scene *s, status result);
 
 /* Returns the reason why a body cannot be in the reference frame with the method, solver, coupling and materials of the
  * scene; NULL if it can. The text is static. */
-const char *scene_why_frame_unsupported(const struct scene *s, int body);
+const char *scene_why_reference_frame_unsupported(const struct scene *s, int body);
 
 /* Returns true if the material of a body in the reference frame yields and the run makes explicit steps. */
 bool scene_yields_on_mesh(const struct scene *s);
 
 /* Returns the reason why `mpm.frame: auto` does not choose the reference frame for a body; NULL if it does. The text is
  * static. */
-const char *scene_why_frame_not_default(const struct scene *s, int body);
+const char *scene_why_reference_frame_not_auto(const struct scene *s, int body);
 
 /* Returns the reason why `mpm.frame: reference` is no remedy for a body on the grid of the current frame: that of
- * scene_why_frame_not_default for the first body that has one, NULL if no body has. The text is static. */
-const char *scene_frame_obstacle(const struct scene *s);
+ * scene_why_reference_frame_not_auto for the first body that has one, NULL if no body has. The text is static. */
+const char *scene_why_reference_frame_no_remedy(const struct scene *s);
 
 /* Prints the table of keys of scenes to `out`: all keys (key NULL), the keys below a prefix, or one key. Returns
  * REFUSED for an unknown key, with the most similar key in the message. */

@@ -18,7 +18,7 @@ bool time_read(real *value, const char *text, char *message, size_t capacity);
 bool value_read_in_unit(real *value, const char *text, const char *symbol, char *message, size_t capacity);
 
 /* Returns the index of `text` in the words a|b|c, or -1. */
-int word_index(const char *words, const char *text);
+int word_index_in_list(const char *words, const char *text);
 
 /* Returns the name among the n > 0 names in `name` that has the smallest edit distance to `word`, the first of
  * several. */

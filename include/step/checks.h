@@ -27,11 +27,11 @@ status energy_check(struct run *e);
 
 /* Returns the energy that breaking bonds have released in excess of the energy that they had stored [J], 0 if there is
  * no excess. Bonds of state-based models can have such an excess. */
-real energy_released_in_excess(const struct diagnostics *w);
+real diagnostics_excess_released_energy(const struct diagnostics *w);
 
 /* Returns true if the energies of the run so far are mere round-off: below 1e-24 of the kinetic energy of the whole
  * body at the wave speed. mass: of the body [kg]; wave_speed: of the fastest wave [m/s]. */
-bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
+bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
 
 enum { REMEDY_LENGTH = 640 };
 

@@ -12,12 +12,12 @@ struct damping_state {
 
 /* Returns the factor exp(-c dt/2) by which bulk damping reduces the velocity increment of a time step [1], c being the
  * damping rate and dt the time step; 1 without damping. decay: c dt [1]. */
-real damping_factor(real decay);
+real damping_increment_factor(real decay);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt/2) before the first velocity update of the run,
  * and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1]. Returns the
  * kinetic energy that is lost [J]. */
-real damping_apply_first(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
+real damping_apply_first_half_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
 
 /* Copies all velocities of particles and mesh nodes to s->before, before the forces of a time step change them. */
 void damping_store_velocities(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
@@ -25,15 +25,15 @@ void damping_store_velocities(struct damping_state *s, const struct particles *p
 /* Returns the energy that bulk damping has taken since the previous time step [J], computed from the velocities that
  * damping_store_velocities stored in *s in this step and the present ones of particles and mesh nodes. decay: c dt [1],
  * c being the damping rate and dt the time step. Valid from the second step on. */
-real damping_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay);
+real damping_energy_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt) at the end of a time step, and subtracts the
  * momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1]. */
-void damping_apply(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
+void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
 
 /* Returns the energy that bulk damping takes in the velocity update that follows the last time step [J]. decay: c dt
  * [1]. kinetic_before: kinetic energy before that update [J]; kinetic: 1/2 m v- . v+, with v- and v+ the velocities
  * before and after it [J]. */
-real damping_last_loss(real decay, real kinetic_before, real kinetic);
+real damping_final_energy_loss(real decay, real kinetic_before, real kinetic);
 
 #endif

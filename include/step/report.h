@@ -74,7 +74,7 @@ int64_t report_step_of_frame(const struct scene *s, const struct run_clock *cloc
 
 /* Returns the wall-clock times of the run so far, in this process and those before a restart. timers: sections of the
  * loop in this process. */
-struct run_seconds report_seconds(const struct run_report *r, const struct timers *timers);
+struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers);
 
 /* Returns the set of frame series that must be written after `step` time steps or load steps, one bit per series: bit
  * 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). A run that

@@ -28,7 +28,7 @@ void sample_end(struct run *e);
 void sample_take_in_equilibrium(struct run *e);
 
 /* Takes the sample after the last time step and writes its line of history.csv. Brings positions, velocities and
- * stresses of all particles up to date, except the stress of peridynamic particles (compute_bond_stress). */
+ * stresses of all particles up to date, except the stress of peridynamic particles (bonds_compute_particle_stress). */
 void sample_take_final(struct run *e);
 
 /* Returns the elastic energy of bonds, material points and mesh cells at the present positions [J]. */

@@ -15,6 +15,6 @@ struct shock {
 /* Returns the fastest collision between two bodies, or between a body and a rigid body, within the duration of a
  * scene. The velocity of a body is that of `bodies.velocity` and of `initial` at the centre of its bounding box; bodies
  * from particle lists are left out. */
-struct shock fastest_collision_expected(const struct scene *s);
+struct shock scene_fastest_collision(const struct scene *s);
 
 #endif

@@ -34,7 +34,7 @@ void viscosity_add_forces(struct run *e);
 /* Subtracts the viscous pressure q from the normal stresses of points on the grid if `subtract` is true, before their
  * stresses are mapped to nodes. If `subtract` is false, restores the stresses without q. Does nothing if no material is
  * viscous. */
-void viscosity_apply_to_stress(struct viscosity *v, const struct particles *p, bool subtract);
+void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract);
 
 /* Adds the viscous forces of cells to the nodal forces of the mesh in the reference frame, and the energy that they
  * dissipated since the previous step to viscosity.taken. Does nothing if no material is viscous. */
@@ -43,6 +43,7 @@ void viscosity_add_nodal_forces(struct run *e);
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
  * of viscous pressure to rho c^2 that the speeds of bodies, supports and loads lead to expect. speed: the largest of
  * particles at t = 0 [m/s]. */
-real viscosity_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p, real speed);
+real viscosity_time_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                real speed);
 
 #endif

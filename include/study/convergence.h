@@ -52,8 +52,8 @@ struct convergence {
  * its spacing level, 0 the finest. resolution[level]: half of the step in which the figure is quantised at this level;
  * NULL if it is not quantised. Stores the results in *c. Returns false if one of the three finest levels has no
  * value. */
-bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
-                      int levels, const double *resolution);
+bool convergence_evaluate(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
+                          int levels, const double *resolution);
 
 /* Returns the half-width of the interval centred at `centre` that contains the true value of the figure with
  * probability `probability` [1], from the means of all spacing levels and their errors (convergence_interval.c).
@@ -65,6 +65,6 @@ double convergence_half_width(const struct convergence *c, double centre, double
 void convergence_intervals(struct convergence *c);
 
 /* Returns the 97.5 % quantile of Student's t distribution with `degrees_of_freedom` >= 1 degrees of freedom. */
-double student_quantile(int degrees_of_freedom);
+double student_t_quantile_975(int degrees_of_freedom);
 
 #endif

@@ -72,7 +72,7 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
 
 /* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
  * kind, to `folder`, which holds `capacity` bytes. */
-void study_folder_default(char *folder, size_t capacity, const struct scene *scene, const char *kind);
+void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *kind);
 
 /* Checks that `folder` is free for a study of the scene with the given text. Returns REFUSED if the folder holds a
  * study of another scene, or files that Cleave did not write. */
@@ -81,10 +81,10 @@ status study_folder_check_scene(const char *folder, const char *text);
 /* Marks `folder` as the folder of a study by writing the file STUDY_SCENE without a scene, unless it is one already.
  * Returns REFUSED if the folder holds files that Cleave did not write, or if its subfolder `logs` or `pictures` is a
  * link; FAILED if the file cannot be written. */
-status study_folder_claim(const char *folder);
+status study_folder_mark(const char *folder);
 
-/* Checks `folder` as study_folder_claim does, but writes nothing. Returns REFUSED if the folder holds files that
- * Cleave did not write, or if its subfolder `logs` or `pictures` is a link. */
+/* Checks `folder` as study_folder_mark does, but writes nothing. Returns REFUSED if the folder holds files that Cleave
+ * did not write, or if its subfolder `logs` or `pictures` is a link. */
 status study_folder_check(const char *folder);
 
 /* Returns true if `folder` holds the file STUDY_SCENE of a study of the scene with the given text. */
@@ -101,7 +101,8 @@ void study_free(struct study *s);
  * of its folder, which is restricted to characters that every file system accepts; if it is too long or already taken,
  * the name case-HASH is used, HASH being a hash of the overrides that does not depend on their order. Returns the run,
  * which belongs to the study; the pointer is valid until the next call. */
-struct study_case *study_add(struct study *s, const char *name, const struct scene_override *override, int overrides);
+struct study_case *study_add_case(struct study *s, const char *name, const struct scene_override *override,
+                                  int overrides);
 
 /* Adds one run to the study for every combination of the values of the keys key[keys]; the values of the last key vary
  * fastest. Returns REFUSED if there would be more than CASES_MOST runs. */
@@ -110,11 +111,11 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 /* Reads the scene of every run of the study and sets the states of the runs: CASE_SAME if another run has an equal
  * scene, CASE_DONE_BEFORE if the folder of the run holds its results and, if `collect` is true, CASE_FAILED if it
  * holds a failed run, which the study would otherwise run again. Returns REFUSED if the scene of a run is invalid. */
-status study_check(struct study *s, bool collect);
+status study_check_scenes(struct study *s, bool collect);
 
 /* Prints to `out` how many runs of the study have the same scene as another run (CASE_SAME). Prints nothing if there
  * are none. */
-void study_print_same(const struct study *s, FILE *out);
+void study_print_equal_scene_count(const struct study *s, FILE *out);
 
 /* Returns the value of the key called `key` among the overrides of a run, "" if the run does not override that key.
  * The text belongs to the run. */

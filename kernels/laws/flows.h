@@ -15,8 +15,8 @@
 /* Returns the yield stresses of eight points by the flow law `law` [Pa] and stores their derivatives by the plastic
  * strain in *slope [Pa]. plastic_strain: plastic strains [1]; strain_rate: total deviatoric strain rates [1/s];
  * temperature: temperatures [K]. */
-static ALWAYS_INLINE lanes flow_stress(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                       lanes temperature, lanes *slope)
+static ALWAYS_INLINE lanes law_flow_stress(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                           lanes temperature, lanes *slope)
 {
 #define FLOW_CALL(name) flow_stress_##name(law, plastic_strain, strain_rate, temperature, slope)
     switch (law->flow) {
@@ -30,7 +30,8 @@ static ALWAYS_INLINE lanes flow_stress(const struct law *law, lanes plastic_stra
 /* Returns for eight points the plastic strain at which the yield stress of the flow law `law` is `stress` [Pa], or an
  * upper bound of it; INFINITY if there is none [1]. strain_rate: total deviatoric strain rates [1/s]; temperature:
  * temperatures [K]. */
-static ALWAYS_INLINE lanes flow_strain_bound(const struct law *law, lanes stress, lanes strain_rate, lanes temperature)
+static ALWAYS_INLINE lanes law_plastic_strain_bound(const struct law *law, lanes stress, lanes strain_rate,
+                                                    lanes temperature)
 {
 #define FLOW_CALL(name) plastic_strain_bound_##name(law, stress, strain_rate, temperature)
     switch (law->flow) {
@@ -43,8 +44,8 @@ static ALWAYS_INLINE lanes flow_strain_bound(const struct law *law, lanes stress
 
 /* Returns for eight points the integral of the yield stress of the flow law `law` from plastic strain 0 to
  * `plastic_strain` [J/m^3]. strain_rate: total deviatoric strain rates [1/s]; temperature: temperatures [K]. */
-static ALWAYS_INLINE lanes flow_stress_integral(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                                lanes temperature)
+static ALWAYS_INLINE lanes law_flow_stress_integral(const struct law *law, lanes plastic_strain, lanes strain_rate,
+                                                    lanes temperature)
 {
 #define FLOW_CALL(name) flow_stress_integral_##name(law, plastic_strain, strain_rate, temperature)
     switch (law->flow) {

@@ -182,13 +182,13 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
     lanes xi[SYM_MAX], fall, slope, t = lanes_broadcast(0);
     struct flow_equation e = equation_at(law, p, lanes_broadcast(1), lanes_broadcast(0), xi, space);
-    lanes more = flow_strain_bound(law, e.q, p->rate, p->temperature) - p->a;
+    lanes more = law_plastic_strain_bound(law, e.q, p->rate, p->temperature) - p->a;
     more = lanes_min((e.q - bound) / single_rate(&e, space), more);
     more = lanes_max(more, lanes_broadcast(0));
     back->left = back->added = lanes_broadcast(1);
     const int passes = recall > 0 ? PASSES_RECALL : law->flow == FLOW_LINEAR ? 1 : PASSES;
     for (int k = 0; k < passes; k++) {
-        const lanes stress = flow_stress(law, p->a + more, p->rate, p->temperature, &slope);
+        const lanes stress = law_flow_stress(law, p->a + more, p->rate, p->temperature, &slope);
         const lanes least = lanes_max(stress, lanes_broadcast(LEAST_YIELD * law->young));
         if (recall > 0) *back = recall_after(recall, more);
         e = equation_at(law, p, back->left, C * back->added, xi, space);
@@ -240,8 +240,8 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_poi
                                      const lanes *strain, const enum space space)
 {
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
-    const lanes work = flow_stress_integral(law, p->a, p->rate, p->temperature) -
-                       flow_stress_integral(law, p->a - more, p->rate, p->temperature);
+    const lanes work = law_flow_stress_integral(law, p->a, p->rate, p->temperature) -
+                       law_flow_stress_integral(law, p->a - more, p->rate, p->temperature);
     lanes along = lanes_broadcast(0);
     if (!(C > 0)) return work;
     for (int c = 0; c < tensor_components(space); c++) along += (c < 3 ? 1.0 : 2.0) * back[c] * strain[c];
@@ -260,10 +260,10 @@ static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_po
     struct flow_recall recall;
     struct flow_equation e =
         equation_at(law, p, lanes_broadcast(1), lanes_broadcast(law->kinematic.modulus), xi, space);
-    const lanes stress = flow_stress(law, p->a, p->rate, p->temperature, &slope);
+    const lanes stress = law_flow_stress(law, p->a, p->rate, p->temperature, &slope);
     const lanes bound = lanes_max(stress, lanes_broadcast(LEAST_YIELD * law->young));
     const lanes_mask yields = p->active & lanes_less(bound, e.q);
-    if (!lanes_any(yields)) return 0;
+    if (!lanes_mask_any(yields)) return 0;
     lanes t = mode == LAW_EXPLICIT ? solve_explicit(law, p, &e, xi, bound, slope, &recall, space)
                                    : solve_load_step(law, p, bound, &recall, space);
     t = lanes_choose(yields, t, lanes_broadcast(0));

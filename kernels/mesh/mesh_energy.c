@@ -59,7 +59,7 @@ static void mesh_energy_kick_block(const void *context, int64_t first, int64_t e
         sum[0] += 0.25 * total;
     }
     for (int64_t I = first; I < end && mesh->matched; I++)
-        if (mesh->matched[I] & 1) sum[0] += 0.25 * mesh_blended_mass_form(mesh, I);
+        if (mesh->matched[I] & 1) sum[0] += 0.25 * mesh_blended_mass_quadratic_form(mesh, I);
 }
 
 real mesh_kick(const struct mesh *mesh, real dt)
@@ -106,7 +106,7 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
         mesh_group_cell_indices(mesh, group, eight);
         return cells_elastic_energy(mesh, s->p, s->elastic, eight, &cell, dim);
     }
-    partial_compute_stress(mesh, s->p, group, &cell, dim);
+    mesh_partial_compute_stress(mesh, s->p, group, &cell, dim);
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
@@ -161,6 +161,6 @@ real mesh_strain(const struct mesh *mesh, const struct particles *p, const struc
     struct strain_sum s = {mesh, p, m, finite};
     const int dim = mesh->grid.dim;
     if (mesh->points == 0) return 0;
-    return reproducible_sum(mesh_partial_group_count(mesh), partial[dim][finite], &s) +
+    return reproducible_sum(mesh_partial_cell_group_count(mesh), partial[dim][finite], &s) +
            reproducible_sum(mesh->runs, run[dim][finite], &s);
 }

@@ -58,15 +58,16 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
 }
 
 /* Replaces value[q] of the points of eight cells by their differences from the means of their cells and materials
- * (cell_differences). cell: eight cell indices, -1 for a lane without cell, whose values become 0. */
-static ALWAYS_INLINE void cells_differences(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                            const int32_t *cell, lanes value[CORNERS_MAX], const int dim)
+ * (cell_subtract_from_mean). cell: eight cell indices, -1 for a lane without cell, whose values become 0. */
+static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, const struct particles *p,
+                                                   const struct elastic *m, const int32_t *cell,
+                                                   lanes value[CORNERS_MAX], const int dim)
 {
     static const int32_t none[CORNERS_MAX] = {-1, -1, -1, -1, -1, -1, -1, -1};
     for (int l = 0; l < LANES; l++) {
         real own[CORNERS_MAX];
         for (int q = 0; q < 1 << dim; q++) own[q] = value[q][l];
-        cell_differences(m, p->material, cell[l] < 0 ? none : &mesh->point[(int64_t)cell[l] << dim], own, dim);
+        cell_subtract_from_mean(m, p->material, cell[l] < 0 ? none : &mesh->point[(int64_t)cell[l] << dim], own, dim);
         for (int q = 0; q < 1 << dim; q++) value[q][l] = own[q];
     }
 }
@@ -74,13 +75,14 @@ static ALWAYS_INLINE void cells_differences(const struct mesh *mesh, const struc
 /* Computes by how much the normal strains of the points of eight cells change where the points of a cell have one
  * dilatation. Returns false, without values, if no material has mean dilatation. cell: eight cell indices, -1 for a
  * lane without cell; s: strain of the cells; change: [2^dim]. */
-static ALWAYS_INLINE bool cells_dilate(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                       const int32_t *cell, const struct mesh_cell *s, lanes change[CORNERS_MAX],
-                                       const int dim)
+static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, const struct particles *p,
+                                                       const struct elastic *m, const int32_t *cell,
+                                                       const struct mesh_cell *s, lanes change[CORNERS_MAX],
+                                                       const int dim)
 {
     bool any = false;
     for (int l = 0; l < LANES && dim > 1; l++)
-        any |= cell[l] >= 0 && cell_averages(m, p->material, &mesh->point[(int64_t)cell[l] << dim], dim);
+        any |= cell[l] >= 0 && cell_uses_mean_dilatation(m, p->material, &mesh->point[(int64_t)cell[l] << dim], dim);
     if (!any) return false;
     for (int q = 0; q < 1 << dim; q++) {
         lanes e[3][3];
@@ -88,7 +90,7 @@ static ALWAYS_INLINE bool cells_dilate(const struct mesh *mesh, const struct par
         change[q] = lanes_broadcast(0);
         for (int d = 0; d < dim; d++) change[q] += e[d][d] * (1.0 / dim);
     }
-    cells_differences(mesh, p, m, cell, change, dim);
+    cells_subtract_from_mean(mesh, p, m, cell, change, dim);
     return true;
 }
 
@@ -109,7 +111,7 @@ static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, co
     for (int d = 0; d < dim && change; d++) e[d][d] += *change;
     for (int k = 0; k < symmetric_component_count(dim); k++) stress[k] = lanes_broadcast(0);
     for (int l = 0; l < LANES; l++) {
-        const int64_t i = place_point(mesh, cell[l], point, dim);
+        const int64_t i = mesh_point_of_cell(mesh, cell[l], point, dim);
         real own[SYM_MAX], strain[DIM_MAX * DIM_MAX];
         if (i < 0) continue;
         for (int a = 0; a < dim; a++)
@@ -119,7 +121,7 @@ static ALWAYS_INLINE real cells_compute_point_stress(const struct mesh *mesh, co
         if (m[p->material[i]].law && m[p->material[i]].mode == LAW_LOAD_STEP) with_law |= 1u << l;
         if (!flows) sum += point_elastic_energy_density(p, &m[p->material[i]], i, own, dim);
     }
-    if (flows && with_law) place_laws(mesh, p, m, cell, point, with_law, 0, stress, dim);
+    if (flows && with_law) cells_apply_flow_laws(mesh, p, m, cell, point, with_law, 0, stress, dim);
     return sum;
 }
 
@@ -151,7 +153,7 @@ static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const st
 {
     const real share = 1.0 / (1 << dim);
     lanes change[CORNERS_MAX], stress[CORNERS_MAX][SYM_MAX];
-    const bool averaged = cells_dilate(mesh, p, m, cell, s, change, dim);
+    const bool averaged = cells_mean_dilatation_change(mesh, p, m, cell, s, change, dim);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) s->P[a][b] = lanes_broadcast(0);
     for (int M = 0; M < 1 << dim; M++)
@@ -162,7 +164,7 @@ static ALWAYS_INLINE void cells_return_mapping(const struct mesh *mesh, const st
         change[q] = lanes_broadcast(0);
         for (int d = 0; d < dim; d++) change[q] += stress[q][d] * (1.0 / dim);
     }
-    if (averaged) cells_differences(mesh, p, m, cell, change, dim);
+    if (averaged) cells_subtract_from_mean(mesh, p, m, cell, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
         for (int d = 0; d < dim && averaged; d++) stress[q][d] += change[q];
         for (int k = 0; k < symmetric_component_count(dim); k++) stress[q][k] *= share;
@@ -179,7 +181,7 @@ static ALWAYS_INLINE real cells_elastic_energy(const struct mesh *mesh, const st
 {
     lanes stress[SYM_MAX], change[CORNERS_MAX];
     real sum = 0;
-    const bool averaged = cells_dilate(mesh, p, m, cell, s, change, dim);
+    const bool averaged = cells_mean_dilatation_change(mesh, p, m, cell, s, change, dim);
     for (int q = 0; q < 1 << dim; q++)
         sum += cells_compute_point_stress(mesh, p, m, cell, s, averaged ? &change[q] : NULL, q, stress, dim, false);
     return sum * mesh->volume;

@@ -171,8 +171,8 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
         mesh_group_cell_indices(mesh, group, cell);
         cells_flow_of(mesh, p, m, cell, &s, dim);
     } else
-        partial_compute_stress(mesh, p, group, &s, dim);
-    if (mesh->ends && p->end_rotation[0]) partial_add_bond_moments(mesh, p, group, moment, dim);
+        mesh_partial_compute_stress(mesh, p, group, &s, dim);
+    if (mesh->ends && p->end_rotation[0]) mesh_partial_add_bond_moments(mesh, p, group, moment, dim);
     if (rotates)
         cell_balance_finite_moments(&s, moment, dim);
     else if (dim > 1 && mesh->ends && p->end_rotation[0])
@@ -188,12 +188,12 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
  * order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
-    for (int64_t group = 0; group < mesh_partial_group_count(mesh); group++) {
+    for (int64_t group = 0; group < mesh_partial_cell_group_count(mesh); group++) {
         const int32_t *cell = mesh->partial_cell + group * LANES;
         const int64_t left = mesh->partial_cells - group * LANES;
         const lanes *f = (const lanes *)mesh->partial_force + group * (1 << dim) * dim;
         if (partial_inactive(mesh, group)) continue;
-        const int32_t *own = mesh_group_slit_corners(mesh, group, dim);
+        const int32_t *own = mesh_group_corner_nodes_at_slit(mesh, group, dim);
         const bool in_line = !own && list_is_consecutive(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
@@ -217,8 +217,9 @@ enum { FEW = 16 }; /* groups that one thread computes in less time than a thread
     }                                                                                                                  \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_partial_group_count(mesh) > FEW, for (int64_t k = 0; k < mesh_partial_group_count(mesh); k++)   \
-                                                            cut_force_##D##_##FINITE(mesh, p, m, k););                 \
+        TEAM_LOOP(mesh_partial_cell_group_count(mesh) > FEW,                                                           \
+                  for (int64_t k = 0; k < mesh_partial_cell_group_count(mesh); k++)                                    \
+                      cut_force_##D##_##FINITE(mesh, p, m, k););                                                       \
         cuts_add(mesh, D);                                                                                             \
     }
 

@@ -51,7 +51,7 @@ static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const
                   end = mesh->span[2 * r + 1];
     const uint64_t all = EIGHT_TIMES((1 << (1 << dim)) - 1);
     for (int64_t I = mesh->span[2 * r]; I < end; I += LANES) {
-        const uint64_t cells = load_eight_bytes(mesh->matched + I);
+        const uint64_t cells = eight_bytes_as_word(mesh->matched + I);
         if (cells == 0)
             lanes_store(v + I, lanes_load(w + I));
         else if (cells == all) {

@@ -30,7 +30,7 @@ static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int ot
  * forces f and masses m; L and C: lumped and consistent mass matrix of the cell; alpha = mesh->match. Sums s and
  * differences d along the axes diagonalise both matrices: along one axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 +
  * d^2/3)/4. */
-static inline real mesh_blended_mass_form(const struct mesh *mesh, int64_t cell)
+static inline real mesh_blended_mass_quadratic_form(const struct mesh *mesh, int64_t cell)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */
     const int dim = mesh->grid.dim, corners = 1 << dim;

@@ -105,7 +105,7 @@ static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], l
                 change = lanes_max(change, by * by);
                 R[a][b] = next;
             }
-        if (!lanes_any(change > 1e-17)) break; /* the next step changes R by (3e-9)^2/2: below round-off */
+        if (!lanes_mask_any(change > 1e-17)) break; /* the next step changes R by (3e-9)^2/2: below round-off */
     }
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
@@ -168,7 +168,7 @@ static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes stra
 
 /* Returns the derivative of the mean normal stress by the trace of the strain [Pa] if the points of a cell have one
  * dilatation (m->mean_dilatation); 0 if each has its own. */
-static ALWAYS_INLINE real averaged_stiffness(const struct elastic *m, const int dim)
+static ALWAYS_INLINE real mean_dilatation_stiffness(const struct elastic *m, const int dim)
 {
     return m->mean_dilatation ? (m->c11 + (dim - 1) * m->c12) / dim : 0;
 }
@@ -179,7 +179,7 @@ static ALWAYS_INLINE real averaged_stiffness(const struct elastic *m, const int 
 static ALWAYS_INLINE lanes cell_bending_force(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M,
                                               const int i, const int dim)
 {
-    const real averaged = averaged_stiffness(m, dim), c11 = m->c11 - averaged, c12 = m->c12 - averaged;
+    const real averaged = mean_dilatation_stiffness(m, dim), c11 = m->c11 - averaged, c12 = m->c12 - averaged;
     if (dim == 3 && M == 7) return mode[M][i] * ((c11 + 2 * m->shear) / 256);
     if (dim == 2) return mode[M][i] * ((c11 + m->shear) / 16);
     const int k = M == 6 ? 0 : M == 5 ? 1 : 2; /* the axis that is not in M */
@@ -242,8 +242,8 @@ static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const
 
 /* Replaces the trace of the strain of eight whole cells at a point by that of the mean strain, if the points of the
  * cells have one dilatation. */
-static ALWAYS_INLINE void cells_average(const struct elastic *m, const struct mesh_cell *s, lanes strain[3][3],
-                                        const int dim)
+static ALWAYS_INLINE void cells_use_mean_dilatation(const struct elastic *m, const struct mesh_cell *s,
+                                                    lanes strain[3][3], const int dim)
 {
     lanes change = lanes_broadcast(0);
     if (!m->mean_dilatation) return;

@@ -7,14 +7,14 @@
 
 /* Returns the particle number of material point `number` of a cell, -1 if it has none. cell: index of the cell, -1: no
  * cell. */
-static ALWAYS_INLINE int32_t place_point(const struct mesh *mesh, int32_t cell, int number, const int dim)
+static ALWAYS_INLINE int32_t mesh_point_of_cell(const struct mesh *mesh, int32_t cell, int number, const int dim)
 {
     return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + number];
 }
 
 /* Returns the values from[point[l]] of a particle array for eight points, one per lane; 0 in lanes with point[l] =
  * -1. */
-static ALWAYS_INLINE lanes lanes_of_listed(const real *from, const int32_t *point)
+static ALWAYS_INLINE lanes lanes_gather_or_zero(const real *from, const int32_t *point)
 {
     lanes eight;
     for (int l = 0; l < LANES; l++) eight[l] = point[l] < 0 ? 0 : from[point[l]];
@@ -24,7 +24,7 @@ static ALWAYS_INLINE lanes lanes_of_listed(const real *from, const int32_t *poin
 /* Returns for eight points the total deviatoric strain rate sqrt(2/3 D':D') of a step of dt [s] in which the elastic
  * trial stress has grown from e->before to e->s [1/s]; in plane stress and 1D that of incompressible flow. dt 0:
  * returns 0, the rate of load steps. m: constants of their material. */
-static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_points *e, real dt)
+static ALWAYS_INLINE lanes law_points_strain_rate(const struct elastic *m, const struct law_points *e, real dt)
 {
     lanes D[SYM_MAX], square = lanes_broadcast(0);
     if (!(dt > 0)) return square;
@@ -41,33 +41,34 @@ static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_po
 /* Loads the plastic state and the stresses of eight points into *e, for law_update. point: particle numbers, -1 for a
  * lane without a point; stress: symmetric components of the trial stress [Pa]; dt: duration of an explicit step [s], 0
  * in load steps; m: constants of the material whose law is evaluated. */
-static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elastic *m, const int32_t *point,
-                                    const lanes *stress, real dt, struct law_points *e, const int dim)
+static ALWAYS_INLINE void law_points_load(const struct particles *p, const struct elastic *m, const int32_t *point,
+                                          const lanes *stress, real dt, struct law_points *e, const int dim)
 {
     const int n = symmetric_component_count(dim);
     for (int c = 0; c < SYM_MAX; c++) e->s[c] = e->before[c] = e->back[c] = lanes_broadcast(0);
     for (int k = 0; k < n; k++) {
         e->s[law_place[dim][k]] = stress[k];
-        if (dt > 0) e->before[law_place[dim][k]] = lanes_of_listed(p->mesh_stress[k], point);
-        if (p->back_stress[0]) e->back[law_place[dim][k]] = lanes_of_listed(p->back_stress[k], point);
+        if (dt > 0) e->before[law_place[dim][k]] = lanes_gather_or_zero(p->mesh_stress[k], point);
+        if (p->back_stress[0]) e->back[law_place[dim][k]] = lanes_gather_or_zero(p->back_stress[k], point);
     }
     if (dim == 2) e->back[2] = -e->back[0] - e->back[1];
     if (m->space == SPACE_PLANE_STRAIN) {
-        const lanes across = lanes_of_listed(p->out_of_plane, point);
+        const lanes across = lanes_gather_or_zero(p->out_of_plane, point);
         e->s[2] = m->law->poisson * (e->s[0] + e->s[1]) + across;
         e->before[2] = m->law->poisson * (e->before[0] + e->before[1]) + across;
     }
     e->volume_before = e->volume = lanes_broadcast(1), e->thins = false;
-    e->rate = law_rate(m, e, dt);
-    e->a = lanes_of_listed(p->plastic_strain, point), e->work = lanes_of_listed(p->plastic_work, point);
+    e->rate = law_points_strain_rate(m, e, dt);
+    e->a = lanes_gather_or_zero(p->plastic_strain, point), e->work = lanes_gather_or_zero(p->plastic_work, point);
     e->temperature =
-        p->temperature ? lanes_of_listed(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
+        p->temperature ? lanes_gather_or_zero(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
 /* Stores the state in lane `lane` of *e, of a point that has yielded, to point i of the particles, and its stress in
  * `stress`, whose trial value it replaces. m: constants of its material. */
-static ALWAYS_INLINE void law_store(const struct particles *p, const struct elastic *m, const struct law_points *e,
-                                    int lane, int64_t i, lanes *stress, const int dim)
+static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const struct elastic *m,
+                                                const struct law_points *e, int lane, int64_t i, lanes *stress,
+                                                const int dim)
 {
     for (int k = 0; k < symmetric_component_count(dim); k++) {
         const int c = law_place[dim][k];
@@ -85,24 +86,24 @@ static ALWAYS_INLINE void law_store(const struct particles *p, const struct elas
  * and updates their plastic state. cell: eight cell indices; yielding_lanes: bits of the lanes whose points have a law;
  * dt: duration of an explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry [Pa]; m:
  * elastic constants of all materials. Points of several materials: law by law. */
-static NEVER_INLINE void place_laws(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                    const int32_t *cell, int number, unsigned yielding_lanes, real dt, lanes *stress,
-                                    int dim)
+static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const struct particles *p,
+                                               const struct elastic *m, const int32_t *cell, int number,
+                                               unsigned yielding_lanes, real dt, lanes *stress, int dim)
 {
     struct law_points e;
     int32_t point[LANES];
-    for (int l = 0; l < LANES; l++) point[l] = place_point(mesh, cell[l], number, dim);
+    for (int l = 0; l < LANES; l++) point[l] = mesh_point_of_cell(mesh, cell[l], number, dim);
     while (yielding_lanes) {
         const uint8_t material = p->material[point[__builtin_ctz(yielding_lanes)]];
         unsigned own = 0;
         for (int l = 0; l < LANES; l++)
             own |= (unsigned)(yielding_lanes >> l & 1 && p->material[point[l]] == material) << l;
         yielding_lanes &= ~own;
-        laws_load(p, &m[material], point, stress, dt, &e, dim);
+        law_points_load(p, &m[material], point, stress, dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m[material].law, &e, m[material].space, m[material].mode);
         for (int l = 0; l < LANES; l++) {
-            if (flowed >> l & 1) law_store(p, &m[material], &e, l, point[l], stress, dim);
+            if (flowed >> l & 1) law_points_store_lane(p, &m[material], &e, l, point[l], stress, dim);
             for (int k = 0; k < symmetric_component_count(dim) && p->mesh_stress[0] && own >> l & 1; k++)
                 p->mesh_stress[k][point[l]] = stress[k][l];
         }

@@ -15,7 +15,7 @@
 static ALWAYS_INLINE void mesh_group_load_displacements(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
                                                         const int dim)
 {
-    const int32_t *cell = mesh->partial_cell + group * LANES, *own = mesh_group_slit_corners(mesh, group, dim);
+    const int32_t *cell = mesh->partial_cell + group * LANES, *own = mesh_group_corner_nodes_at_slit(mesh, group, dim);
     const int32_t first = cell[LANES - 1] - cell[0] == LANES - 1 ? cell[0] : -1;
     for (int c = 0; c < 1 << dim && own; c++)
         for (int i = 0; i < dim; i++) u[c][i] = lanes_load_or_gather(mesh->displacement[i], -1, own + c * LANES);
@@ -55,8 +55,8 @@ static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const la
 /* Adds to f the forces of state-based bonds on the modes of the cells of a group of eight partial cells [Pa]: f +=
  * share^T pull for each material point with bonds (struct mesh_end), with the reaction `pull` of its bonds
  * (p->end_pull). f: one value for each mode of cell_strain_vector, one cell per lane. */
-static ALWAYS_INLINE void partial_add_bond_forces(const struct mesh *mesh, const struct particles *p, int64_t group,
-                                                  lanes *f, const int dim)
+static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, const struct particles *p,
+                                                       int64_t group, lanes *f, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const int n = cell_deformation_mode_count(dim);
@@ -70,8 +70,8 @@ static ALWAYS_INLINE void partial_add_bond_forces(const struct mesh *mesh, const
 
 /* Adds the moments of bonds about the material points of a group of partial cells, per volume of the cell, to
  * moment[axis] [Pa]; in 2D moment[2] only. */
-static ALWAYS_INLINE void partial_add_bond_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
-                                                   lanes *moment, const int dim)
+static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh, const struct particles *p,
+                                                        int64_t group, lanes *moment, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const real inverse = 1 / (mesh->volume * (1 << dim));
@@ -83,14 +83,14 @@ static ALWAYS_INLINE void partial_add_bond_moments(const struct mesh *mesh, cons
 /* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of a group of eight partial
  * cells (cells with missing points, partial stresses, several materials or doubled nodes) [Pa], from the strain in s,
  * the stiffness of each cell, and the forces of state-based bonds. */
-static ALWAYS_INLINE void partial_compute_stress(const struct mesh *mesh, const struct particles *p, int64_t group,
-                                                 struct mesh_cell *s, const int dim)
+static ALWAYS_INLINE void mesh_partial_compute_stress(const struct mesh *mesh, const struct particles *p, int64_t group,
+                                                      struct mesh_cell *s, const int dim)
 {
     const int n = cell_deformation_mode_count(dim), half = n * (n + 1) / 2;
     lanes v[MODES_MAX], f[MODES_MAX];
     cell_strain_vector(s, v, dim);
     symmetric_matrix_times_vector((const lanes *)mesh->stiffness + mesh->alike[group] * half, v, f, n);
-    if (mesh->ends) partial_add_bond_forces(mesh, p, group, f, dim);
+    if (mesh->ends) mesh_partial_add_bond_forces(mesh, p, group, f, dim);
     int k = symmetric_component_count(dim);
     for (int t = 0; t < k; t++) {
         int a, b;

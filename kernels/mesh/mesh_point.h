@@ -14,7 +14,7 @@
 
 /* Replaces the values at the two ends of an edge by the linearly interpolated values at one quarter (*low) and three
  * quarters (*high) of the edge. */
-static ALWAYS_INLINE void interpolate_to_quarters(real *low, real *high)
+static ALWAYS_INLINE void interpolate_to_quarter_points(real *low, real *high)
 {
     const real by = 0.25 * (*high - *low), near = *low + by;
     *high = *high - by;
@@ -27,7 +27,7 @@ static ALWAYS_INLINE void cell_interpolate_to_points(real *value, const int dim)
 {
     for (int d = 0; d < dim; d++)
         for (int c = 0; c < 1 << dim; c++)
-            if (!(c >> d & 1)) interpolate_to_quarters(&value[c], &value[c | 1 << d]);
+            if (!(c >> d & 1)) interpolate_to_quarter_points(&value[c], &value[c | 1 << d]);
 }
 
 /* Returns the value at material point number `point` of a cell, interpolated linearly from its corners. value: values
@@ -48,7 +48,7 @@ static ALWAYS_INLINE real cell_interpolate_to_point(real *value, int point, cons
 static ALWAYS_INLINE void mesh_load_corner_values(const struct mesh *mesh, const real *field, int64_t cell,
                                                   real *corner_value, const int dim)
 {
-    const int32_t *own = mesh_cell_slit_corners(mesh, cell);
+    const int32_t *own = mesh_cell_corner_nodes_at_slit(mesh, cell);
     for (int c = 0; c < 1 << dim; c++) corner_value[c] = field[own ? own[c] : cell + mesh->corner[c]];
 }
 
@@ -67,7 +67,7 @@ static ALWAYS_INLINE void mesh_point_gradients(const struct mesh *mesh, int64_t 
             for (int c = 0; c < 1 << dim; c++) v[c] *= c >> b & 1 ? -inverse : inverse;
             for (int d = 0; d < dim; d++)
                 for (int c = 0; c < 1 << dim; c++)
-                    if (d != b && !(c >> d & 1)) interpolate_to_quarters(&v[c], &v[c | 1 << d]);
+                    if (d != b && !(c >> d & 1)) interpolate_to_quarter_points(&v[c], &v[c | 1 << d]);
             for (int q = 0; q < 1 << dim; q++) gradient[q][a * dim + b] = v[q];
         }
     }
@@ -105,8 +105,8 @@ static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t ce
 /* Returns true if a cell has a point of a material with mean dilatation, for which the points of a cell have one
  * dilatation. m: elastic constants of all materials; material: number of the material of every particle; point: the
  * 2^dim points of the cell, -1: none. */
-static ALWAYS_INLINE bool cell_averages(const struct elastic *m, const uint8_t *material, const int32_t *point,
-                                        const int dim)
+static ALWAYS_INLINE bool cell_uses_mean_dilatation(const struct elastic *m, const uint8_t *material,
+                                                    const int32_t *point, const int dim)
 {
     bool any = false;
     for (int q = 0; q < 1 << dim; q++) any |= point[q] >= 0 && m[material[point[q]]].mean_dilatation;
@@ -117,8 +117,8 @@ static ALWAYS_INLINE bool cell_averages(const struct elastic *m, const uint8_t *
  * material, mean less value; by 0 for materials without mean dilatation, and where there is no point. m: elastic
  * constants of all materials; material: number of the material of every particle; point: the 2^dim points of the cell,
  * -1: none. */
-static ALWAYS_INLINE void cell_differences(const struct elastic *m, const uint8_t *material, const int32_t *point,
-                                           real *value, const int dim)
+static ALWAYS_INLINE void cell_subtract_from_mean(const struct elastic *m, const uint8_t *material,
+                                                  const int32_t *point, real *value, const int dim)
 {
     unsigned left = 0;
     for (int q = 0; q < 1 << dim; q++) {
@@ -144,16 +144,16 @@ static ALWAYS_INLINE void cell_differences(const struct elastic *m, const uint8_
 /* Replaces the trace of the strains of the points of cell `cell` by the mean over the points of the same material,
  * where the material has the mean dilatation of its cell. strain: as from mesh_point_strains; m: elastic constants of
  * all materials. */
-static ALWAYS_INLINE void mesh_strains_average(const struct mesh *mesh, const struct particles *p,
-                                               const struct elastic *m, int64_t cell,
-                                               real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+static ALWAYS_INLINE void mesh_strains_use_mean_dilatation(const struct mesh *mesh, const struct particles *p,
+                                                           const struct elastic *m, int64_t cell,
+                                                           real strain[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
 {
     const int32_t *point = &mesh->point[cell << dim];
     real trace[CORNERS_MAX] = {0};
-    if (!cell_averages(m, p->material, point, dim)) return;
+    if (!cell_uses_mean_dilatation(m, p->material, point, dim)) return;
     for (int q = 0; q < 1 << dim; q++)
         for (int d = 0; d < dim; d++) trace[q] += strain[q][d * (dim + 1)];
-    cell_differences(m, p->material, point, trace, dim);
+    cell_subtract_from_mean(m, p->material, point, trace, dim);
     for (int q = 0; q < 1 << dim; q++)
         for (int d = 0; d < dim; d++) strain[q][d * (dim + 1)] += trace[q] / dim;
 }

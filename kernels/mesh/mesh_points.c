@@ -169,8 +169,8 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     }                                                                                                                  \
     static void ends_update_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_partial_group_count(mesh) > FEW / LANES,                                                        \
-                  for (int64_t k = 0; k < mesh_partial_group_count(mesh); k++)                                         \
+        TEAM_LOOP(mesh_partial_cell_group_count(mesh) > FEW / LANES,                                                   \
+                  for (int64_t k = 0; k < mesh_partial_cell_group_count(mesh); k++)                                    \
                       group_ends_##D##_##FINITE(mesh, p, k););                                                         \
     }
 ENDS(2, false)
@@ -266,7 +266,7 @@ static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles 
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX];
     mesh_point_strains(mesh, I, R, e, dim, finite);
-    mesh_strains_average(mesh, p, m, I, e, dim);
+    mesh_strains_use_mean_dilatation(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i >= 0) store_point_stress(p, &m[p->material[i]], i, R, e[q], dim, finite);
@@ -331,7 +331,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX], s[SYM_MAX];
     mesh_point_strains(mesh, I, R, e, dim, finite);
-    mesh_strains_average(mesh, p, m, I, e, dim);
+    mesh_strains_use_mean_dilatation(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i < 0) continue;
@@ -372,7 +372,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     SETS for (int q = 0; q < 1 << dim; q++)
     {
         cells_strain_at_point(s, q, e, dim);
-        if (!there) cells_average(m, s, e, dim);
+        if (!there) cells_use_mean_dilatation(m, s, e, dim);
         hooke_stress(m, e, P, dim);
         lanes bound = P[0][0];
         for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
@@ -487,7 +487,7 @@ static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 #define MARK(D, FINITE)                                                                                                \
     static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        for (int64_t k = 0; k < mesh_partial_group_count(mesh); k++)                                                   \
+        for (int64_t k = 0; k < mesh_partial_cell_group_count(mesh); k++)                                              \
             if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                         \
         for (int64_t r = 0; r < mesh->runs; r++)                                                                       \
             if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                                 \

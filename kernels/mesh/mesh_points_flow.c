@@ -20,19 +20,19 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     struct mesh_cell s;
     lanes change[CORNERS_MAX];
     cell_strain(&s, f->mesh->grid.h, u, dim, finite && dim > 1);
-    const bool averaged = cells_dilate(f->mesh, f->p, f->elastic, cell, &s, change, dim);
+    const bool averaged = cells_mean_dilatation_change(f->mesh, f->p, f->elastic, cell, &s, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
         lanes stress[SYM_MAX];
         unsigned with_law = 0;
         cells_compute_point_stress(f->mesh, f->p, f->elastic, cell, &s, averaged ? &change[q] : NULL, q, stress, dim,
                                    false);
         for (int l = 0; l < LANES; l++) {
-            const int32_t i = place_point(f->mesh, cell[l], q, dim);
+            const int32_t i = mesh_point_of_cell(f->mesh, cell[l], q, dim);
             if (i < 0) continue;
             const struct elastic *m = &f->elastic[f->p->material[i]];
             with_law |= (unsigned)(m->law && m->mode == LAW_EXPLICIT) << l;
         }
-        if (with_law) place_laws(f->mesh, f->p, f->elastic, cell, q, with_law, f->dt, stress, dim);
+        if (with_law) cells_apply_flow_laws(f->mesh, f->p, f->elastic, cell, q, with_law, f->dt, stress, dim);
     }
 }
 
@@ -63,7 +63,7 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     }                                                                                                                  \
     static void all_step_##D##_##FINITE(const struct flow_step *f)                                                     \
     {                                                                                                                  \
-        const int64_t groups = mesh_partial_group_count(f->mesh);                                                      \
+        const int64_t groups = mesh_partial_cell_group_count(f->mesh);                                                 \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < groups + f->mesh->runs; k++)              \
         {                                                                                                              \
             if (k < groups)                                                                                            \

@@ -18,13 +18,13 @@ enum { MEAN_POINTS = 64 };
 
 /* Returns true if points of the materials in t can have the mean dilatation of their cell, in a space of `dim`
  * dimensions; false in 1D and if the transfer has no stress (momentum only). */
-static ALWAYS_INLINE bool mean_dilatation(const struct transfer_data *t, const int dim)
+static ALWAYS_INLINE bool transfer_uses_mean_dilatation(const struct transfer_data *t, const int dim)
 {
     return dim > 1 && __builtin_expect(t->mean_dilatation, 0) && !t->momentum_only;
 }
 
 /* Returns true if points i and j share one mean dilatation: they are of the same body and material. */
-static ALWAYS_INLINE bool mean_shared(const struct particles *p, int32_t i, int32_t j)
+static ALWAYS_INLINE bool points_share_mean_dilatation(const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] == p->material[j] && p->body[i] == p->body[j];
 }
@@ -33,15 +33,15 @@ static ALWAYS_INLINE bool mean_shared(const struct particles *p, int32_t i, int3
 static ALWAYS_INLINE bool mean_of_all(const struct particles *p, const int32_t *list, int n)
 {
     bool same = true;
-    for (int k = 1; k < n; k++) same &= mean_shared(p, list[0], list[k]);
+    for (int k = 1; k < n; k++) same &= points_share_mean_dilatation(p, list[0], list[k]);
     return same;
 }
 
 /* Replaces value[k] of the n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of
  * its body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined,
  * so that the code for other materials contains none of it. */
-static NEVER_INLINE void differences_from_mean(const struct particles *p, const struct transfer_data *t,
-                                               const int32_t *list, int n, real *value)
+static NEVER_INLINE void points_subtract_from_mean(const struct particles *p, const struct transfer_data *t,
+                                                   const int32_t *list, int n, real *value)
 {
     uint64_t left = n < MEAN_POINTS ? ((uint64_t)1 << n) - 1 : UINT64_MAX;
     while (left) {
@@ -49,7 +49,7 @@ static NEVER_INLINE void differences_from_mean(const struct particles *p, const 
         uint64_t own = 0;
         real volume = 0, sum = 0;
         for (int k = 0; k < n; k++) {
-            if (!(left >> k & 1 && mean_shared(p, first, list[k]))) continue;
+            if (!(left >> k & 1 && points_share_mean_dilatation(p, first, list[k]))) continue;
             own |= (uint64_t)1 << k;
             volume += p->volume[list[k]], sum += p->volume[list[k]] * value[k];
         }

@@ -54,7 +54,7 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
     const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim);
     points_store(p->volume, point, volume + volume * trace, dim);
     if (__builtin_expect(t->laws, 0))
-        flow_add(due, point, points, L, stress, volume + volume * trace, dim);
+        flow_points_append(due, point, points, L, stress, volume + volume * trace, dim);
     else
         for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
     if (shape == SHAPE_CPGIMP)
@@ -138,7 +138,7 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
                 strained += s->N[k] * straining[node];
                 for (int e = 0; e < along; e++) slope[e] += s->D[e][k] * straining[node];
             }
-            velocity[d] += weight * (any ? points_choose(bonded, strained, moved) : moved);
+            velocity[d] += weight * (any ? points_choose_by_sign(bonded, strained, moved) : moved);
             for (int e = 0; e < dim; e++)
                 L[d * dim + e] +=
                     e < along ? weight * slope[e] : stencil_row_factor_slopes(s, k1, k2, e, dim, shape) * strained;
@@ -161,7 +161,7 @@ static ALWAYS_INLINE void points_gather_corners(const struct grid *g, const stru
         for (int e = 0; e < dim; e++) L[d * dim + e] = slope[e] * (1 / g->h);
         if (strained == (1 << POINTS) - 1) continue;
         corner_polynomial(polynomial, g, g->velocity[d] + c->node, dim);
-        velocity[d] = points_choose(bonded, velocity[d], corner_interpolate(polynomial, s->t, slope, dim));
+        velocity[d] = points_choose_by_sign(bonded, velocity[d], corner_interpolate(polynomial, s->t, slope, dim));
     }
 }
 
@@ -212,7 +212,7 @@ static NEVER_INLINE void rates_average_mixed(const struct particles *p, const st
         const row_of_points rate = dilatation_rate(&motion[k / AT_ONCE(dim)], dim);
         for (int l = 0; l < points_at_once(n - k, dim); l++) change[k + l] = rate[l];
     }
-    differences_from_mean(p, t, list, n, change);
+    points_subtract_from_mean(p, t, list, n, change);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         row_of_points more;
         for (int l = 0; l < POINTS; l++) more[l] = change[int_min(k + l % AT_ONCE(dim), n - 1)];
@@ -251,7 +251,7 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     points_mask inside = (points_mask){0} - 1;
     for (int d = 0; d < dim; d++) {
         const row_of_points x = m->x[d] + m->velocity[d];
-        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_cell_coordinate */
+        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_coordinate_in_cells */
         points_store(p->x[d], m->point, x, dim);
         inside &= (place >= c->place[d]) & (place < c->place[d] + 1);
     }
@@ -269,7 +269,7 @@ static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, 
     if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, m->point, m->L, t->dt, dim);
     for (int d = 0; d < dim; d++) m->velocity[d] *= t->dt;
     const int moved = points_move(g, c, p, m, dim);
-    if (__builtin_expect(due->n >= LANES, 0)) flow_return(p, t, due, dim);
+    if (__builtin_expect(due->n >= LANES, 0)) flow_points_return_mapping(p, t, due, dim);
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
@@ -285,7 +285,7 @@ static ALWAYS_INLINE void points_keep_gradient(struct particles *p, const struct
 static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
-    if (!prefetch_is_due(list, k, &i)) return;
+    if (!prefetch_next_point(list, k, &i)) return;
     prefetch_line(p->volume + i);
     for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_line(p->stress[c] + i);
@@ -339,7 +339,7 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
             _Pragma("omp for schedule(static)") for (int32_t k = 0; k < o->cells; k++) moved +=                        \
                 g2p_cell(&nodes, &points, &data, &due, o->particle + o->cell_start[k],                                 \
                          o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T, AVERAGED);               \
-            if (due.n > 0) flow_return(&points, &data, &due, D);                                                       \
+            if (due.n > 0) flow_points_return_mapping(&points, &data, &due, D);                                        \
         }                                                                                                              \
         return moved;                                                                                                  \
     }
@@ -348,7 +348,8 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
     CELLS(g2p_averaged_##D##d_##S##_##T, D, S, T, true)                                                                \
     int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)             \
     {                                                                                                                  \
-        return mean_dilatation(t, D) ? g2p_averaged_##D##d_##S##_##T(g, p, t) : g2p_plain_##D##d_##S##_##T(g, p, t);   \
+        return transfer_uses_mean_dilatation(t, D) ? g2p_averaged_##D##d_##S##_##T(g, p, t)                            \
+                                                   : g2p_plain_##D##d_##S##_##T(g, p, t);                              \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 MAP_VARIANTS(BOTH)

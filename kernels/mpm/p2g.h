@@ -129,7 +129,7 @@ static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const struct tran
 {
     int64_t i;
     motion_fetch(p, t->turn, list, k, dim);
-    if (!prefetch_is_due(list, k, &i)) return;
+    if (!prefetch_next_point(list, k, &i)) return;
     prefetch_line(p->volume + i);
     for (int d = 0; d < dim; d++) prefetch_line(p->f[d] + i);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) prefetch_line(p->stress[c] + i);
@@ -168,7 +168,7 @@ static NEVER_INLINE void means_of_stress(const struct particles *p, const struct
         point_stress_on_grid(p, t->partial, list[k], stress, dim);
         change[k] = (dim == 2 ? stress[0] + stress[1] : stress[0] + stress[1] + stress[2]) / dim;
     }
-    differences_from_mean(p, t, list, n, change);
+    points_subtract_from_mean(p, t, list, n, change);
 }
 
 /* Adds mass, momentum and force of the n listed points of one cell to the nodes of the grid. averaged: result of
@@ -201,10 +201,10 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     {
         const int64_t I = cell_row_first_node(&c, g, k1, k2, dim);
         const int k = PATCH(dim, shape);
-        nodes_add_row(g, g->mass + I, sum[0][k], dim, shape);
+        grid_add_node_row(g, g->mass + I, sum[0][k], dim, shape);
         for (int d = 0; d < dim; d++) {
-            nodes_add_row(g, g->momentum[d] + I, sum[1 + d][k], dim, shape);
-            nodes_add_row(g, g->force[d] + I, sum[1 + dim + d][k], dim, shape);
+            grid_add_node_row(g, g->momentum[d] + I, sum[1 + d][k], dim, shape);
+            grid_add_node_row(g, g->force[d] + I, sum[1 + dim + d][k], dim, shape);
         }
     }
 }
@@ -213,7 +213,7 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
 #define INSTANCE(D, S, T)                                                                                              \
     void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)                \
     {                                                                                                                  \
-        if (mean_dilatation(t, D)) {                                                                                   \
+        if (transfer_uses_mean_dilatation(t, D)) {                                                                     \
             SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, true));          \
         } else {                                                                                                       \
             SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, false));         \
@@ -237,8 +237,8 @@ static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct par
     stencil_transpose(&s, dim, shape);
     const row_of_nodes spread = value * stencil_row_weights(&s, 0, g->h, dim, shape).N;
     FOR_TOUCHED(&s, 0, dim, shape)
-    nodes_add_row(g, field + cell_row_first_node(&c, g, k1, k2, dim),
-                  spread * stencil_row_factor(&s, 0, k1, k2, dim, shape), dim, shape);
+    grid_add_node_row(g, field + cell_row_first_node(&c, g, k1, k2, dim),
+                      spread * stencil_row_factor(&s, 0, k1, k2, dim, shape), dim, shape);
 }
 
 #define SPREAD(D, S)                                                                                                   \

@@ -68,22 +68,22 @@ static ALWAYS_INLINE void flow_put(real *to, const int32_t *point, lanes a, int 
 }
 
 /* Returns lanes l to l + POINTS - 1 of a. */
-static ALWAYS_INLINE row_of_points lanes_part(const lanes *a, int l)
+static ALWAYS_INLINE row_of_points lanes_extract_points(const lanes *a, int l)
 {
     return (row_of_points) * (const points_anywhere *)((const real *)a + l);
 }
 
 /* Loads the back stresses of eight points, rotated by the spin of the step, into the members `back` of *e. point:
  * numbers of the points. */
-static NEVER_INLINE void flow_load_back(const struct particles *p, const int32_t *point,
-                                        const struct flow_motion *motion, struct law_points *e, const int dim)
+static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const int32_t *point,
+                                               const struct flow_motion *motion, struct law_points *e, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
     for (int c = 0; c < n; c++) e->back[law_place[dim][c]] = lanes_gather(p->back_stress[c], point);
     for (int l = 0; l < LANES && dim > 1; l += POINTS) {
         row_of_points back[SYM_MAX], spin[3];
-        for (int c = 0; c < n; c++) back[c] = lanes_part(&e->back[law_place[dim][c]], l);
-        for (int c = 0; c < 3; c++) spin[c] = lanes_part(&motion->spin[c], l);
+        for (int c = 0; c < n; c++) back[c] = lanes_extract_points(&e->back[law_place[dim][c]], l);
+        for (int c = 0; c < 3; c++) spin[c] = lanes_extract_points(&motion->spin[c], l);
         stress_rotate(back, spin, dim);
         for (int c = 0; c < n; c++) *(points_anywhere *)((real *)&e->back[law_place[dim][c]] + l) = back[c];
     }
@@ -109,7 +109,7 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
         e->before[c] = s[c] - (c < 3 && !across ? pressure : none) - twice * motion->strain[c];
         e->back[c] = none;
     }
-    if (p->back_stress[0]) flow_load_back(p, point, motion, e, dim);
+    if (p->back_stress[0]) flow_load_back_stress(p, point, motion, e, dim);
     e->volume = volume / flow_pick(p->volume0, point);
     e->volume_before = e->volume / (1.0 + motion->trace), e->thins = true;
     e->a = flow_pick(p->plastic_strain, point), e->work = flow_pick(p->plastic_work, point);
@@ -147,8 +147,8 @@ static NEVER_INLINE void flow_store_across(struct particles *p, const struct ela
 
 /* Stores the state of those of n points of material m whose bits `flowed` are set, which have yielded; the others keep
  * theirs. stress[]: receives their stress, component by component [Pa]. */
-static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *m, const struct law_points *e,
-                                     unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
+static ALWAYS_INLINE void flow_store_lane(struct particles *p, const struct elastic *m, const struct law_points *e,
+                                          unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
 {
     const lanes_mask own = lanes_mask_from_bits((uint8_t)flowed);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_choose(own, e->s[law_place[dim][c]], stress[c]);
@@ -160,8 +160,8 @@ static ALWAYS_INLINE void flow_store(struct particles *p, const struct elastic *
 
 /* Stores the back stresses of eight points in the lanes whose bits are set in lanes_set; their components turn with the
  * points. point: numbers of the points. */
-static NEVER_INLINE void flow_store_back(struct particles *p, const struct law_points *e, unsigned lanes_set,
-                                         const int32_t *point, const int dim)
+static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struct law_points *e, unsigned lanes_set,
+                                                const int32_t *point, const int dim)
 {
     for (int l = 0; l < LANES; l++)
         for (int c = 0; c < dim * (dim + 1) / 2 && lanes_set >> l & 1; c++)
@@ -170,7 +170,7 @@ static NEVER_INLINE void flow_store_back(struct particles *p, const struct law_p
 
 /* Removes the first n points (at most LANES) of the list `due` of points whose return mapping is due; at most POINTS
  * others must follow. */
-static ALWAYS_INLINE void flow_remove(struct flow_points *due, int n, const int dim)
+static ALWAYS_INLINE void flow_points_remove_first(struct flow_points *due, int n, const int dim)
 {
     due->n -= n;
     if (due->n == 0) return;
@@ -185,8 +185,8 @@ static ALWAYS_INLINE void flow_remove(struct flow_points *due, int n, const int 
  * yield, stores stress, plastic strain, plastic work, back stress and temperature, clears FLAG_STRESSED of those that
  * yield if the resulting stress does not exceed the conversion stress, and removes the points. Their volumes must have
  * been stored. Points of several materials: law by law. */
-static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_data *t, struct flow_points *due,
-                                     const int dim)
+static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const struct transfer_data *t,
+                                                    struct flow_points *due, const int dim)
 {
     struct flow_motion motion;
     struct law_points e;
@@ -207,17 +207,18 @@ static NEVER_INLINE void flow_return(struct particles *p, const struct transfer_
         flow_load(p, m, point, stress, lanes_load(due->volume), &motion, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m->law, &e, m->space, LAW_EXPLICIT);
-        if (p->back_stress[0]) flow_store_back(p, &e, own, point, dim);
-        if (flowed) flow_store(p, m, &e, flowed, point, n, stress, dim);
+        if (p->back_stress[0]) flow_store_back_stress(p, &e, own, point, dim);
+        if (flowed) flow_store_lane(p, m, &e, flowed, point, n, stress, dim);
     }
     for (int c = 0; c < parts; c++) flow_put(p->stress[c], point, stress[c], n);
-    flow_remove(due, n, dim);
+    flow_points_remove_first(due, n, dim);
 }
 
 /* Adds n points to those whose return mapping is due. point: their numbers, filled up to AT_ONCE; L: their velocity
  * gradients [1/s]; stress, volume: their trial stresses [Pa] and volumes [m^3]. */
-static ALWAYS_INLINE void flow_add(struct flow_points *due, const int32_t *point, int n, const row_of_points *L,
-                                   const row_of_points *stress, row_of_points volume, const int dim)
+static ALWAYS_INLINE void flow_points_append(struct flow_points *due, const int32_t *point, int n,
+                                             const row_of_points *L, const row_of_points *stress, row_of_points volume,
+                                             const int dim)
 {
     for (int c = 0; c < dim * (dim + 1) / 2; c++) *(points_anywhere *)(due->stress[c] + due->n) = stress[c];
     *(points_anywhere *)(due->volume + due->n) = volume;

@@ -81,8 +81,8 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
         remap_points(sum, g, &c, p, t, list + k, points_at_once(n - k, dim), dim, shape);
     FOR_ROWS(dim, shape)
     for (int d = 0; d < dim; d++)
-        nodes_add_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
-                      shape);
+        grid_add_node_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
+                          shape);
 }
 
 #define INSTANCE(D, S)                                                                                                 \

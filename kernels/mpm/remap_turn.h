@@ -163,8 +163,8 @@ static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct p
     }
     FOR_ROWS(dim, shape)
     for (int d = 0; d < dim; d++)
-        nodes_add_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
-                      shape);
+        grid_add_node_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
+                          shape);
 }
 
 #define TURN_SCATTER(D, S)                                                                                             \

@@ -42,7 +42,7 @@ static ALWAYS_INLINE row_of_nodes row_broadcast(real a) { return a - (row_of_nod
 static ALWAYS_INLINE row_of_points points_broadcast(real a) { return a - (row_of_points){0}; }
 
 /* Returns a in lanes where `sign` is negative, else b. */
-static ALWAYS_INLINE row_of_points points_choose(row_of_points sign, row_of_points a, row_of_points b)
+static ALWAYS_INLINE row_of_points points_choose_by_sign(row_of_points sign, row_of_points a, row_of_points b)
 {
 #if POINTS_LANES == 8
     return (row_of_points)_mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)sign), (__m512d)b, (__m512d)a);
@@ -62,7 +62,7 @@ static ALWAYS_INLINE row_of_points points_max(row_of_points a, row_of_points b)
 #elif POINTS_LANES == 4
     return (row_of_points)_mm256_max_pd((__m256d)a, (__m256d)b);
 #else
-    return points_choose(b - a, a, b);
+    return points_choose_by_sign(b - a, a, b);
 #endif
 }
 
@@ -74,7 +74,7 @@ static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 #elif POINTS_LANES == 4
     return (row_of_points)_mm256_min_pd((__m256d)a, (__m256d)b);
 #else
-    return points_choose(a - b, a, b);
+    return points_choose_by_sign(a - b, a, b);
 #endif
 }
 
@@ -103,7 +103,7 @@ static ALWAYS_INLINE row_of_points points_first(row_of_points a, int n)
 {
     row_of_points lane;
     for (int k = 0; k < POINTS; k++) lane[k] = k;
-    return points_choose(lane - n, a, points_broadcast(0));
+    return points_choose_by_sign(lane - n, a, points_broadcast(0));
 }
 
 /* Returns the sum of all lanes of a. */

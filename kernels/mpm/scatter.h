@@ -8,7 +8,7 @@
 /* Returns true if the data of the point ORDER_AHEAD entries after entry k of the list should be prefetched: for one
  * point per cache line. *i: receives the number of this point. The points of a row of cells occupy two (in 3D four)
  * lines in many arrays, more than the hardware prefetcher follows. */
-static ALWAYS_INLINE bool prefetch_is_due(const int32_t *list, int k, int64_t *i)
+static ALWAYS_INLINE bool prefetch_next_point(const int32_t *list, int k, int64_t *i)
 {
     *i = list[k + ORDER_AHEAD];
     return *i % LANES == 0;
@@ -23,7 +23,7 @@ static ALWAYS_INLINE void motion_fetch(const struct particles *p, real *const *t
                                        const int dim)
 {
     int64_t i;
-    if (!prefetch_is_due(list, k, &i)) return;
+    if (!prefetch_next_point(list, k, &i)) return;
     prefetch_line(p->mass + i);
     for (int d = 0; d < dim; d++) prefetch_line(p->x[d] + i), prefetch_line(p->v[d] + i);
     for (int c = dim == 2 ? 2 : 0; c < 3 && turn[2]; c++) prefetch_line(turn[c] + i);

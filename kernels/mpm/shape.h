@@ -65,8 +65,8 @@ static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row
 static ALWAYS_INLINE void weights_normalise(row_of_points t, row_of_points N[ROW])
 {
     const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
-    N[1] += points_choose(t - 0.5, missing, points_broadcast(0));
-    N[2] += points_choose(t - 0.5, points_broadcast(0), missing);
+    N[1] += points_choose_by_sign(t - 0.5, missing, points_broadcast(0));
+    N[2] += points_choose_by_sign(t - 0.5, points_broadcast(0), missing);
 }
 
 /* Computes weights N and slopes dN/dt of a shape function at the four nodes of a row, for a few points (one per lane).
@@ -166,8 +166,8 @@ static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const 
 }
 
 /* Adds the values a of the four nodes of a row to a nodal array. to: its entry of the first node of the row. */
-static ALWAYS_INLINE void nodes_add_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
-                                        const enum shape shape)
+static ALWAYS_INLINE void grid_add_node_row(const struct grid *g, real *to, row_of_nodes a, const int dim,
+                                            const enum shape shape)
 {
     if (!HAS_CORNERS(dim, shape)) {
         *(row_anywhere *)to += a;
@@ -270,8 +270,8 @@ static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_
 
 /* Computes weights and slopes of the points of s in direction d (not for linear shapes in 2D and 3D). inverse: 1/h
  * [1/m]; half_width: half the reference edge of a particle [m]. */
-static ALWAYS_INLINE void stencil_compute_direction(struct cell_stencil *s, const struct particles *p, real inverse,
-                                                    real half_width, int d, const int dim, const enum shape shape)
+static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, const struct particles *p, real inverse,
+                                                       real half_width, int d, const int dim, const enum shape shape)
 {
     row_of_points l = points_broadcast(half_width * inverse),
                   inverse_width = points_broadcast(0.5 / (half_width * inverse));
@@ -300,12 +300,12 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
     for (int k = 0; k < POINTS; k++) s->point[k] = list[int_min(k % AT_ONCE(dim), n - 1)];
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
-        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d]; /* grid_cell_coordinate */
+        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d]; /* grid_coordinate_in_cells */
     }
     if (HAS_CORNERS(dim, shape))
         stencil_compute_corner_weights(s, inverse, dim);
     else
-        for (int d = 0; d < dim; d++) stencil_compute_direction(s, p, inverse, half_width, d, dim, shape);
+        for (int d = 0; d < dim; d++) stencil_compute_axis_weights(s, p, inverse, half_width, d, dim, shape);
 }
 
 /* Transposes the weights and slopes of a row from one lane per point to one lane per node (s->from_N, s->from_D), for

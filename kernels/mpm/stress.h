@@ -34,7 +34,7 @@ static inline void stress_rotate_2d(real *stress, real angle)
 }
 
 /* Computes the matrix product c = a b of 3 x 3 matrices. */
-static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], real c[3][3])
+static ALWAYS_INLINE void matrix_product_3x3(const real a[3][3], const real b[3][3], real c[3][3])
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
@@ -50,10 +50,10 @@ static inline void stress_rotate_3d(real *stress, real wxy, real wyz, real wzx)
     const real angle2 = wxy * wxy + wyz * wyz + wzx * wzx, angle = sqrt(angle2);
     const real first = sin(angle) / angle, second = (1 - cos(angle)) / angle2;
     real WW[3][3], R[3][3], RS[3][3], turned[3][3];
-    product_3d(W, W, WW);
+    matrix_product_3x3(W, W, WW);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) R[a][b] = (a == b) + first * W[a][b] + second * WW[a][b];
-    product_3d(R, S, RS);
+    matrix_product_3x3(R, S, RS);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) turned[a][b] = RS[a][0] * R[b][0] + RS[a][1] * R[b][1] + RS[a][2] * R[b][2];
     stress[0] = turned[0][0], stress[1] = turned[1][1], stress[2] = turned[2][2];
@@ -116,12 +116,13 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *stress, const row_of_poin
         row_of_points middle[SYM_MAX], second[SYM_MAX];
         for (int c = 0; c < n; c++) middle[c] = stress[c] + 0.5 * more[c];
         stress_rotation_increment(middle, spin, second, dim);
-        for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_NONE * SPIN_NONE - angle2, second[c], more[c]);
+        for (int c = 0; c < n; c++) more[c] = points_choose_by_sign(SPIN_NONE * SPIN_NONE - angle2, second[c], more[c]);
     }
     if (__builtin_expect(points_sign_bits(SPIN_SMALL * SPIN_SMALL - angle2), 0)) {
         row_of_points exact[SYM_MAX];
         stress_exact_rotation_increment(stress, spin, angle2, exact, dim);
-        for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_SMALL * SPIN_SMALL - angle2, exact[c], more[c]);
+        for (int c = 0; c < n; c++)
+            more[c] = points_choose_by_sign(SPIN_SMALL * SPIN_SMALL - angle2, exact[c], more[c]);
     }
     const int large = points_sign_bits(SPIN_SERIES * SPIN_SERIES - angle2);
     for (int k = 0; k < POINTS && __builtin_expect(large, 0); k++) {

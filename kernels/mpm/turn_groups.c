@@ -319,7 +319,7 @@ void rotation_groups_compute_spins(struct rotation_groups *t, struct particles *
     EACH_GROUP(spins_store, t, p);
 }
 
-void rotation_groups_restore_spins(struct rotation_groups *t, struct particles *p)
+void rotation_groups_restore_angular_momentum(struct rotation_groups *t, struct particles *p)
 {
     EACH_GROUP(sum_lack, t, p);
     gains_find(t, p->dim);

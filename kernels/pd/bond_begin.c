@@ -39,11 +39,11 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
     const int64_t other = b->row_of[bond->nbr]; /* images have no rows */
-    if (bond->w == 0 || bond_softens(b, g, bond->entry)) return false;
+    if (bond->w == 0 || bond_is_softening(b, g, bond->entry)) return false;
     if (other >= 0 && due_of(b, other / LANES) == DUE_NOT) return false;
     c->i = i, c->j = bond->nbr;
-    c->stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
-    c->range = bond_range_of(p, limit, i, bond->nbr);
+    c->stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, 0);
+    c->range = bond_softening_range(p, limit, i, bond->nbr);
     return c->stretch > c->range.onset && c->range.onset < c->range.end &&
            (c->stretch <= c->range.end || b->soft.settled);
 }
@@ -121,9 +121,10 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
         const struct bond *bond = &it.bond;
         real e[DIM_MAX];
         if (bond->w == 0) continue;
-        const real stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
+        const real stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, 0);
         for (int d = 0; d < p->dim; d++) e[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
-        strain_fit_add(&fit, e, p->dim, stretch, bond->w * bond_kept_share(b, row / LANES, bond->entry, stretch));
+        strain_fit_add(&fit, e, p->dim, stretch,
+                       bond->w * bond_remaining_stiffness_fraction(b, row / LANES, bond->entry, stretch));
     }
     return fit_trace(&fit, p->dim);
 }
@@ -146,12 +147,12 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
                        real dt)
 {
     const struct softening_range range = {(float)c->range.onset, (float)c->range.end};
-    const real stretch = bond_stretch_earlier(p, b->inverse_length[q], c->i, c->j, 0.5 * dt);
-    bond_softness_put(&b->soft, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end});
+    const real stretch = bond_stretch_at_earlier_time(p, b->inverse_length[q], c->i, c->j, 0.5 * dt);
+    bond_softness_store(&b->soft, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end});
     if (!(stretch > range.onset) || b->soft.settled) return;
-    const real kept = bond_kept_share(b, row / LANES, q, stretch);
+    const real kept = bond_remaining_stiffness_fraction(b, row / LANES, q, stretch);
     const real lost = 0.5 * square(stretch) * (1 - kept) -
-                      softening_spent(b->soft.curve, range.onset, range.end, real_min(stretch, range.end));
+                      softening_dissipated_energy(b->soft.curve, range.onset, range.end, real_min(stretch, range.end));
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
@@ -169,7 +170,7 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
                 denied = true;
                 continue;
             }
-            if (!b->soft.begun[g]) row_block_open_softness(b, p, limit, g);
+            if (!b->soft.begun[g]) row_block_initialise_softening(b, p, limit, g);
             bond_begin(b, p, row, bond.entry, &c, limit->dt);
             softness_mark_point(b, p, c.i);
         }

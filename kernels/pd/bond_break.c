@@ -41,7 +41,7 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 {
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
-    bonds_update_common_of_bond(b, row, q);
+    bond_changed_update_column(b, row, q);
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
     set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_LOST_BOND : FLAG_LOST_BOND | FLAG_CRACKED);
@@ -53,7 +53,7 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && b->whole[row])
-        b->state.weighted[row] = state_intact_weighted_volume(b, row);
+        b->state.weighted[row] = state_row_intact_weighted_volume(b, row);
 }
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
@@ -73,7 +73,7 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
 static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64_t q)
 {
     b->soft.most[q] = b->soft.end[q];
-    b->fracture_energy[row] += bond_half_spent(b, row / LANES, q);
+    b->fracture_energy[row] += bond_half_softening_energy(b, row / LANES, q);
     bond_end(b, p, row, q, b->particle[row], b->nbr[q]);
 }
 
@@ -81,9 +81,9 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
 {
     int64_t ended = 0;
     for (int64_t row = 0; row < b->rows; row++)
-        for (int64_t k = 0; row_block_softens(b, row / LANES) && k < b->column_count[row / LANES]; k++) {
+        for (int64_t k = 0; row_block_has_softening(b, row / LANES) && k < b->column_count[row / LANES]; k++) {
             const int64_t q = (b->column[row / LANES] + k) * LANES + row % LANES;
-            if (b->w[q] == 0 || !bond_softens(b, row / LANES, q) || b->soft.most[q] < b->soft.end[q]) continue;
+            if (b->w[q] == 0 || !bond_is_softening(b, row / LANES, q) || b->soft.most[q] < b->soft.end[q]) continue;
             bond_finish(b, p, row, q);
             ended++;
         }
@@ -102,7 +102,7 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
     last_force(b, p, &bond, i, last.share);
     b->fracture_energy[row] +=
         state ? state_row_energy(b, p, row, last.lag)
-              : half_energy(b, row, q, bond_stretch_earlier(p, b->inverse_length[q], i, j, last.lag));
+              : half_energy(b, row, q, bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, last.lag));
     if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_plastic_work_of(b, &bond);
     bond_end(b, p, row, q, i, j);
     row_changed(b, row);
@@ -117,25 +117,25 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
     const bool state = b->state.modulus != NULL;
-    const real stretch = bond_stretch_earlier(p, b->inverse_length[q], i, j, 0);
+    const real stretch = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, 0);
     const real before = state ? state_row_energy(b, p, row, 0) : half_energy(b, row, q, stretch);
-    const real spent = bond_half_spent(b, row / LANES, q);
+    const real spent = bond_half_softening_energy(b, row / LANES, q);
     if (w > 0)
         b->w[q] = w;
     else if (b->inverse_length[q] > 0)
         bond_end(b, p, row, q, i, j);
     else
         b->w[q] = 0;
-    bonds_update_common_of_bond(b, row, q);
+    bond_changed_update_column(b, row, q);
     row_changed(b, row);
     b->fracture_energy[row] +=
         0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, row, q, stretch)));
-    b->fracture_energy[row] += spent - bond_half_spent(b, row / LANES, q);
+    b->fracture_energy[row] += spent - bond_half_softening_energy(b, row / LANES, q);
 }
 
 void bond_break_entry(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
-    if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE)) row_block_write_columns(b, row / LANES);
+    if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE)) row_block_expand_stencil(b, row / LANES);
     bond_break(b, p, limit, row, q);
 }
 
@@ -146,7 +146,7 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]--;
     b->broken_volume[row] -= (float)p->volume0[b->nbr[q]];
-    bonds_update_common_of_bond(b, row, q);
+    bond_changed_update_column(b, row, q);
     row_changed(b, row);
 }
 
@@ -162,10 +162,10 @@ static void mark_due(struct bonds *b, int64_t g)
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
-    const real stretch = bond_stretch_earlier(p, b->inverse_length[q], i, j, 0);
+    const real stretch = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, 0);
     if (!b->soft.curve) return stretch > bond_breaking_stretch(p, limit, i, j);
-    if (bond_softens(b, row / LANES, q)) return stretch > b->soft.end[q];
-    const struct softening_range range = bond_range_of(p, limit, i, j);
+    if (bond_is_softening(b, row / LANES, q)) return stretch > b->soft.end[q];
+    const struct softening_range range = bond_softening_range(p, limit, i, j);
     if (stretch > range.onset && range.onset < range.end) mark_due(b, row / LANES);
     return stretch > range.end;
 }
@@ -177,11 +177,11 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     const int32_t i = b->particle[row];
     int64_t broken = 0;
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-        const int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
+        const int64_t q = bond_writable_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
         if (!is_past(b, p, limit, row, q, i, j)) continue;
-        if (bond_softens(b, row / LANES, q))
+        if (bond_is_softening(b, row / LANES, q))
             bond_finish(b, p, row, q);
         else
             bond_break(b, p, limit, row, q);
@@ -210,7 +210,7 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
         const lanes y = column_gather_neighbours(s, p->x[d]) - x[d];
         distance2 += y * y;
     }
-    return column_max_intact(s, largest, distance2 * (inverse * lanes_absolute(inverse)));
+    return column_max_of_intact_bonds(s, largest, distance2 * (inverse * lanes_absolute(inverse)));
 }
 
 /* Returns for each of the eight rows of row block g the largest squared elongation |y|^2/|xi|^2 of its bonds [1]. */
@@ -259,7 +259,7 @@ int64_t bond_break_row_block(struct bonds *b, struct particles *p, const struct 
     if (limit->softening && !b->soft.begun[row_block]) mark_due(b, row_block);
     const lanes_mask past = rows_due(b, p, limit, row_block);
     int64_t broken = 0;
-    for (int l = 0; l < LANES && row_block * LANES + l < b->rows && lanes_any(past); l++)
+    for (int l = 0; l < LANES && row_block * LANES + l < b->rows && lanes_mask_any(past); l++)
         if (past[l]) broken += break_row(b, p, limit, row_block * LANES + l);
     return broken;
 }

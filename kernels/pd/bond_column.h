@@ -77,7 +77,7 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
  * PD_BOND_SOFT and no bond of the row block has begun to soften. */
 #define FOR_COLUMNS_BY_LAW(B, ROW_BLOCK, MODEL, VISIT, VISIT_BRITTLE)                                                  \
     do {                                                                                                               \
-        if ((MODEL) != PD_BOND_SOFT || row_block_softens(B, ROW_BLOCK))                                                \
+        if ((MODEL) != PD_BOND_SOFT || row_block_has_softening(B, ROW_BLOCK))                                          \
             FOR_COLUMNS(B, ROW_BLOCK, VISIT);                                                                          \
         else                                                                                                           \
             FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
@@ -119,7 +119,7 @@ static ALWAYS_INLINE lanes column_inverse_length(const struct column column)
 }
 
 /* Returns eight bits: bit l is set if the l-th bond of `column` is intact. */
-static ALWAYS_INLINE uint8_t column_intact(const struct column column)
+static ALWAYS_INLINE uint8_t column_intact_bits(const struct column column)
 {
     return column.stencil ? column.stencil->intact : column.b->common[column.number].intact;
 }
@@ -145,17 +145,17 @@ static ALWAYS_INLINE lanes column_weight(const struct column column)
 
 /* Returns in each lane the larger of a and `other` if the bond of `column` in that lane is intact, else a. Columns of
  * the kind FREE are not masked: their broken bonds have negative lengths and hence values below a. */
-static ALWAYS_INLINE lanes column_max_intact(const struct column column, lanes a, lanes other)
+static ALWAYS_INLINE lanes column_max_of_intact_bonds(const struct column column, lanes a, lanes other)
 {
     return column.kind == COLUMN_FREE || column.kind >= COLUMN_WHOLE
                ? lanes_max(a, other)
-               : lanes_max_selected(column_intact(column), a, other);
+               : lanes_max_selected(column_intact_bits(column), a, other);
 }
 
 /* Returns in each lane the smaller of a and `other` if the bond of `column` in that lane is intact, else a. */
-static ALWAYS_INLINE lanes column_min_intact(const struct column column, lanes a, lanes other)
+static ALWAYS_INLINE lanes column_min_of_intact_bonds(const struct column column, lanes a, lanes other)
 {
-    return column.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact(column), a, other);
+    return column.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact_bits(column), a, other);
 }
 
 /* Stores the values of the eight particles of a row block in the particle array `to`. row: the numbers of these

@@ -30,8 +30,8 @@ struct core {
 
 /* Returns the core of a bond in the row of particle i; its ratio is 1 if the bond is broken or not compressed into its
  * core. */
-static inline struct core bond_core_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
-                                       int32_t i)
+static inline struct core bond_repulsive_core_of(const struct bonds *b, const struct particles *p,
+                                                 const struct bond *bond, int32_t i)
 {
     struct core c = {.ratio = 1};
     const real *spring = b->state.spring;
@@ -46,12 +46,12 @@ static inline struct core bond_core_of(const struct bonds *b, const struct parti
 }
 
 /* Adds the repulsive core forces of the bonds of `row_block` to the forces p->f on its eight particles [N]. */
-RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
+RARE void row_block_add_repulsive_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
-            const struct core c = bond_core_of(b, p, &it.bond, i);
+            const struct core c = bond_repulsive_core_of(b, p, &it.bond, i);
             if (!(c.ratio < CORE_FROM)) continue;
             for (int d = 0; d < p->dim; d++) p->f[d][i] -= c.K * b->core * (CORE_FROM - c.ratio) * c.y[d] / c.distance;
         }
@@ -60,12 +60,12 @@ RARE void row_block_add_core_forces(const struct bonds *b, struct particles *p, 
 
 /* Returns half the energy of the repulsive cores of the bonds of `row_block` [J]; the other half belongs to the bonds'
  * other rows. */
-RARE real row_block_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block)
+RARE real row_block_repulsive_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     real sum = 0;
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
-            const struct core c = bond_core_of(b, p, &it.bond, b->particle[row]);
+            const struct core c = bond_repulsive_core_of(b, p, &it.bond, b->particle[row]);
             if (!(c.ratio < CORE_FROM)) continue;
             sum += 0.25 * c.K / it.bond.inverse_length * b->core * square(CORE_FROM - c.ratio);
         }

@@ -43,8 +43,8 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     const lanes force = bonds_normalised_force(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
     const lanes beyond =
         model == PD_BOND_SOFT ? stretch - lanes_load_floats(s.b->soft.end + s.number * LANES) : stretch;
-    sum.stretch = column_max_intact(s, sum.stretch, beyond);
-    sum.press = column_min_intact(s, sum.press, stretch);
+    sum.stretch = column_max_of_intact_bonds(s, sum.stretch, beyond);
+    sum.press = column_min_of_intact_bonds(s, sum.press, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
     if (dim > 2) sum.f2 += force * d2;
@@ -59,7 +59,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
 {
     const int32_t *row = b->particle + g * LANES;
     const bool aligned = b->aligned[g];
-    const int rows = count_of_eight_below(g * LANES, b->rows);
+    const int rows = count_of_eight_indices_below(g * LANES, b->rows);
     const int32_t own = aligned ? row[0] : -1;
     const lanes zero = lanes_broadcast(0), x0 = lanes_load_or_gather(p->x[0], own, row);
     struct bond_sums sum = {x0,
@@ -76,9 +76,9 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     row_block_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
     if (dim > 1) row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
     if (dim > 2) row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
-    *pressed = lanes_any(sum.press < CORE_FROM - 1);
-    if (b->soft.near && model != PD_BOND_SOFT && lanes_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
-    return lanes_any(sum.stretch > (model == PD_BOND_SOFT ? zero : lanes_load(b->trigger + g * LANES)));
+    *pressed = lanes_mask_any(sum.press < CORE_FROM - 1);
+    if (b->soft.near && model != PD_BOND_SOFT && lanes_mask_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
+    return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : lanes_load(b->trigger + g * LANES)));
 }
 
 /* Computes the forces on the particles of row block g, repulsive cores included, and breaks its bonds beyond their
@@ -87,10 +87,10 @@ static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct partic
                                                   int64_t g, const int dim, const enum pd_model model)
 {
     bool pressed;
-    const bool past = model == PD_BOND_SOFT && !row_block_softens(b, g)
+    const bool past = model == PD_BOND_SOFT && !row_block_has_softening(b, g)
                           ? bond_force_row_block(b, p, g, dim, PD_BOND, &pressed)
                           : bond_force_row_block(b, p, g, dim, model, &pressed);
-    if (__builtin_expect(pressed, 0)) row_block_add_core_forces(b, p, g);
+    if (__builtin_expect(pressed, 0)) row_block_add_repulsive_core_forces(b, p, g);
     if (model == PD_BOND_SOFT && b->soft.settled) return 0; /* bonds end between equilibria (bond_secant.c) */
     return past ? bond_break_row_block(b, p, limit, g) : 0;
 }

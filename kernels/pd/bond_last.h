@@ -7,7 +7,7 @@
 #include "kernels/kernels.h"
 
 /* Returns component d of x_j - x_i a time `lag` before the present positions [m]. lag [s]. */
-static inline real bond_vector_earlier(const struct particles *p, int32_t i, int32_t j, int d, real lag)
+static inline real bond_vector_at_earlier_time(const struct particles *p, int32_t i, int32_t j, int d, real lag)
 {
     const real y = p->x[d][j] - p->x[d][i];
     return lag == 0 ? y : y - lag * (p->v[d][j] - p->v[d][i]);
@@ -15,10 +15,11 @@ static inline real bond_vector_earlier(const struct particles *p, int32_t i, int
 
 /* Returns the stretch [1] of the bond i-j a time `lag` before the present positions [s]. inverse_length: 1/|xi| [1/m],
  * may be negative (broken bonds). */
-static inline real bond_stretch_earlier(const struct particles *p, real inverse_length, int32_t i, int32_t j, real lag)
+static inline real bond_stretch_at_earlier_time(const struct particles *p, real inverse_length, int32_t i, int32_t j,
+                                                real lag)
 {
     real distance2 = 0;
-    for (int d = 0; d < p->dim; d++) distance2 += square(bond_vector_earlier(p, i, j, d, lag));
+    for (int d = 0; d < p->dim; d++) distance2 += square(bond_vector_at_earlier_time(p, i, j, d, lag));
     return sqrt(distance2) * fabs(inverse_length) - 1;
 }
 
@@ -53,8 +54,8 @@ static inline struct bond_break_moment bond_break_moment_of(const struct particl
                                                             real inverse_length, real plastic, int32_t i, int32_t j)
 {
     const real most = bond_breaking_stretch(p, limit, i, j);
-    const real now = bond_stretch_earlier(p, inverse_length, i, j, 0);
-    const real before = bond_stretch_earlier(p, inverse_length, i, j, limit->dt);
+    const real now = bond_stretch_at_earlier_time(p, inverse_length, i, j, 0);
+    const real before = bond_stretch_at_earlier_time(p, inverse_length, i, j, limit->dt);
     switch (limit->last_force) {
     case LAST_FORCE_HALF:
         return (struct bond_break_moment){0, 0.5};

@@ -51,11 +51,11 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
 /* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices
  * `first_bond` to `first_bond` + 7 as their largest ones where they exceed these; in load steps the stored ones stay.
  */
-static ALWAYS_INLINE lanes bonds_soften(const struct bonds *b, int64_t first_bond, lanes stretch)
+static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch)
 {
     const lanes before = lanes_load_floats(b->soft.most + first_bond), most = lanes_max(before, stretch);
     if (b->soft.settled) return bonds_softened_stretch(b, first_bond, stretch, before);
-    if (lanes_any(stretch > before)) lanes_store_floats(b->soft.most + first_bond, most);
+    if (lanes_mask_any(stretch > before)) lanes_store_floats(b->soft.most + first_bond, most);
     return bonds_softened_stretch(b, first_bond, stretch, most);
 }
 
@@ -67,7 +67,7 @@ static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, con
                                                   lanes stretch, lanes w)
 {
     return model == PD_BOND_PLASTIC ? bonds_return_mapping(b, first_bond, stretch, w > 0.0)
-           : model == PD_BOND_SOFT  ? bonds_soften(b, first_bond, stretch)
+           : model == PD_BOND_SOFT  ? bonds_update_softened_stretch(b, first_bond, stretch)
                                     : stretch;
 }
 
@@ -88,7 +88,7 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
  * bonds_elastic_stretch. */
 static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
-    if (b->soft.curve) return stretch * bond_kept_share(b, row_block, bond, stretch);
+    if (b->soft.curve) return stretch * bond_remaining_stiffness_fraction(b, row_block, bond, stretch);
     return b->plastic_stretch ? stretch - b->plastic_stretch[bond] : stretch;
 }
 

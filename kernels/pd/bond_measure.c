@@ -33,7 +33,7 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
 {
     lanes y[DIM_MAX], stretch;
     bond_measure_store(s, p, x, y, &stretch, dim);
-    *press = column_min_intact(s, *press, stretch);
+    *press = column_min_of_intact_bonds(s, *press, stretch);
     const lanes w = column_weight(s), inverse = column_inverse_length(s);
     const lanes length = lanes_inverse_square_root(inverse * inverse); /* cheaper than a division */
     const lanes elastic = bonds_elastic_stretch(model, s.b, s.number * LANES, stretch);
@@ -53,7 +53,8 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
     FOR_COLUMNS_BY_LAW(b, g, model, VISIT, VISIT_BRITTLE);
 #undef VISIT_BRITTLE
 #undef VISIT
-    real total = lanes_any(press < CORE_FROM - 1) ? row_block_core_energy(b, p, g) / (0.5 * b->stiffness) : 0;
+    real total =
+        lanes_mask_any(press < CORE_FROM - 1) ? row_block_repulsive_core_energy(b, p, g) / (0.5 * b->stiffness) : 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     return total;
 }
@@ -97,7 +98,7 @@ static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct
 {
     lanes y[DIM_MAX], stretch;
     bond_measure_store(s, p, x, y, &stretch, dim);
-    bonds_soften(s.b, s.number * LANES, stretch);
+    bonds_update_softened_stretch(s.b, s.number * LANES, stretch);
 }
 
 /* Updates the largest stretches so far of the bonds of row block g, of which at least one has begun to soften. */
@@ -116,7 +117,7 @@ void bonds_update_softening(struct bonds *b, const struct particles *p)
 {
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        if (!row_block_softens(b, g)) continue;
+        if (!row_block_has_softening(b, g)) continue;
         if (p->dim == 1) bond_soften_row_block(b, p, g, 1);
         if (p->dim == 2) bond_soften_row_block(b, p, g, 2);
         if (p->dim == 3) bond_soften_row_block(b, p, g, 3);

@@ -52,7 +52,8 @@ static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct par
     for (int l = 0; b->plastic_stretch && l < LANES && k + l < c->n; l++)
         elastic[l] -= b->plastic_stretch[c->entry[k + l]];
     for (int l = 0; b->soft.curve && l < LANES && k + l < c->n; l++)
-        elastic[l] *= bond_kept_share(b, b->row_of[c->from[k + l]] / LANES, c->entry[k + l], elastic[l]);
+        elastic[l] *=
+            bond_remaining_stiffness_fraction(b, b->row_of[c->from[k + l]] / LANES, c->entry[k + l], elastic[l]);
     const lanes share = (-0.5 * b->stiffness) * (a.w * elastic * a.inverse);
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, share * a.y[d]);
 }

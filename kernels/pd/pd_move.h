@@ -13,9 +13,9 @@ static ALWAYS_INLINE unsigned pd_particles_to_move(const struct particles *p, co
 {
     const int32_t first = list[0];
     unsigned bits = 0;
-    if (n == LANES && list_is_consecutive(list) && load_eight_bytes(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
-        !(load_eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_GRID_COUPLED)) &&
-        !(loaded && load_eight_bytes(loaded + first)))
+    if (n == LANES && list_is_consecutive(list) && eight_bytes_as_word(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
+        !(eight_bytes_as_word(p->flag + first) & EIGHT_TIMES(FLAG_GRID_COUPLED)) &&
+        !(loaded && eight_bytes_as_word(loaded + first)))
         return UINT8_MAX;
     for (int l = 0; l < n; l++)
         bits |= (unsigned)(!particle_moves_with_nodes(p, list[l]) && !(loaded && loaded[list[l]])) << l;
@@ -51,8 +51,8 @@ static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *l
         pd_store_selected(p->v[d], list, consecutive, movers, v[d]);
         pd_store_selected(p->x[d], list, consecutive, movers, x[d]);
     }
-    const lanes_mask diverged = has_diverged(speed2, place, square(m->fastest));
-    bool any = consecutive && lanes_any(diverged);
+    const lanes_mask diverged = lanes_diverged_mask(speed2, place, square(m->fastest));
+    bool any = consecutive && lanes_mask_any(diverged);
     for (int l = 0; l < LANES && !consecutive; l++) any |= (movers >> l & 1) && diverged[l];
     return any;
 }

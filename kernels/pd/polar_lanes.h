@@ -20,7 +20,7 @@ static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
 
 /* Does one step of R <- (R + R^-T)/2 (Higham 1986) on eight 3 x 3 matrices R, and clears *valid in lanes whose R is
  * singular or inverted. Returns the determinants of R before the step. */
-static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *valid)
+static ALWAYS_INLINE lanes polar_newton_iteration(lanes *R, lanes_mask *valid)
 {
     const lanes cofactor[9] = {R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
                                R[2] * R[7] - R[1] * R[8], R[0] * R[8] - R[2] * R[6], R[1] * R[6] - R[0] * R[7],
@@ -44,7 +44,7 @@ static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
     lanes_mask sound = size2 > 2 * POLAR_TINY;
     for (int c = 0; c < 9; c++) R[c] = M[c] * inverse;
     for (int step = 0; step < 30; step++)
-        if (!lanes_any(polar_step(R, &sound) > 1 + 1e-8) && step > 0) break;
+        if (!lanes_mask_any(polar_newton_iteration(R, &sound) > 1 + 1e-8) && step > 0) break;
     for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_broadcast(c % 4 == 0));
 }
 

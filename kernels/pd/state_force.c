@@ -33,8 +33,8 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     struct state_bond s;
     state_bond_compute_vectors(&s, p, column, x, X, dim, model);
     const lanes w = column_weight(column), stretch = STRETCH_OF(lanes_square_root(s.distance2), s.inverse_length);
-    sum->stretch = column_max_intact(column, sum->stretch, stretch);
-    sum->press = column_min_intact(column, sum->press, stretch);
+    sum->stretch = column_max_of_intact_bonds(column, sum->stretch, stretch);
+    sum->press = column_min_of_intact_bonds(column, sum->press, stretch);
     sum->extension += state_weighted_length(column, w, s.inverse_length, true) * stretch;
     if (!state_model_has_rotations(model)) return;
     for (int c = 0; c < dim; c++) {
@@ -93,7 +93,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
                                            const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    const int rows = count_of_eight_below(g * LANES, b->rows);
+    const int rows = count_of_eight_indices_below(g * LANES, b->rows);
     struct state *t = &b->state;
     row_block_store_values(t->pressure, row, rows, b->aligned[g], k->pressure);
     row_block_store_values(t->spring, row, rows, b->aligned[g], k->spring);
@@ -163,7 +163,7 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 {
     const lanes_mask end = ends_of(b, p, g);
     const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
-    const int rows = count_of_eight_below(g * LANES, b->rows);
+    const int rows = count_of_eight_indices_below(g * LANES, b->rows);
     k->pressure +=
         f->A * f->share * lanes_choose(end, lanes_load_or_gather(p->end_strain, own, row), lanes_broadcast(0));
     const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_broadcast(0));
@@ -217,8 +217,8 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
 #define VISIT(COLUMN) precompute_column(&sum, p, COLUMN, x, X, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
-    b->state.pressed[g] = lanes_any(sum.press < CORE_FROM - 1);
+    b->state.past[g] = lanes_mask_any(sum.stretch > lanes_load(b->trigger + g * LANES));
+    b->state.pressed[g] = lanes_mask_any(sum.press < CORE_FROM - 1);
     precompute_by_family(b, p, g, &sum, dim, model);
     if (b->state.past[g]) state_blend_breaking_rows(b, p, limit, g);
 }
@@ -235,9 +235,9 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
         b->state.pressure[g] = has_state ? b->state.pressure[i] : 0;
         b->state.spring[g] = has_state ? b->state.spring[i] : 0;
         for (int c = 0; rotates && c < ROTATION; c++)
-            b->state.rotation[c][g] = !has_state                                   ? 0
-                                      : rotation_number_changes_sign(c, axis, dim) ? -b->state.rotation[c][i]
-                                                                                   : b->state.rotation[c][i];
+            b->state.rotation[c][g] = !has_state                                      ? 0
+                                      : rotation_component_changes_sign(c, axis, dim) ? -b->state.rotation[c][i]
+                                                                                      : b->state.rotation[c][i];
     }
 }
 
@@ -273,7 +273,7 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
                 weighted = w * spring;
     lanes rotation[ROTATION], arm[DIM_MAX], f[DIM_MAX];
     for (int c = 0; c < ROTATION; c++)
-        if (rotation_number_is_read(c, dim)) rotation[c] = column_gather_neighbours(column, t->rotation[c]);
+        if (rotation_component_is_read(c, dim)) rotation[c] = column_gather_neighbours(column, t->rotation[c]);
     for (int d = 0; d < dim; d++) {
         arm[d] = column_weighted_vectors(column, d, w, s.xi[d]);
         sum->arm[d] += arm[d];
@@ -291,7 +291,7 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    const int rows = count_of_eight_below(g * LANES, b->rows);
+    const int rows = count_of_eight_indices_below(g * LANES, b->rows);
     const struct state *t = &b->state;
     struct state_sums sum;
     sum.pressure = lanes_load_or_gather(t->pressure, own, row), sum.spring = lanes_load_or_gather(t->spring, own, row);
@@ -316,7 +316,7 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
                                              int64_t g, const int dim, const enum pd_model model)
 {
     force_row_block(b, p, g, dim, model);
-    if (__builtin_expect(b->state.pressed[g], 0)) row_block_add_core_forces(b, p, g);
+    if (__builtin_expect(b->state.pressed[g], 0)) row_block_add_repulsive_core_forces(b, p, g);
     if (!b->state.past[g]) return 0;
     return bond_break_row_block(b, p, limit, g);
 }

@@ -22,8 +22,8 @@ struct family_left {
 
 /* Computes the sums over those bonds of a row (all bonds of one particle) that stay below their limit, counts the
  * breaking bonds in `ended`, and averages their fraction of the force in `share`. */
-static inline struct family_left family_sums_without_breaking(const struct bonds *b, const struct particles *p,
-                                                              const struct bond_limit *limit, int64_t row)
+static inline struct family_left family_sums_of_unbroken_bonds(const struct bonds *b, const struct particles *p,
+                                                               const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];
     struct family_left left = {0};
@@ -31,7 +31,7 @@ static inline struct family_left family_sums_without_breaking(const struct bonds
         const int32_t j = it.bond.nbr;
         const real w = it.bond.w, inverse = it.bond.inverse_length;
         if (w == 0) continue;
-        const real stretch = bond_stretch_earlier(p, inverse, i, j, 0);
+        const real stretch = bond_stretch_at_earlier_time(p, inverse, i, j, 0);
         if (stretch > bond_breaking_stretch(p, limit, i, j)) {
             left.share += bond_break_moment_of(p, limit, inverse, 0, i, j).share;
             left.ended++;
@@ -48,14 +48,14 @@ static inline struct family_left family_sums_without_breaking(const struct bonds
 
 /* Replaces *value by share * *value + (1 - share) * without_breaking, the mixture of the values with and without the
  * breaking bonds. */
-static inline void state_blend(real *value, real without_breaking, real share)
+static inline void blend_with_value_without_breaking(real *value, real without_breaking, real share)
 {
     *value = share * *value + (1 - share) * without_breaking;
 }
 
-/* Replaces the stored rotation of particle i by the mixture (state_blend) of the rotation with and without its breaking
- * bonds. left: sums over its remaining bonds; spring: spring stiffness g of its family without the breaking bonds
- * [N/m]. */
+/* Replaces the stored rotation of particle i by the mixture (blend_with_value_without_breaking) of the rotation with
+ * and without its breaking bonds. left: sums over its remaining bonds; spring: spring stiffness g of its family without
+ * the breaking bonds [N/m]. */
 static inline void rotation_blend(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
@@ -65,26 +65,27 @@ static inline void rotation_blend(struct state *t, int32_t i, const struct famil
     rotation_encode(kept, eight, lanes_broadcast(spring), dim);
     for (int c = 0; c < ROTATION; c++) along += t->rotation[c][i] * kept[c][0];
     const real sign = dim == 3 && along < 0 ? -1 : 1; /* a quaternion and its negative are one rotation */
-    for (int c = 0; c < ROTATION; c++) state_blend(&t->rotation[c][i], sign * kept[c][0], left->share);
+    for (int c = 0; c < ROTATION; c++)
+        blend_with_value_without_breaking(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* Replaces pressure, spring stiffness and rotation of the particle of a row by the mixture (state_blend) of the states
- * with and without its breaking bonds. Does nothing if none of its bonds breaks, and for material points, to whose
- * state their cells contribute. */
+/* Replaces pressure, spring stiffness and rotation of the particle of a row by the mixture
+ * (blend_with_value_without_breaking) of the states with and without its breaking bonds. Does nothing if none of its
+ * bonds breaks, and for material points, to whose state their cells contribute. */
 static inline void state_blend_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                    int64_t row)
 {
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
     if (p->kind[i] != KIND_PD) return;
-    const struct family_left left = family_sums_without_breaking(b, p, limit, row);
+    const struct family_left left = family_sums_of_unbroken_bonds(b, p, limit, row);
     if (left.ended == 0) return;
     const real Q = b->state.local && b->whole[row] ? left.weighted : b->state.weighted[row];
     const real share = b->state.share > 0 ? b->state.share : Q > 0 ? p->volume0[i] / Q : 0;
     const real inverse = Q > 0 ? 1 / Q : 0, spring = m->B * share;
-    state_blend(&b->state.pressure[i], m->A * left.extension * inverse * share, left.share);
+    blend_with_value_without_breaking(&b->state.pressure[i], m->A * left.extension * inverse * share, left.share);
     if (b->state.rotation[0]) rotation_blend(&b->state, i, &left, spring, p->dim);
-    state_blend(&b->state.spring[i], spring, left.share);
+    blend_with_value_without_breaking(&b->state.spring[i], spring, left.share);
 }
 
 /* Copies the states of the particles of a row block (rows of eight particles), in which bonds exceed their limit, to
@@ -108,14 +109,15 @@ static inline void state_blend_breaking_rows(struct bonds *b, const struct parti
  * pressure, 1 spring stiffness, from 2 on the stored rotation. For a mirror image it is the state of its source,
  * reflected as in state_of_images: the bond from the source to the image of the other particle breaks in the same step
  * and must use equal numbers. */
-static inline real state_before_breaking(const struct bonds *b, const struct particles *p, int component, int64_t i)
+static inline real state_component_before_breaking(const struct bonds *b, const struct particles *p, int component,
+                                                   int64_t i)
 {
     const struct state *t = &b->state;
     real sign = 1;
     for (; i >= p->n; i = t->image[i - p->n].source) {
         const int axis = t->image[i - p->n].axis;
         if (axis < 0) return 0;
-        if (component >= 2 && rotation_number_changes_sign(component - 2, axis, p->dim)) sign = -sign;
+        if (component >= 2 && rotation_component_changes_sign(component - 2, axis, p->dim)) sign = -sign;
     }
     const int64_t row = b->row_of[i];
     if (row >= 0 && t->past[row / LANES]) return sign * t->before[component][i];
@@ -140,11 +142,11 @@ static inline void state_bond_force(const struct bonds *b, const struct particle
     }
     for (int end = 0; end < 2; end++) {
         lanes rotation[ROTATION];
-        pressure += present ? t->pressure[at[end]] : state_before_breaking(b, p, 0, at[end]);
-        spring += present ? t->spring[at[end]] : state_before_breaking(b, p, 1, at[end]);
+        pressure += present ? t->pressure[at[end]] : state_component_before_breaking(b, p, 0, at[end]);
+        spring += present ? t->spring[at[end]] : state_component_before_breaking(b, p, 1, at[end]);
         for (int c = 0; rotates && c < ROTATION; c++)
-            rotation[c] =
-                lanes_broadcast(present ? t->rotation[c][at[end]] : state_before_breaking(b, p, 2 + c, at[end]));
+            rotation[c] = lanes_broadcast(present ? t->rotation[c][at[end]]
+                                                  : state_component_before_breaking(b, p, 2 + c, at[end]));
         if (rotates) rotation_subtract_product(turned, rotation, arm, dim);
     }
     const real length = sqrt(y2), along = r * pressure + (rotates ? 0 : (length - r) * spring);

@@ -47,7 +47,7 @@ static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bon
 {
     const int64_t g = s->row_block[k];
     s->diverged |=
-        pd_move_eight(p, b->particle + g * LANES, count_of_eight_below(g * LANES, b->rows), m->loaded, m, dim);
+        pd_move_eight(p, b->particle + g * LANES, count_of_eight_indices_below(g * LANES, b->rows), m->loaded, m, dim);
 }
 
 /* Prefetches what the loop needs next after the k-th active row block: forces and breaking limits AHEAD row blocks

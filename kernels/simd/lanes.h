@@ -189,7 +189,7 @@ static ALWAYS_INLINE lanes lanes_add_ulps(real a, const int16_t *units)
 }
 
 /* Returns true if any lane of the mask is set. */
-static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
+static ALWAYS_INLINE bool lanes_mask_any(lanes_mask mask)
 {
 #ifdef __AVX512F__
     return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;

@@ -41,7 +41,7 @@ status option_has_value(const char *option, bool has_value, const char *usage)
     return has_value ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
 }
 
-status option_refuse_second(const char *scene, const char *word)
+status arguments_refuse_second_scene(const char *scene, const char *word)
 {
     if (strchr(word, '=')) return status_set(REFUSED, "%s: a value of a key follows the option -s: -s %s", word, word);
     return status_set(REFUSED, "one scene at a time: %s and %s", scene, word);
@@ -85,7 +85,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->scene)
-            return option_refuse_second(a->scene, word);
+            return arguments_refuse_second_scene(a->scene, word);
         else
             a->scene = word;
     }

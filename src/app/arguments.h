@@ -22,7 +22,7 @@ status option_has_value(const char *option, bool has_value, const char *usage);
 
 /* Returns REFUSED for a word that follows the scene of a command: the message names -s if the word is KEY=VALUE, else
  * both scenes. */
-status option_refuse_second(const char *scene, const char *word);
+status arguments_refuse_second_scene(const char *scene, const char *word);
 
 /* Removes an option without a value, specific to one command, from argv. Returns true if argv contained it. */
 bool arguments_remove_option(int *argc, char **argv, const char *option);

@@ -80,7 +80,7 @@ static void say_contact_of_bonds(const struct scene *s)
 }
 
 /* Prints the share of contact in the time of the first steps, and by how much contact shortens the time step. Prints
- * nothing for load steps, or if no particle is near a face. c: cost that cost_measure has estimated. */
+ * nothing for load steps, or if no particle is near a face. c: cost that cost_measure_by_trial_steps has estimated. */
 static void say_contact_cost(const struct run *e, const struct cost *c)
 {
     const struct run_clock *clock = &e->clock;
@@ -120,7 +120,7 @@ static void say_notches(const struct run *e)
     const int n = e->coupling->notches.n;
     char text[256];
     for (int k = 0; k < n && k < SAID; k++) {
-        notch_describe(&e->coupling->notches, k, e->scene->spacing, text, sizeof text);
+        notch_describe_representation(&e->coupling->notches, k, e->scene->spacing, text, sizeof text);
         printf("notch          crack %d: %s\n", k + 1, text);
     }
     if (n > SAID) printf("notch          and %d more\n", n - SAID);
@@ -254,7 +254,7 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
 static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made, struct warnings *found)
 {
     struct cost cost = {.make = made};
-    const status result = cost_measure(&cost, e, a);
+    const status result = cost_measure_by_trial_steps(&cost, e, a);
     warnings_of_trial(found, &cost.found);
     warnings_free(&cost.found);
     TRY(result);
@@ -310,7 +310,7 @@ static void say_settings(const struct run *e)
     say_particles(e);
     print_filled_volume(e);
     print_shapes(e);
-    print_pieces(e);
+    print_separate_pieces(e);
     say_materials(e);
     say_frames(e);
     print_levels(e);
@@ -336,10 +336,10 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
     const double made = thread_cpu_clock() - start;
     if (result == OK) {
         say_settings(&e);
-        engine_warn_of_input(&e);
-        warn_of_yielding(e.scene, &e.warnings);
+        engine_warn_of_suspicious_input(&e);
+        warn_of_bond_plasticity(e.scene, &e.warnings);
         warnings_append_from(&found, &e.warnings, 0);
-        hints_list(&e, &hints);
+        cost_hints_list(&e, &hints);
         result = say_accuracy(&e, &remarks);
         if (result == OK && trial) result = check_cost(&e, a, threads, made, &found);
         say_list(&hints, "hints");

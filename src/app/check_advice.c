@@ -198,7 +198,7 @@ static void advise_faces(const struct scene *s, FILE *out)
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
         for (int b = 0; b < s->bodies && s->probe[k].kind == PROBE_POINT; b++) {
             const struct region *shape = &s->body[b].shape;
-            if (s->body[b].file || shape->n == 0 || region_has_endless_box(shape, s->dim)) continue;
+            if (s->body[b].file || shape->n == 0 || region_has_infinite_box(shape, s->dim)) continue;
             if (at_stepped_face(s, shape, s->probe[k].at))
                 fprintf(
                     out,
@@ -255,7 +255,7 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
 /* Writes a remark if bodies collide so fast that oscillations behind the wave front can break or yield them. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
-    const struct shock shock = fastest_collision_expected(s);
+    const struct shock shock = scene_fastest_collision(s);
     if (shock.share > 0)
         fprintf(
             out,
@@ -268,7 +268,7 @@ static void advise_shocks(const struct scene *s, FILE *out)
  * its thin parts. */
 static void advise_levels(const struct run *e, FILE *out)
 {
-    const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
+    const struct levels_choice c = frame_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
     char text[1024];
     if (frame_levels_exceed_limit(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
 }
@@ -301,7 +301,7 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
             for (int d = 0; d < p->dim; d++) r2 += square(a[d] - b[d]);
             if (body_of(e->scene, &e->part, found[k]) != body_of(e->scene, &e->part, found[m])) continue;
             if (r2 > square(e->source.family.cutoff)) continue;
-            tied += crack_cuts(&longer, a, b, p->dim) != crack_cuts(&shorter, a, b, p->dim);
+            tied += crack_cuts_bond(&longer, a, b, p->dim) != crack_cuts_bond(&shorter, a, b, p->dim);
         }
     return tied;
 }
@@ -341,10 +341,10 @@ static void advise_formulas(const struct run *e, FILE *out)
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
-    if (load_check_displacement_known(l->boundary) != OK) return;
+    if (boundary_check_displacement_known(l->boundary) != OK) return;
     for (int64_t k = 0; k < l->n; k += 1 + l->n / PULL_PLACES) {
         real u[DIM_MAX];
-        load_displacement_at(l, p, k, t, u);
+        load_displacement_of_particle(l, p, k, t, u);
         *least = real_min(*least, u[d]), *most = real_max(*most, u[d]);
     }
 }
@@ -396,7 +396,7 @@ static real stress_reached(const struct run *e)
 {
     const struct scene *s = e->scene;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, speed2 = 0, density = 0, traction = 0;
-    if (e->tables.wave_speed * s->duration > PASSAGES * particles_longest_edge(&e->part)) return INFINITY;
+    if (e->tables.wave_speed * s->duration > PASSAGES * particles_bounding_box_longest_edge(&e->part)) return INFINITY;
     for (int64_t i = 0; i < e->part.n; i++)
         for (int d = 0; d < s->dim; d++)
             low[d] = real_min(low[d], e->part.v[d][i]), high[d] = real_max(high[d], e->part.v[d][i]);
@@ -406,7 +406,7 @@ static real stress_reached(const struct run *e)
         if (a->kind == BOUNDARY_BODY_FORCE || a->time.kind == TIME_TABLE || formula || a->rotates) return INFINITY;
         for (int d = 0; d < s->dim && a->kind == BOUNDARY_VELOCITY; d++)
             if (a->components & 1 << d) {
-                const real steep = a->displaces ? time_function_largest_slope(&a->time, s->duration) : 1;
+                const real steep = a->displaces ? time_function_largest_slope_until(&a->time, s->duration) : 1;
                 const real speed = a->value[d] == 0 ? 0 : steep * a->value[d];
                 low[d] = real_min(low[d], speed), high[d] = real_max(high[d], speed);
             }
@@ -428,7 +428,7 @@ static void hint_frame(const struct run *e, struct warnings *to)
         for (int m = 0; m < e->scene->materials; m++)
             if (scene_body_has_material(&e->scene->body[b], m))
                 strain = real_max(strain, reached / e->scene->material[m].young);
-        if (e->frame->choice[b].reference || scene_why_frame_not_default(e->scene, b)) continue;
+        if (e->frame->choice[b].reference || scene_why_reference_frame_not_auto(e->scene, b)) continue;
         if (!reference_frame_is_possible(e->frame, &e->part, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
         warnings_add(
@@ -497,7 +497,7 @@ void print_accuracy_advice(const struct run *e, FILE *out)
     advise_cracks(e->scene, e->fracture, out);
     print_incompressible_advice(e, out);
     advise_faces(e->scene, out);
-    print_list_advice(e, out);
+    print_particle_list_advice(e, out);
     advise_waves(e->scene, &e->tables, out);
     advise_shocks(e->scene, out);
     print_load_step_advice(e, out);
@@ -506,7 +506,7 @@ void print_accuracy_advice(const struct run *e, FILE *out)
     advise_separation(e, out);
 }
 
-void hints_list(const struct run *e, struct warnings *to)
+void cost_hints_list(const struct run *e, struct warnings *to)
 {
     hint_ties(e, to);
     hint_model(e->scene, to);

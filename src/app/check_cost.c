@@ -38,7 +38,7 @@ enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 /* Returns the quartiles of n measured times. Sorts spent[n] in place. */
 static struct quartiles quartiles_of(double *spent, int n)
 {
-    const double median = median_of(spent, n);
+    const double median = median_by_sorting(spent, n);
     return (struct quartiles){spent[n / 4], median, spent[n - 1 - n / 4]};
 }
 
@@ -79,7 +79,7 @@ static double time_force(struct run *e)
         run_compute_forces(e);
         all += spent[n++] = thread_cpu_clock() - start;
     }
-    return median_of(spent, n);
+    return median_by_sorting(spent, n);
 }
 
 /* Returns the processor time of contact in one step of the present state [s]: search and forces, the median of
@@ -90,12 +90,12 @@ static double time_contact(struct run *e)
     int n = 0;
     while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
         const double start = thread_cpu_clock();
-        contact_update_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                            e->contact->broken, e->contact->changed);
-        contact_force(e->contact, &e->part, 0);
+        contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                                 e->contact->broken, e->contact->changed);
+        contact_compute_forces(e->contact, &e->part, 0);
         all += spent[n++] = thread_cpu_clock() - start;
     }
-    return median_of(spent, n);
+    return median_by_sorting(spent, n);
 }
 
 /* ---- other scenes ------------------------------------------------------------------------------------------------ */
@@ -268,7 +268,7 @@ static double output_bytes(const struct particles *part, const struct scene *sce
     return OUTPUT_BYTES + (double)part->n * (frame[scene->dim] + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
 }
 
-status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a)
+status cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct run_arguments *a)
 {
     const int known = e->warnings.n;
     c->all_peridynamic = NAN;

@@ -29,19 +29,19 @@ static bool piece_near(const struct piece *p, const real *X, real distance)
     return near && region_contains(&b->shape, X, p->scene->dim, distance);
 }
 
-bool piece_bounds(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX])
+bool piece_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX])
 {
     const struct scene_body *b = &p->scene->body[p->body];
     const int dim = p->scene->dim;
     real low[DIM_MAX], high[DIM_MAX];
     bool any = false;
-    if (!region_bounds(&b->shape, dim, lower, upper)) return false;
+    if (!region_bounding_box(&b->shape, dim, lower, upper)) return false;
     if (p->material == ANY_MATERIAL || p->material == b->material) return true;
     for (int d = 0; d < dim; d++) low[d] = upper[d], high[d] = lower[d];
     for (int k = 0; k < b->parts; k++) {
         real begin[DIM_MAX], end[DIM_MAX];
         if (b->part[k].material != p->material) continue;
-        if (!region_bounds(&b->part[k].region, dim, begin, end)) return true;
+        if (!region_bounding_box(&b->part[k].region, dim, begin, end)) return true;
         for (int d = 0; d < dim; d++) low[d] = real_min(low[d], begin[d]), high[d] = real_max(high[d], end[d]);
         any = true;
     }
@@ -159,7 +159,7 @@ bool piece_cover_make(struct cover *c, const struct piece *p)
     real from[DIM_MAX], to[DIM_MAX], all = 1;
     *c = (struct cover){.dim = s->dim, .spacing = s->spacing, .n = {1, 1, 1}};
     if (s->body[p->body].file || s->dim < 2 || !(s->spacing > 0)) return false;
-    if (!piece_bounds(p, from, to) || fill_lattice_site(s, p->body, c->first) != OK) return false;
+    if (!piece_bounding_box(p, from, to) || fill_lattice_site(s, p->body, c->first) != OK) return false;
     for (int d = 0; d < s->dim; d++) {
         c->first[d] += real_max(0, floor((from[d] - c->first[d]) / s->spacing) - 1) * s->spacing;
         all *= (to[d] - c->first[d]) / s->spacing + 3;

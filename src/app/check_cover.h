@@ -15,7 +15,7 @@ enum { ANY_MATERIAL = -1 };
 bool piece_contains(const struct piece *p, const real *X, real tolerance);
 
 /* Computes a bounding box of the piece [m]. Returns false if the piece is unbounded, or has no known point. */
-bool piece_bounds(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
+bool piece_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* Lattice cells of the bounding box of a piece, one per particle position; x varies fastest. */
 struct cover {

@@ -135,7 +135,7 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
     for (int k = 0; k < s->bodies; k++) {
         const struct region *shape = &s->body[k].shape;
         if (b->body >= 0 && s->body[k].joined != b->body) continue;
-        all &= !s->body[k].file && s->body[k].joined == k && shape->n > 0 && !region_has_endless_box(shape, s->dim);
+        all &= !s->body[k].file && s->body[k].joined == k && shape->n > 0 && !region_has_infinite_box(shape, s->dim);
         for (int j = 0; j < shape->n; j++)
             all &= shape->solid[j].kind != SOLID_VOXELS && shape->solid[j].kind != SOLID_ALL;
         for (int j = 0; j < s->bodies; j++) all &= j == k || s->body[j].joined != k;

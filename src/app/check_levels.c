@@ -11,7 +11,7 @@ void print_levels(const struct run *e)
     const struct mesh_levels *l = &e->frame->levels;
     char text[1024];
     if (e->frame->mesh.points == 0 || scene_is_single_equilibrium(e->scene)) return;
-    const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
+    const struct levels_choice c = frame_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
     frame_levels_describe(&c, e->scene, text, sizeof text);
     printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)

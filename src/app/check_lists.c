@@ -66,7 +66,7 @@ static int thinnest(const struct run *e, int body)
     return LAYERS_MOST;
 }
 
-void print_list_advice(const struct run *e, FILE *out)
+void print_particle_list_advice(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     if (s->method != METHOD_PD || s->dim == 1 || s->surface == SURFACE_MOMENTS || !(s->spacing > 0)) return;

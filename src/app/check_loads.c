@@ -79,8 +79,8 @@ static struct instant instant_of(const struct load *l, const struct particles *p
     const struct boundary *b = l->boundary;
     real most;
     if (b->frozen) return (struct instant){duration, "at the end"};
-    if (boundary_uses_time(b)) {
-        const real worst = largest_at(l, p, load_force_at, duration);
+    if (boundary_formula_uses_time(b)) {
+        const real worst = largest_at(l, p, load_force_on_particle, duration);
         return (struct instant){worst, worst < duration ? "when it is largest" : "at the end"};
     }
     const real t = largest_factor_at(&b->time, duration, &most);
@@ -103,7 +103,7 @@ static struct resultant resultant_at(const struct load *l, const struct particle
     real all = 0, turning = 0;
     for (int64_t k = 0; k < l->n; k++) {
         real f[DIM_MAX] = {0}, X[DIM_MAX] = {0};
-        load_force_at(l, p, k, t, f);
+        load_force_on_particle(l, p, k, t, f);
         particle_reference_position(p, l->particle[k], X);
         for (int d = 0; d < DIM_MAX; d++) {
             const int u = (d + 1) % DIM_MAX, v = (d + 2) % DIM_MAX;
@@ -136,7 +136,7 @@ struct faced {
 static bool has_distance(const struct scene *s, int body)
 {
     const struct region *shape = &s->body[body].shape;
-    bool has = !s->body[body].file && shape->n > 0 && !region_has_endless_box(shape, s->dim);
+    bool has = !s->body[body].file && shape->n > 0 && !region_has_infinite_box(shape, s->dim);
     for (int b = 0; b < s->bodies; b++) has &= b == body || s->body[b].joined != body;
     for (int k = 0; k < shape->n; k++)
         has &= shape->solid[k].kind != SOLID_VOXELS && shape->solid[k].kind != SOLID_HULL &&
@@ -261,7 +261,7 @@ static void say_mean_displacement(const struct particles *part, const struct loa
 {
     real mean[DIM_MAX] = {0}, u[DIM_MAX];
     for (int64_t k = 0; k < l->n; k++) {
-        load_displacement_at(l, part, k, t, u);
+        load_displacement_of_particle(l, part, k, t, u);
         for (int d = 0; d < part->dim; d++) mean[d] += u[d] / (real)l->n;
     }
     if (!isfinite(mean[0] + mean[1] + mean[2])) {
@@ -278,7 +278,7 @@ static void say_displacement(const struct scene *scene, const struct particles *
 {
     const bool explicit = scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
     const real end = frozen ? INFINITY : scene->duration;
-    const real most = frozen ? end : largest_at(l, part, load_displacement_at, end);
+    const real most = frozen ? end : largest_at(l, part, load_displacement_of_particle, end);
     printf("; by ");
     if (most < end) {
         say_mean_displacement(part, l, most);
@@ -286,7 +286,7 @@ static void say_displacement(const struct scene *scene, const struct particles *
     }
     say_mean_displacement(part, l, end);
     printf(" at the end");
-    const real speed = explicit ? load_displacement_speed(l, part, scene->duration) : INFINITY;
+    const real speed = explicit ? load_largest_displacement_speed(l, part, scene->duration) : INFINITY;
     if (isfinite(speed)) printf(", at most %.3g m/s", speed);
 }
 

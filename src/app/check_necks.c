@@ -420,7 +420,7 @@ void uneven_add_lengths(struct uneven_list *list)
     const struct piece *p = &list->piece;
     const struct scene *s = p->scene;
     real from[DIM_MAX], to[DIM_MAX], first[DIM_MAX], X[DIM_MAX] = {0};
-    if (s->body[p->body].file || !(s->spacing > 0) || !piece_bounds(p, from, to)) return;
+    if (s->body[p->body].file || !(s->spacing > 0) || !piece_bounding_box(p, from, to)) return;
     const real step = 0.25 * s->spacing, steps = (to[0] - from[0]) / step;
     if (!(steps < POINTS_MOST) || fill_lattice_site(s, p->body, first) != OK) return;
     for (real m = 0.5; m < steps; m++) {

@@ -42,7 +42,7 @@ struct cost {
 
 /* Estimates the cost of a run by trial steps with the current team. a: arguments of the scene, by which other scenes
  * are made for comparison. The run cannot be used afterwards. Returns FAILED if one of the first steps fails. */
-status cost_measure(struct cost *c, struct run *run, const struct run_arguments *a);
+status cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct run_arguments *a);
 
 /* ---- check_strength.c -------------------------------------------------------------------------------------------- */
 
@@ -73,7 +73,7 @@ void print_load_steps_cost(const struct run *e, const struct cost *cost, int thr
 void print_shapes(const struct run *e);
 
 /* Prints the bodies that consist of several pieces without bonds between them (check_pieces.c). */
-void print_pieces(const struct run *e);
+void print_separate_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
@@ -132,14 +132,14 @@ void print_accuracy_advice(const struct run *e, FILE *out);
 
 /* Adds a line for each setting of the scene that costs more than necessary, and for ends of cracks that are exactly on
  * bonds. The run has taken no step. */
-void hints_list(const struct run *e, struct warnings *to);
+void cost_hints_list(const struct run *e, struct warnings *to);
 
 /* Returns by how much the stiffness of a part that is `layers` particle layers thick differs at most from that of the
  * material in bending, twisting and tension [%], from a table. surface: correction of bonds near faces. */
 int layer_stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
 
 /* Writes a line for each body from a list that is no lattice and has thin parts (check_lists.c). */
-void print_list_advice(const struct run *e, FILE *out);
+void print_particle_list_advice(const struct run *e, FILE *out);
 
 /* Returns true if the scene equals its mirror image in the plane across `axis` through the middle of its particles, at
  * *at [m] (check_symmetry.c). */

@@ -37,7 +37,7 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
            free_ones > 0 ? "; some pieces have no support, so that there is no equilibrium: add supports" : "");
 }
 
-void print_pieces(const struct run *e)
+void print_separate_pieces(const struct run *e)
 {
     struct fragments f;
     if (e->scene->method != METHOD_PD) return;

@@ -215,7 +215,7 @@ static void part_judge(const struct sections *s, int32_t first, struct uneven_li
         t.slices < SLICES && (t.slices < SLICES_LEAST || goes_on_alike(s, begin->before, begin->area));
     if (t.slices == 0 || (t.even ? short_one : t.slices < SLICES_SLANTING)) return;
     const real off = t.filled / t.area - 1;
-    if (!(fabs(off) > (t.even ? OFF_LEAST : OFF_SLANTING)) || !uneven_list_would_keep(list, off)) return;
+    if (!(fabs(off) > (t.even ? OFF_LEAST : OFF_SLANTING)) || !uneven_list_accepts_error(list, off)) return;
     const struct uneven u = uneven_of(s, t.middle, off);
     if (!(u.width > 0)) return;
     const bool known = s->named[s->section[t.middle].cell] & 1 << u.axis;

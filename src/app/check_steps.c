@@ -40,7 +40,7 @@ static bool is_sif_driven(const struct run *e)
  * (side -1). Bodies from particle lists are ignored. */
 static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
-    const real most = 2 * (particles_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
+    const real most = 2 * (particles_bounding_box_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
     real way = 0;
     for (bool within = true; within && way < most; way += within ? step : 0) {
         real X[DIM_MAX] = {0};
@@ -216,7 +216,7 @@ static double advances_of(const struct run *e)
     if (!scene_bonds_break(s)) return 0;
     if (s->steps.control == CONTROL_ENERGY) return s->steps.number;
     for (int k = 0; k < e->fracture->tips.n; k++) way += way_within(e->scene, &e->part, &e->fracture->tips.tip[k], 1);
-    if (way == 0) way = particles_longest_edge(&e->part);
+    if (way == 0) way = particles_bounding_box_longest_edge(&e->part);
     return way / (SPACINGS * s->spacing);
 }
 
@@ -227,7 +227,7 @@ status cost_load_steps(struct cost *c, struct run *e)
     TRY(engine_find_trial_equilibrium(e, first));
     c->step = thread_cpu_clock() - began;
     c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
-    if (engine_largest_stretch_ratio(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
+    if (engine_predict_largest_stretch_ratio(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->most = c->make + SLOWER * c->step * c->equilibria + c->output;
     c->run = c->make + LEAST_SHARE * (c->most - c->make), c->least = c->run, c->basis = COST_FIRST;
     return OK;

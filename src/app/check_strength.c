@@ -14,8 +14,8 @@
 static real horizon_of_ratio(const struct scene *s, const struct material *m, real kappa)
 {
     const struct softening_curve curve = softening_curve_of(m->softening);
-    const real phi = kappa > 1 ? softening_strength_of(&curve, s->space, kappa).tension : 1;
-    const real onset = m->tensile_strength / (material_tension_modulus(m, s->space) * phi);
+    const real phi = kappa > 1 ? softening_curve_strength(&curve, s->space, kappa).tension : 1;
+    const real onset = m->tensile_strength / (material_uniaxial_tension_modulus(m, s->space) * phi);
     return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
 }
 
@@ -46,12 +46,13 @@ static void print_surface(const struct scene *s, const struct material *m)
 {
     const struct softening_curve curve = softening_curve_of(m->softening);
     const struct surface_strengths surface = material_surface_strengths(m, s->space);
-    const real horizon = s->horizon * s->spacing, unit = material_tension_modulus(m, s->space) * m->onset_stretch;
+    const real horizon = s->horizon * s->spacing,
+               unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
     const struct softening_strength own =
-        softening_strength_of(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
+        softening_curve_strength(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
     const real own_shear = isnan(own.shear) ? m->young * m->onset_stretch / (1 + m->poisson) : unit * own.shear;
-    const real strain =
-        real_max(surface.tension / material_tension_modulus(m, s->space), surface.shear * (1 + m->poisson) / m->young);
+    const real strain = real_max(surface.tension / material_uniaxial_tension_modulus(m, s->space),
+                                 surface.shear * (1 + m->poisson) / m->young);
     printf("strength       %s: %.4g Pa in tension, %.4g Pa in equal biaxial tension, %.4g Pa in shear", m->name,
            surface.tension, surface.biaxial, surface.shear);
     if (s->dim == 3) printf(", %.4g Pa in hydrostatic tension", surface.hydrostatic);
@@ -74,13 +75,14 @@ void print_softening(const struct scene *s, const struct material *m)
     if (!material_softens(m) || material_has_surface(m)) return;
     const struct softening_curve curve = softening_curve_of(m->softening);
     const real kappa = square(m->critical_stretch / m->onset_stretch);
-    const real unit = material_tension_modulus(m, s->space) * m->onset_stretch;
-    const struct softening_strength strength = softening_strength_of(&curve, s->space, kappa);
+    const real unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
+    const struct softening_strength strength = softening_curve_strength(&curve, s->space, kappa);
     printf("strength       %s: %.4g Pa in tension", m->name, unit * strength.tension);
     if (s->dim > 1) printf(", %.4g Pa in equal biaxial tension", unit * strength.biaxial);
     if (s->dim == 2) printf(", %.4g Pa in shear", unit * strength.shear);
     printf("; bonds soften %s from a stretch of %.4g to %.4g (kappa %.3g, phi %.3g)\n", law[m->softening],
-           m->onset_stretch, softening_end(&curve, m->onset_stretch, m->critical_stretch), kappa, strength.tension);
+           m->onset_stretch, softening_end_stretch(&curve, m->onset_stretch, m->critical_stretch), kappa,
+           strength.tension);
     say_horizons(s, m);
 }
 
@@ -88,6 +90,7 @@ void print_brittle_strength(const struct scene *s, const struct material *m)
 {
     const real nu = s->dim == 2 ? 1.0 / 3 : 0.25; /* of bonds; in plane strain nu/(1 - nu) */
     if (s->model != MODEL_BOND || s->method == METHOD_MPM || material_yields(m)) return;
-    printf(", about %.4g Pa in tension at this horizon", material_tension_modulus(m, s->space) * m->critical_stretch);
+    printf(", about %.4g Pa in tension at this horizon",
+           material_uniaxial_tension_modulus(m, s->space) * m->critical_stretch);
     if (s->dim > 1) printf(" (%.3g times that in equal biaxial tension, %.3g in shear)", 1 / (1 - nu), 1 / (1 + nu));
 }

@@ -191,7 +191,7 @@ static bool rings_clear(const struct run *e, int axis, real at)
     const struct observed_run seen = observed_run_of(e);
     for (int k = 0; k < e->probing->probes.n; k++) {
         real place[2], radius;
-        if (!probes_sif_contour(&e->probing->probes, k, &seen, place, &radius)) continue;
+        if (!probes_get_sif_contour(&e->probing->probes, k, &seen, place, &radius)) continue;
         if (fabs(place[axis] - at) < radius) return false;
     }
     return true;

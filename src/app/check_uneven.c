@@ -13,7 +13,7 @@ enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 /* Returns true if a part with the relative error `error` may belong to the list: the list is not full, or |error|
  * exceeds 0.9 times the smallest |off| in it. Errors of equal parts differ by up to a tenth, as they come from
  * samples. */
-bool uneven_list_would_keep(const struct uneven_list *list, real error)
+bool uneven_list_accepts_error(const struct uneven_list *list, real error)
 {
     return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);
 }

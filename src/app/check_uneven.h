@@ -27,7 +27,7 @@ struct uneven_list {
 /* Returns true if a part with the relative error `error` of its section may belong to the list: the list is not full,
  * or |error| is larger than nine tenths of the smallest error in it (errors of equal parts differ a little by
  * sampling). */
-bool uneven_list_would_keep(const struct uneven_list *list, real error);
+bool uneven_list_accepts_error(const struct uneven_list *list, real error);
 
 /* Adds a part to the list, or counts it with another of equal width. already_listed: true if the part has been added
  * before, and only its worst section is kept. */

@@ -73,10 +73,10 @@ static inline bool wants_help(const char *word)
 
 /* Prints the page `cleave help trust`: guarantees of a run, and the tests that check them. Returns FAILED if it cannot
  * be written, as do the pages below. */
-status trust_print(FILE *out);
+status help_trust_print(FILE *out);
 
 /* Prints the page `cleave help theory`: the equations with their sources. */
-status theory_print(FILE *out);
+status help_theory_print(FILE *out);
 
 /* Prints the page `cleave help run`: options, files and exit statuses of a run. */
 status manual_run_print(FILE *out);
@@ -89,7 +89,7 @@ status manual_print(FILE *out);
 bool schema_path(char *path, size_t capacity);
 
 /* Prints the kinds of `cleave new`, separated by blanks. */
-void new_kinds_print(FILE *out);
+void new_scene_kinds_print(FILE *out);
 
 /* Prints a script that completes commands, options, keys and words in the shell `bash` or `zsh`. REFUSED for another
  * shell. */

@@ -237,7 +237,7 @@ static status compare_frames(struct pair *p)
 /* Returns the value of the column called `name` in the last row of a history; NAN if there is no such column or row. */
 static double last_of(const struct history *h, const char *name)
 {
-    return h->rows > 0 ? history_at(h, h->rows - 1, history_find_column(h, name)) : NAN;
+    return h->rows > 0 ? history_value_at(h, h->rows - 1, history_find_column(h, name)) : NAN;
 }
 
 /* Prints the energies and errors in the last lines of history.csv of both runs, with their differences. Prints a
@@ -279,7 +279,7 @@ static status compare_energies(const struct pair *p)
 static double compare_figure_of(const char *folder, const char *key)
 {
     double value;
-    return summary_number(folder, key, &value) == OK ? value : NAN;
+    return summary_read_number(folder, key, &value) == OK ? value : NAN;
 }
 
 /* Reads the position place[DIM_MAX] of crack tip number k [m] from the summary of the run in `folder`. Returns false if
@@ -381,10 +381,11 @@ static status print_run(const char *letter, const char *folder)
                lammps_run_exists(folder) ? "a run of LAMMPS" : "no summary.json yet");
         return OK;
     }
-    TRY(summary_string(folder, "name", name, sizeof name));
-    if (summary_string(folder, "method", method, sizeof method) != OK)
+    TRY(summary_read_string(folder, "name", name, sizeof name));
+    if (summary_read_string(folder, "method", method, sizeof method) != OK)
         snprintf(method, sizeof method, "unknown method");
-    if (summary_string(folder, "status", state, sizeof state) != OK) snprintf(state, sizeof state, "unknown state");
+    if (summary_read_string(folder, "status", state, sizeof state) != OK)
+        snprintf(state, sizeof state, "unknown state");
     printf("%s  %s: %s, %s, %s\n", letter, printable_name(folder).text, name, method, state);
     return OK;
 }
@@ -395,7 +396,7 @@ status command_compare(int argc, char **argv)
     TRY(read_words(&p, argc, argv));
     TRY(print_run("A", p.folder[0]));
     TRY(print_run("B", p.folder[1]));
-    for (int k = 0; k < 2; k++) TRY(lammps_check_print(p.folder[k]));
+    for (int k = 0; k < 2; k++) TRY(lammps_check_print_differences(p.folder[k]));
     TRY(compare_frames(&p));
     TRY(compare_energies(&p));
     compare_cracks(&p);

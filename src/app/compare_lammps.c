@@ -167,7 +167,7 @@ static void check_print(const struct check *c, const struct lammps_frame *f)
            (long long)f->n, damage);
 }
 
-status lammps_check_print(const char *folder)
+status lammps_check_print_differences(const char *folder)
 {
     struct lammps_frame f;
     struct check c = {0};

@@ -17,6 +17,6 @@ status lammps_frames_list(const char *folder, int *n, struct listed_frame **list
 status lammps_run_read_frame(struct output_frame *f, const char *folder, int number);
 
 /* Prints the differences from the state of Cleave in check.csv; nothing if the folder has no check.csv. */
-status lammps_check_print(const char *folder);
+status lammps_check_print_differences(const char *folder);
 
 #endif

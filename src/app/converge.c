@@ -89,7 +89,7 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->wish.scene)
-            return option_refuse_second(a->wish.scene, word);
+            return arguments_refuse_second_scene(a->wish.scene, word);
         else
             a->wish.scene = word;
     }
@@ -105,7 +105,7 @@ static status converge_place(struct converge_arguments *a)
     struct convergence_request *w = &a->wish;
     struct scene scene;
     TRY(scene_read(&scene, w->scene, w->override, w->overrides));
-    study_folder_default(a->folder, sizeof a->folder, &scene, "converge");
+    study_compose_default_folder(a->folder, sizeof a->folder, &scene, "converge");
     if (!w->folder) w->folder = a->folder;
     const status fits = w->options.overwrite ? OK : study_folder_check_scene(w->folder, scene.text);
     scene_free(&scene);

@@ -52,7 +52,7 @@ static const struct {
 static const char *topic_answer(const char *word)
 {
     for (size_t k = 0; k < COUNT_OF(topics); k++)
-        if (word_index(topics[k].words, word) >= 0) return topics[k].answer;
+        if (word_index_in_list(topics[k].words, word) >= 0) return topics[k].answer;
     return NULL;
 }
 
@@ -116,8 +116,8 @@ status command_help(int argc, char **argv)
     if (!strcmp(word, "units")) return scene_print_units(stdout), OK;
     if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_print_expressions(stdout), OK;
     if (!strcmp(word, "run")) return manual_run_print(stdout);
-    if (!strcmp(word, "trust")) return trust_print(stdout);
-    if (!strcmp(word, "theory")) return theory_print(stdout);
+    if (!strcmp(word, "trust")) return help_trust_print(stdout);
+    if (!strcmp(word, "theory")) return help_theory_print(stdout);
     for (int k = 0; k < commands_count; k++)
         if (!strcmp(word, commands[k].name)) return usage_print_of(stdout, &commands[k]), OK;
     TRY(help_misspelt(word));

@@ -74,7 +74,7 @@ int main(int argc, char **argv)
     keep_descriptors();
     limit_spin(argv);
     crash_message_install();
-    output_filter_start();
+    standard_streams_replace_controls();
     program_commit_set(CLEAVE_COMMIT);
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);

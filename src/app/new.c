@@ -117,7 +117,7 @@ static status part_write(const struct kind *k, const char *path)
     return file_close(out, part_path(path).text);
 }
 
-void new_kinds_print(FILE *out)
+void new_scene_kinds_print(FILE *out)
 {
     for (size_t k = 0; k < COUNT_OF(kinds); k++) fprintf(out, "%s%s", k ? " " : "", kinds[k].name);
 }

@@ -84,7 +84,7 @@ static status read_view(struct plot_words *w, const char *text)
     if (strlen(text) != 2 || text[0] < 'x' || text[0] > 'z' || (text[1] != '+' && text[1] != '-'))
         return status_set(REFUSED, "plot: --view %s: iso, x+, x-, y+, y-, z+ or z- is expected",
                           printable_name(text).text);
-    projection->camera = camera_along(text[0] - 'x', text[1] == '+' ? 1 : -1);
+    projection->camera = camera_along_axis(text[0] - 'x', text[1] == '+' ? 1 : -1);
     return OK;
 }
 
@@ -189,7 +189,7 @@ static status read_picture_size(struct plot_words *w, const char *text)
 
 static status read_colours(struct plot_words *w, const char *text)
 {
-    const int table = word_index(COLOUR_TABLE_WORDS, text);
+    const int table = word_index_in_list(COLOUR_TABLE_WORDS, text);
     if (table < 0)
         return status_set(REFUSED, "plot: --colours %s: %s is expected", printable_name(text).text, COLOUR_TABLE_WORDS);
     w->request.table = (enum colour_table)table;

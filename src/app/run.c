@@ -29,7 +29,7 @@ static void print_breaks(const struct run *e)
     const struct diagnostics *w = e->diagnostics;
     const struct crack_tip *tip = tips_longest(&e->fracture->tips);
     const bool in_steps = scene_has_load_steps(e->scene), broke = !isnan(w->break_time);
-    const int64_t tied = tips_count_longest(&e->fracture->tips);
+    const int64_t tied = tips_count_longest_ends(&e->fracture->tips);
     if (broke && in_steps)
         printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
     else if (broke)
@@ -81,7 +81,7 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     const char *to = a->folder ? a->folder : folder;
     for (int k = 0; k < s->n_series; k++) TRY(output_check_series_folder(to, s->series[k].name));
     TRY(output_open(out, to, s->text, mode, s->compress));
-    for (int k = 0; k < s->n_series; k++) TRY(output_add_series(out, s->series[k].name, &s->series[k].region));
+    for (int k = 0; k < s->n_series; k++) TRY(output_add_frame_series(out, s->series[k].name, &s->series[k].region));
     return OK;
 }
 
@@ -100,8 +100,8 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     const double opened = wall_clock();
     e->report->began = start;
     e->report->quiet = a->quiet;
-    engine_warn_of_input(e);
-    const struct levels_choice levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical);
+    engine_warn_of_suspicious_input(e);
+    const struct levels_choice levels = frame_levels_choose_count(e->frame, &e->part, s, e->clock.dt_critical);
     char coarse[1024];
     if (frame_levels_exceed_limit(&levels, e->frame, s, coarse, sizeof coarse))
         warnings_add(&e->warnings, "%s", coarse);
@@ -114,14 +114,14 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)
         fprintf(stderr, "%s holds the finished run: no step is left, and its summary is written again\n",
                 printable_name(out->folder).text);
-    output_temporal_remove(out);
+    output_remove_temporal_file(out);
     e->report->setup_seconds = wall_clock() - opened + made - start;
     status ran = engine_run(e);
     const double run = wall_clock();
     if (ran == OK) ran = engine_run_mpm_baseline(e);
     e->report->setup_seconds += wall_clock() - run;
     if (ran == OK || ran == INTERRUPTED) {
-        const status temporal = output_write_temporal(out, s->text);
+        const status temporal = output_write_temporal_file(out, s->text);
         if (temporal != OK) ran = temporal;
     }
     struct error_bar bar[ERROR_BARS_MOST];

@@ -72,7 +72,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->scene)
-            return option_refuse_second(a->scene, word);
+            return arguments_refuse_second_scene(a->scene, word);
         else
             a->scene = word;
     }
@@ -134,8 +134,8 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
 {
     TRY(study_make_with_keys(s, a->scene, a->folder, "sweep", a->key, a->keys));
     TRY(study_add_combinations(s, a->key, a->keys));
-    TRY(study_check(s, a->collect));
-    study_print_same(s, stderr);
+    TRY(study_check_scenes(s, a->collect));
+    study_print_equal_scene_count(s, stderr);
     if (a->list) return sweep_list(s, a);
     TRY(study_check_output_files(s, a->key, a->keys));
     status ran = OK;

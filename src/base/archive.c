@@ -16,7 +16,7 @@ status archive_particle_array(struct archive *a, const char *name, void *array, 
     return s;
 }
 
-void archive_renumber(const struct archive *a, int32_t *particle, int64_t n)
+void archive_renumber_particles(const struct archive *a, int32_t *particle, int64_t n)
 {
     for (int64_t k = 0; k < n && !a->saving && a->now; k++) particle[k] = a->now[particle[k]];
 }

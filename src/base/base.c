@@ -64,15 +64,15 @@ struct printable_name printable_name(const char *name)
     return s;
 }
 
-int double_order(const void *a, const void *b)
+int compare_doubles(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-double median_of(double *value, int64_t count)
+double median_by_sorting(double *value, int64_t count)
 {
-    qsort(value, (size_t)count, sizeof *value, double_order);
+    qsort(value, (size_t)count, sizeof *value, compare_doubles);
     return value[count / 2];
 }
 

@@ -21,7 +21,7 @@ static const char out_of_stack[] = "out of stack: its limit is below 1 MB; ulimi
 /* The file that HDF5 reads, without control characters; "": none. */
 static char reading[512];
 
-void crash_message_set_file(const char *path)
+void crash_message_set_file_in_use(const char *path)
 {
     const struct printable_name shown = printable_name(path ? path : "");
     memcpy(reading, shown.text, sizeof reading);

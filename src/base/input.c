@@ -52,13 +52,13 @@ static void input_add(const struct stat *s)
     inputs[input_count++] = one;
 }
 
-void input_register(const char *path)
+void input_file_register(const char *path)
 {
     struct stat s;
     if (stat(path, &s) == 0) input_add(&s);
 }
 
-bool input_was_read(const char *path)
+bool input_file_was_read(const char *path)
 {
     struct stat s;
     if (input_count == 0 || stat(path, &s) != 0) return false;
@@ -86,7 +86,7 @@ static const char *input_fault(int fd, const char *path, struct stat *s)
     return fd < 0 ? strerror(cause) : NULL;
 }
 
-status input_open(FILE **file, const char *path, const char *expected)
+status input_file_open(FILE **file, const char *path, const char *expected)
 {
     struct stat s;
     /* a pipe would block until a writer opens it */

@@ -59,11 +59,11 @@ void interrupt_cleanup_register(enum cleanup_kind kind, const char *path, int pr
     leavings[kind].process = 0;
     leavings[kind].path[0] = '\0';
     if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[kind].path, path);
-    if (process > 0) setpgid(process, process); /* as interrupt_cleanup_in_child, whichever is first */
+    if (process > 0) setpgid(process, process); /* as interrupt_cleanup_prepare_child, whichever is first */
     leavings[kind].process = process;
 }
 
-void interrupt_cleanup_block(bool block)
+void interrupt_signals_block(bool block)
 {
     sigset_t these;
     sigemptyset(&these);
@@ -71,8 +71,8 @@ void interrupt_cleanup_block(bool block)
     pthread_sigmask(block ? SIG_BLOCK : SIG_UNBLOCK, &these, NULL);
 }
 
-void interrupt_cleanup_in_child(void)
+void interrupt_cleanup_prepare_child(void)
 {
     setpgid(0, 0);
-    interrupt_cleanup_block(false);
+    interrupt_signals_block(false);
 }

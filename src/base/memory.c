@@ -201,12 +201,12 @@ void *memory_new_uninitialised(const char *label, int64_t count, size_t size)
 {
     return array_make(label, count, size, WRITTEN_SOON);
 }
-void *memory_new_sparse(const char *label, int64_t count, size_t size)
+void *memory_new_lazy_uninitialised(const char *label, int64_t count, size_t size)
 {
     return array_make(label, count, size, MOSTLY_UNWRITTEN);
 }
 
-void *memory_new_lazy_zero(const char *label, int64_t count, size_t size)
+void *memory_new_lazy_zeroed(const char *label, int64_t count, size_t size)
 {
     return array_make(label, count, size, MOSTLY_ZERO);
 }
@@ -262,7 +262,7 @@ void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_
         memcpy(array - sizeof block, &block, sizeof block);
         return array;
     }
-    array = memory_new_sparse(label, count, size);
+    array = memory_new_lazy_uninitialised(label, count, size);
     memcpy(array, pointer, (size_t)old_count * size);
     memory_free(pointer);
     return array;

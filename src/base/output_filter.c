@@ -71,7 +71,7 @@ static FILE *stream_open(const int *fd) { return fwopen((const void *)fd, stream
 static FILE *stream_open(const int *fd) { return (void)fd, NULL; }
 #endif
 
-void output_filter_start(void)
+void standard_streams_replace_controls(void)
 {
     FILE *output = stream_open(&output_fd), *error = stream_open(&error_fd);
     if (output) {

@@ -8,15 +8,15 @@
  * a quantity that grows faster; empirical. */
 #define SOMETHING 0.03
 
-void growth_rate_add_sample(struct growth_samples *samples, int64_t step, real value)
+void growth_samples_add(struct growth_samples *samples, int64_t step, real value)
 {
     if (samples->n > 0 && step < samples->at[(samples->n - 1) % RISE_VALUES].step + RISE_CLOSEST) return;
     samples->at[samples->n % RISE_VALUES].step = step;
     samples->at[samples->n++ % RISE_VALUES].value = value;
 }
 
-enum growth_rate growth_rate_classify(const struct growth_samples *samples, int64_t step, real value,
-                                      real *tenfold_steps)
+enum growth_rate growth_samples_classify(const struct growth_samples *samples, int64_t step, real value,
+                                         real *tenfold_steps)
 {
     real newer = value, older = 0, least = 0;
     *tenfold_steps = INFINITY;

@@ -35,14 +35,14 @@ void warnings_print(const struct warnings *w, int first, FILE *out)
     for (int k = first; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);
 }
 
-void warnings_print_new(const struct warnings *w, int first)
+void warnings_print_to_stderr(const struct warnings *w, int first)
 {
     if (!w->silent) warnings_print(w, first, stderr);
 }
 
 void warnings_add_and_print(struct warnings *w, const char *text)
 {
-    if (warnings_add(w, "%s", text)) warnings_print_new(w, w->n - 1);
+    if (warnings_add(w, "%s", text)) warnings_print_to_stderr(w, w->n - 1);
 }
 
 /* Saves all warnings to the archive a as one text, each with its terminating zero, or adds the saved ones to w. Returns

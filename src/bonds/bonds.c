@@ -36,7 +36,7 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
-    const int n = find_neighbours_of(map, s, p, (int32_t)i, found, capacity);
+    const int n = particle_find_neighbours(map, s, p, (int32_t)i, found, capacity);
     if (i < p->n) wanted[i / LANES] = fresh[i] = 1;
     for (int k = 0; k < n; k++)
         if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
@@ -71,7 +71,7 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 
 /* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0; all 1 for state-based
  * models. Release its array `ratio` with memory_free. */
-struct pair_table pair_table_make(const struct bond_source *s)
+struct pair_table material_pair_table_make(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
     real *c = NEW("bonds.moduli", s->materials, real);
@@ -106,12 +106,12 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     const int64_t eights = (p->n + LANES - 1) / LANES;
     int32_t row = 0;
     b->rows = 0;
-    for (int64_t e = 0; e < eights; e++) b->rows += wanted[e] ? count_of_eight_below(e * LANES, p->n) : 0;
+    for (int64_t e = 0; e < eights; e++) b->rows += wanted[e] ? count_of_eight_indices_below(e * LANES, p->n) : 0;
     b->row_blocks = (b->rows + LANES - 1) / LANES;
     b->particle = NEW("bonds.particle", b->row_blocks * LANES, int32_t);
     b->row_of = row_of_make(old, p->n_all);
     for (int64_t e = 0; e < eights; e++)
-        for (int l = 0; wanted[e] && l < count_of_eight_below(e * LANES, p->n); l++, row++)
+        for (int l = 0; wanted[e] && l < count_of_eight_indices_below(e * LANES, p->n); l++, row++)
             b->particle[row] = (int32_t)(e * LANES) + l, b->row_of[e * LANES + l] = row;
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
@@ -166,7 +166,7 @@ static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *ro
 {
     const struct row_maker *m = &pass->maker;
     const int32_t *particle = pass->b->particle + g * LANES;
-    return m->map->at && !pass->b->changed[g] && row_block_rows(pass->b, g) == LANES &&
+    return m->map->at && !pass->b->changed[g] && row_block_row_count(pass->b, g) == LANES &&
            particle[LANES - 1] - particle[0] == LANES - 1 &&
            row_block_find_regular(m->map, m->source, m->p, particle[0], &room->regular);
 }
@@ -185,7 +185,7 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
     for (int k = 0; regular && k < room->regular.n; k++)
         if (particle[0] + room->regular.offset[k] < n) reach_widen(&room->reach, room->regular.offset[k]);
-    for (int l = 0; !regular && l < row_block_rows(pass->b, g); l++)
+    for (int l = 0; !regular && l < row_block_row_count(pass->b, g); l++)
         for (int k = 0; k < room->row[l].n; k++)
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
@@ -196,7 +196,7 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
 {
     struct bonds *b = pass->b;
     const struct row_maker *m = &pass->maker;
-    const int rows = row_block_rows(b, g);
+    const int rows = row_block_row_count(b, g);
     const int32_t *particle = b->particle + g * LANES;
     int64_t made = 0;
     bool by_offset;
@@ -208,7 +208,7 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
             row_block_fill_regular(b, room, g, m);
         return regular_bonds_count(&room->regular);
     }
-    if (pass->found && pass->found[g]) row_block_found_restore(pass->found[g], room->row, rows);
+    if (pass->found && pass->found[g]) row_neighbours_restore(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
         if (!pass->found || !pass->found[g]) row_find_neighbours(&room->row[l], m, particle[l]);
         if (!pass->count) row_compute_weights(&room->row[l], m, particle[l]);
@@ -219,7 +219,7 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
         b->column_count[g] = columns, note_reach(pass, room, g, false);
     else
         row_block_fill(b, room, g, rows, by_offset, m->p);
-    if (pass->count && pass->found) pass->found[g] = row_block_found_make(room->row, rows);
+    if (pass->count && pass->found) pass->found[g] = row_neighbours_save(room->row, rows);
     return made;
 }
 
@@ -277,7 +277,7 @@ static void rows_pass_end(const struct rows_pass *pass)
  * change, and the neighbours found in the first pass are stored for the second one. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
-    struct pair_table pairs = pair_table_make(maker.source);
+    struct pair_table pairs = material_pair_table_make(maker.source);
     maker.pairs = &pairs;
     struct rows_pass pass = {.b = b,
                              .maker = maker,
@@ -285,7 +285,7 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
                              .found = maker.old ? NEW("bonds.found", b->row_blocks, struct row_block_found *) : NULL};
     rows_pass_begin(&pass);
     rows_pass(&pass);
-    columns_assign(b, &pass.maker, pass.kept);
+    bonds_assign_columns(b, &pass.maker, pass.kept);
     pass.count = false;
     rows_pass(&pass);
     rows_pass_end(&pass);
@@ -313,8 +313,8 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
 {
     memset(b, 0, sizeof *b);
     if (previous) b->reach = previous->reach; /* covers the row blocks that are kept */
-    b->stencils = stencils_make(previous ? previous->stencils : NULL);
-    struct site_map *map = site_map_share(previous ? previous->site_map : NULL, s, p);
+    b->stencils = stencils_share_or_make(previous ? previous->stencils : NULL);
+    struct site_map *map = site_map_share_or_make(previous ? previous->site_map : NULL, s, p);
     int most = bonds_neighbour_count_bound(s);
     uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
@@ -322,8 +322,8 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
     rows_list(b, previous, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
-    rows_soften(b, previous, s, p);
-    bonds_state_start(b, s);
+    bonds_allocate_softening(b, previous, s, p);
+    bonds_state_prepare(b, s);
 
     bonds_rows_make(b,
                     (struct row_maker){.old = previous, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
@@ -333,7 +333,7 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
         b->site_map = map;
     else
         site_map_release(map);
-    columns_forget_taken(previous, b);
+    bonds_forget_taken_columns(previous, b);
 
     b->core = s->core;
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
@@ -346,7 +346,7 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
     bonds_state_make(b, p, s);
     clamped_bonds_make(b, p, s);
 #ifdef CLEAVE_ASSERT
-    const char *fault = bonds_find_violation(b);
+    const char *fault = bonds_find_inconsistency(b);
     if (fault) fprintf(stderr, "bonds_make: %s\n", fault), abort();
 #endif
 }
@@ -360,7 +360,7 @@ void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_sourc
 {
     struct bonds old = *b;
     mirror_images_copy_kinds(p, s);
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
     bonds_make(b, &old, p, s);
     for (int64_t row = 0; row < old.rows; row++) {
         const int32_t i = old.particle[row];

@@ -39,11 +39,11 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
-    for (int l = 0; l < row_block_rows(b, g); l++) {
+    for (int l = 0; l < row_block_row_count(b, g); l++) {
         const struct bond bond = bond_read(b, g, k, l);
         if (bond.w == 0 || bond.nbr < p->n || !is[bond.nbr - p->n]) continue;
         if (c->entry) {
-            c->entry[c->n] = bond_index_for_writing(b, g, k, l);
+            c->entry[c->n] = bond_writable_index(b, g, k, l);
             c->from[c->n] = b->particle[g * LANES + l], c->to[c->n] = bond.nbr;
             c->inverse_length[c->n] = bond.inverse_length, c->w[c->n] = bond.w;
         }

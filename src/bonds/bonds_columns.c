@@ -82,16 +82,16 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
  * written, since on a lattice most row blocks (rows of eight particles each) write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
-    void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_sparse : memory_new_uninitialised;
+    void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_lazy_uninitialised : memory_new_uninitialised;
     b->first = make("bonds.first", b->room, sizeof *b->first);
     b->nbr = make("bonds.nbr", b->room * LANES, sizeof *b->nbr);
     b->inverse_length = make("bonds.inverse_length", b->room * LANES, sizeof *b->inverse_length);
     b->w = make("bonds.w", b->room * LANES, sizeof *b->w);
     b->common = make("bonds.common", b->room, sizeof *b->common);
     if (s->limit.softening) {
-        b->soft.most = memory_new_sparse("bonds.most", b->room * LANES, sizeof(float));
-        b->soft.onset = memory_new_sparse("bonds.onset", b->room * LANES, sizeof(float));
-        b->soft.end = memory_new_sparse("bonds.end", b->room * LANES, sizeof(float));
+        b->soft.most = memory_new_lazy_uninitialised("bonds.most", b->room * LANES, sizeof(float));
+        b->soft.onset = memory_new_lazy_uninitialised("bonds.onset", b->room * LANES, sizeof(float));
+        b->soft.end = memory_new_lazy_uninitialised("bonds.end", b->room * LANES, sizeof(float));
     }
     if (!s->yield.stretch) return;
     b->yield = s->yield;
@@ -135,8 +135,8 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
     if (b->used > old->room) columns_extend(old, 2 * b->used);
 }
 
-/* Makes b use the column arrays of the previous rows. Both use them until columns_forget_taken takes them from `old`.
- * kept[row blocks]: row block of `old` that is taken over, -1: none. */
+/* Makes b use the column arrays of the previous rows. Both use them until bonds_forget_taken_columns takes them from
+ * `old`. kept[row blocks]: row block of `old` that is taken over, -1: none. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -152,10 +152,10 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
  * else in new ones. Rows with plastic bonds always get new arrays, because their plastic state is archived in the order
  * of the row blocks (bonds_archive.c). kept[row blocks]: previous row block that is taken over, -1: none; NULL: no
  * previous rows. */
-void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *kept)
+void bonds_assign_columns(struct bonds *b, const struct row_maker *m, const int64_t *kept)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];
-    shell_lengths_make(b, m->source->family.spacing);
+    lattice_shell_lengths_make(b, m->source->family.spacing);
     if (m->old && !m->old->plastic_stretch && m->old->room > 0) {
         columns_fit(b, m->old, kept);
         columns_share(b, m->old, kept);
@@ -166,7 +166,7 @@ void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *k
     columns_arrays(b, m->source, m->map->at != NULL);
 }
 
-void columns_forget_taken(struct bonds *previous, const struct bonds *b)
+void bonds_forget_taken_columns(struct bonds *previous, const struct bonds *b)
 {
     if (!previous || previous->w != b->w) return;
     previous->first = previous->nbr = NULL, previous->inverse_length = previous->w = NULL, previous->common = NULL;

@@ -8,8 +8,8 @@ int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *
 {
     const int32_t *particle = b->particle + g * LANES;
     const int64_t first = m->old ? m->old->row_of[particle[0]] : -1;
-    const int rows = row_block_rows(b, g);
-    if (first < 0 || first % LANES != 0 || row_block_rows(m->old, first / LANES) != rows) return -1;
+    const int rows = row_block_row_count(b, g);
+    if (first < 0 || first % LANES != 0 || row_block_row_count(m->old, first / LANES) != rows) return -1;
     for (int l = 0; l < rows; l++)
         if (m->old->row_of[particle[l]] != first + l || !row_is_still_valid(m, particle[l])) return -1;
     return first / LANES;
@@ -60,7 +60,7 @@ void row_block_copy_unchanged(struct bonds *b, const struct bonds *previous, int
     memcpy(b->broken_volume + g * LANES, previous->broken_volume + from * LANES, LANES * sizeof *b->broken_volume);
 }
 
-struct row_block_found *row_block_found_make(const struct row *row, int rows)
+struct row_block_found *row_neighbours_save(const struct row *row, int rows)
 {
     int64_t n = 0;
     for (int l = 0; l < rows; l++) n += row[l].n;
@@ -75,7 +75,7 @@ struct row_block_found *row_block_found_make(const struct row *row, int rows)
     return found;
 }
 
-void row_block_found_restore(const struct row_block_found *found, struct row *row, int rows)
+void row_neighbours_restore(const struct row_block_found *found, struct row *row, int rows)
 {
     const int32_t *from = found->nbr;
     for (int l = 0; l < rows; l++) {

@@ -37,8 +37,8 @@ void row_buffer_free(struct row *row);
  * a void, whose bond would cross it. capacity: capacity of `found`; map: from lattice sites to particles, used where
  * possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds `capacity`, the
  * list is incomplete. */
-int find_neighbours_of(const struct site_map *map, const struct bond_source *source, const struct particles *p,
-                       int32_t i, int32_t *found, int capacity);
+int particle_find_neighbours(const struct site_map *map, const struct bond_source *source, const struct particles *p,
+                             int32_t i, int32_t *found, int capacity);
 
 /* Inputs from which rows (all bonds of one particle each) are made. */
 struct row_maker {
@@ -53,12 +53,12 @@ struct row_maker {
 
 /* Allocates what belongs to the rows b of bonds that soften. previous: rows before a rebuild; NULL: none. Does nothing
  * if all bonds are brittle. */
-void rows_soften(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
-                 const struct particles *p);
+void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
+                              const struct particles *p);
 
 /* Sets the softening of the bonds of `row`, found by row_find_neighbours, of particle i: that of the previous row of
  * the particle, if there is one, else none has begun. */
-void row_soften(struct row *row, const struct row_maker *maker, int32_t i);
+void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i);
 
 /* Returns true if a row (all bonds of one particle) has an intact bond that has not begun to soften. */
 bool row_has_closed(const struct bonds *b, int64_t row);
@@ -68,12 +68,12 @@ bool row_has_closed(const struct bonds *b, int64_t row);
 
 /* Copies the softening of row `from` of the rows `previous` to row `row` of b. new_index: index in the particles p of
  * each particle of `previous`, images included; -1: none. limit: of the bonds. */
-void bonds_take_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
-                         const struct bonds *previous, int64_t from, const int32_t *new_index);
+void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
+                              const struct bonds *previous, int64_t from, const int32_t *new_index);
 
 /* Saves or restores which row blocks have begun to soften or are due, and the state of their bonds. Call it after
  * the columns of changed row blocks are restored. */
-status softness_archive(struct bonds *b, struct archive *a);
+status softening_save_or_load(struct bonds *b, struct archive *a);
 
 /* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
  * such a row exists, and either that m->fresh[i] is 0, or that the row has the complete family and the particle is
@@ -108,32 +108,32 @@ struct row_block_found {
 
 /* Returns a newly allocated copy of the neighbours of the first `rows` rows in the array `row`. Release with
  * memory_free. */
-struct row_block_found *row_block_found_make(const struct row *row, int rows);
+struct row_block_found *row_neighbours_save(const struct row *row, int rows);
 
 /* Copies the neighbours saved in `found` back to the first `rows` rows of the array `row`. */
-void row_block_found_restore(const struct row_block_found *found, struct row *row, int rows);
+void row_neighbours_restore(const struct row_block_found *found, struct row *row, int rows);
 
 /* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays. kept: for each
  * row block the number of the previous row block in maker->old whose columns it keeps in place, -1 if it is rebuilt.
  * Rebuilt row blocks use columns of removed row blocks if these are enough, else columns behind all others
  * (bonds_columns.c). */
-void columns_assign(struct bonds *b, const struct row_maker *maker, const int64_t *kept);
+void bonds_assign_columns(struct bonds *b, const struct row_maker *maker, const int64_t *kept);
 
 /* Sets the pointers in `previous` to NULL for those arrays that b has taken over, so that releasing `previous` does not
  * release them. */
-void columns_forget_taken(struct bonds *previous, const struct bonds *b);
+void bonds_forget_taken_columns(struct bonds *previous, const struct bonds *b);
 
 /* Returns true if a pre-crack or a void may cut a bond of particle i; false if all are too far away. */
-bool cuts_near_particle(const struct bond_source *source, const struct particles *p, int64_t i);
+bool particle_is_near_crack_or_void(const struct bond_source *source, const struct particles *p, int64_t i);
 
 /* Returns the stretch above which the vectorised test reports the bond between particles i and j for the exact test of
  * breaking: its critical stretch less a tolerance for round-off [1]. */
-real bond_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j);
+real bond_breaking_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j);
 
 /* Chooses how the bonds of eight particles are arranged in columns. Returns true for columns in which all neighbours
  * have one index distance, as on a lattice, since these need little padding; false for rows packed without gaps.
  * offsets: number of distinct index distances; longest: largest number of bonds of a row. */
-static inline bool columns_use_offsets(int offsets, int longest) { return offsets <= longest + longest / 3; }
+static inline bool columns_should_use_offsets(int offsets, int longest) { return offsets <= longest + longest / 3; }
 
 /* Bonds of eight consecutive particles of a lattice without a search for neighbours. Entry k of each array describes
  * the bonds whose neighbour has the index of the particle plus offset[k]; lane l (0 to 7) is the l-th of the eight
@@ -180,8 +180,8 @@ int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_
 
 /* Computes inverse length `inverse` [1/m] and weight `weight` [1] of the eight bonds between particle i + l and
  * particle j + l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
-void regular_bonds_weigh(const struct bond_source *source, const struct particles *p, const struct pair_table *pairs,
-                         int64_t i, int64_t j, real *inverse, real *weight);
+void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
+                                   const struct pair_table *pairs, int64_t i, int64_t j, real *inverse, real *weight);
 
 /* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `to`. Returns false if that
  * is not possible, e.g. because a crack is near. */
@@ -196,12 +196,12 @@ int regular_bonds_count(const struct regular_bonds *bonds);
 
 /* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0. Release its array
  * `ratio` with memory_free. */
-struct pair_table pair_table_make(const struct bond_source *s);
+struct pair_table material_pair_table_make(const struct bond_source *s);
 
 /* Returns the number of rows in row block `row_block`: eight, except for the last row block. */
-static inline int row_block_rows(const struct bonds *b, int64_t row_block)
+static inline int row_block_row_count(const struct bonds *b, int64_t row_block)
 {
-    return count_of_eight_below(row_block * LANES, b->rows);
+    return count_of_eight_indices_below(row_block * LANES, b->rows);
 }
 
 /* Working memory of one thread for the eight rows of a row block. */
@@ -244,17 +244,17 @@ void row_block_store(struct bonds *b, struct row_block_buffer *buffer, int64_t r
 
 /* Allocates b->shell_length and computes the bond lengths spacing sqrt(k) of a lattice. spacing: lattice spacing
  * [m]. */
-void shell_lengths_make(struct bonds *b, real spacing);
+void lattice_shell_lengths_make(struct bonds *b, real spacing);
 
 /* Finds the lattice shell, i.e. the whole number k > 0 with bond lengths spacing sqrt(k), of eight bonds with the
  * inverse lengths `inverse` [1/m]. Stores in excess[LANES] by how many units in the last place each inverse length
  * differs from that of the shell, due to the round-off of positions. Returns k, or 0 if the bonds have no common
  * shell. */
-int lattice_shell_of(const struct bonds *b, const real *inverse, int16_t *excess);
+int bonds_find_lattice_shell(const struct bonds *b, const real *inverse, int16_t *excess);
 
 /* Returns a table of stencils (lists of columns shared by many row blocks): `existing` with one more user, or a new
  * table if `existing` is NULL (bonds_stencils.c). Release with stencils_free. */
-struct stencils *stencils_make(struct stencils *existing);
+struct stencils *stencils_share_or_make(struct stencils *existing);
 
 /* Removes one user of the table of stencils p; the last user releases it. */
 void stencils_free(struct stencils *p);
@@ -286,7 +286,7 @@ void bond_column_write(const struct bonds *b, int64_t column, const struct colum
 
 /* Sets the moduli and normalisation in b->state, and allocates its weighted volumes, before rows are filled
  * (bonds_state.c). Does nothing for bond-based models. */
-void bonds_state_start(struct bonds *b, const struct bond_source *source);
+void bonds_state_prepare(struct bonds *b, const struct bond_source *source);
 
 /* Allocates the arrays of b->state that depend on the rows, stores the sources of mirror images, and computes the
  * weighted volumes; call after all rows were made. Does nothing for bond-based models. */

@@ -55,8 +55,8 @@ static int family_seen(const struct bond_source *s, const struct particles *p, i
     return kept;
 }
 
-int find_neighbours_of(const struct site_map *map, const struct bond_source *s, const struct particles *p, int32_t i,
-                       int32_t *found, int capacity)
+int particle_find_neighbours(const struct site_map *map, const struct bond_source *s, const struct particles *p,
+                             int32_t i, int32_t *found, int capacity)
 {
     int n = map && map->at && i < p->n ? site_map_find_neighbours(map, p, i, found) : -1;
     if (n < 0) n = family_search(s, p, i, found, capacity);
@@ -75,22 +75,22 @@ bool cracks_separate_particles(const struct crack *crack, int cracks, const stru
     particle_reference_position(p, i, a);
     particle_reference_position(p, j, b);
     for (int c = 0; c < cracks; c++)
-        if (crack_cuts(&crack[c], a, b, p->dim)) return true;
+        if (crack_cuts_bond(&crack[c], a, b, p->dim)) return true;
     return false;
 }
 
-bool cracks_near_particle(const struct bond_source *source, const struct particles *p, int64_t i)
+bool particle_is_near_crack(const struct bond_source *source, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
     for (int c = 0; c < source->cracks; c++)
-        if (crack_may_cut_near(&source->crack[c], X, source->family.cutoff, p->dim)) return true;
+        if (crack_may_cut_bonds_near(&source->crack[c], X, source->family.cutoff, p->dim)) return true;
     return false;
 }
 
-bool cuts_near_particle(const struct bond_source *source, const struct particles *p, int64_t i)
+bool particle_is_near_crack_or_void(const struct bond_source *source, const struct particles *p, int64_t i)
 {
-    return particle_is_beside_void(source->voids, i) || cracks_near_particle(source, p, i);
+    return particle_is_beside_void(source->voids, i) || particle_is_near_crack(source, p, i);
 }
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
@@ -116,7 +116,7 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
-    int n = find_neighbours_of(map, s, p, i, row->nbr, capacity), kept = 0;
+    int n = particle_find_neighbours(map, s, p, i, row->nbr, capacity), kept = 0;
     row->family_volume = 0;
     for (int k = 0; k < n; k++) {
         row->family_volume += p->volume0[row->nbr[k]];
@@ -130,7 +130,7 @@ static real elastic_strain_along(const struct particles *p, const struct materia
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
     real compliance[SYM_MAX * SYM_MAX], sum = 0;
-    material_compliance(&m[p->material[i]], dim, compliance);
+    material_compliance_matrix(&m[p->material[i]], dim, compliance);
     for (int s = 0; s < n; s++) {
         int a, b;
         real strain = 0;
@@ -161,9 +161,9 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
 
 /* Returns the stretch above which the vector test reports bond i-j: the stretch at which the bond breaks or begins to
  * soften, reduced by TRIGGER_MARGIN. */
-real bond_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j)
+real bond_breaking_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j)
 {
-    return bond_range_of(p, &source->limit, i, j).onset * (1 - TRIGGER_MARGIN);
+    return bond_softening_range(p, &source->limit, i, j).onset * (1 - TRIGGER_MARGIN);
 }
 
 /* Computes lengths and weights of the bonds of particle i, whose neighbours row_search has found. Bonds that a
@@ -171,7 +171,7 @@ real bond_test_stretch(const struct bond_source *source, const struct particles 
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
-    const bool near = cracks_near_particle(s, p, i);
+    const bool near = particle_is_near_crack(s, p, i);
     row->trigger = INFINITY, row->cut_volume = 0;
     for (int k = 0; k < row->n; k++) {
         int32_t j = row->nbr[k];
@@ -183,7 +183,7 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
         row->inverse_length[k] = (cut ? -1 : 1) / r;
         row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
         if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
-        row->trigger = real_min(row->trigger, bond_test_stretch(s, p, i, j));
+        row->trigger = real_min(row->trigger, bond_breaking_test_stretch(s, p, i, j));
     }
 }
 
@@ -254,7 +254,7 @@ void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i)
 void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
-    if (m->source->limit.softening) row_soften(row, m, i);
+    if (m->source->limit.softening) row_set_softening(row, m, i);
     if (row_is_still_valid(m, i)) {
         row_copy(row, m->old, before);
         return;

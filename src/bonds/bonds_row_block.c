@@ -41,7 +41,7 @@ int row_block_count_columns(struct row_block_buffer *buffer, const int32_t *part
     for (int l = 0; l < rows; l++)
         if (buffer->row[l].n > longest) longest = buffer->row[l].n;
     int offsets = row_block_offsets(buffer, particle, rows);
-    *by_offset = columns_use_offsets(offsets, longest);
+    *by_offset = columns_should_use_offsets(offsets, longest);
     return *by_offset ? offsets : longest;
 }
 
@@ -97,9 +97,9 @@ static void row_block_fill_softness(struct bonds *b, const struct row_block_buff
     b->soft.begun[g] = begun;
     for (int k = 0; k < b->column_count[g] && begun; k++)
         for (int l = 0; l < LANES; l++)
-            bond_softness_put(&b->soft, (b->column[g] + k) * LANES + l,
-                              buffer->column[k].inverse_length[l] == 0 ? bond_softness_none
-                                                                       : buffer->row[l].soft[used[l]++]);
+            bond_softness_store(&b->soft, (b->column[g] + k) * LANES + l,
+                                buffer->column[k].inverse_length[l] == 0 ? bond_softness_none
+                                                                         : buffer->row[l].soft[used[l]++]);
 }
 
 void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g, int rows, bool by_offset,
@@ -168,11 +168,11 @@ bool row_block_find_regular(const struct site_map *map, const struct bond_source
     int bonds[LANES] = {0}, columns = 0, longest = 0;
     if (!regular_bonds_find(map, p, i, to)) return false;
     for (int l = 0; l < LANES; l++)
-        if (cuts_near_particle(s, p, i + l)) return false;
+        if (particle_is_near_crack_or_void(s, p, i + l)) return false;
     const uint8_t own = peridynamic(p, i);
     if (own == UINT8_MAX && to->full) {
         array_fill_bytes(to->bonds, UINT8_MAX, to->n, 1);
-        return columns_use_offsets(to->n, to->n);
+        return columns_should_use_offsets(to->n, to->n);
     }
     for (int k = 0; k < to->n; k++) {
         const unsigned family = (2u << to->to[k]) - (1u << to->from[k]);
@@ -181,7 +181,7 @@ bool row_block_find_regular(const struct site_map *map, const struct bond_source
         columns += to->bonds[k] != 0;
     }
     for (int l = 0; l < LANES; l++) longest = bonds[l] > longest ? bonds[l] : longest;
-    return columns_use_offsets(columns, longest);
+    return columns_should_use_offsets(columns, longest);
 }
 
 int regular_bonds_count_columns(const struct regular_bonds *bonds)
@@ -204,7 +204,7 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
 {
     const struct bond_source *s = m->source;
     column->first = j;
-    regular_bonds_weigh(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
+    regular_bonds_compute_weights(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
     for (int l = 0; l < LANES; l++) {
         column->nbr[l] = j + l;
         if (!(bonds >> l & 1)) column->inverse_length[l] = column->w[l] = 0;
@@ -221,7 +221,8 @@ static void regular_triggers(real trigger[LANES], const struct regular_bonds *bo
         trigger[l] = INFINITY;
         for (int k = 0; k < bonds->n && !(alike && trigger[l] < INFINITY); k++)
             if (bonds->bonds[k] >> l & 1)
-                trigger[l] = real_min(trigger[l], bond_test_stretch(m->source, m->p, i + l, i + bonds->offset[k] + l));
+                trigger[l] =
+                    real_min(trigger[l], bond_breaking_test_stretch(m->source, m->p, i + l, i + bonds->offset[k] + l));
     }
 }
 

@@ -14,14 +14,14 @@ static int64_t bits_of(real a)
     return bits;
 }
 
-void shell_lengths_make(struct bonds *b, real spacing)
+void lattice_shell_lengths_make(struct bonds *b, real spacing)
 {
     b->shell_length = NEW("bonds.shell_length", BOND_SHELLS, struct bond_length);
     for (int k = 1; k < BOND_SHELLS; k++)
         b->shell_length[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
 }
 
-int lattice_shell_of(const struct bonds *b, const real *inverse, int16_t *excess)
+int bonds_find_lattice_shell(const struct bonds *b, const real *inverse, int16_t *excess)
 {
     int one = 0;
     while (one < LANES - 1 && inverse[one] == 0) one++;
@@ -38,12 +38,12 @@ int lattice_shell_of(const struct bonds *b, const real *inverse, int16_t *excess
     return outside ? 0 : lattice;
 }
 
-void bonds_update_column_common(const struct bonds *b, int64_t column)
+void bond_column_update_common_properties(const struct bonds *b, int64_t column)
 {
     const real *w = b->w + column * LANES;
     struct bond_column *c = &b->common[column];
     *c = (struct bond_column){.first = b->first[column]};
-    if (c->first >= 0) c->shell = (uint8_t)lattice_shell_of(b, b->inverse_length + column * LANES, c->excess);
+    if (c->first >= 0) c->shell = (uint8_t)bonds_find_lattice_shell(b, b->inverse_length + column * LANES, c->excess);
     c->alike = c->shell != 0;
     bool same = w[0] != 0;
     for (int l = 1; l < LANES; l++) same &= w[l] == w[0];

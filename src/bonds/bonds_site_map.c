@@ -21,7 +21,7 @@ enum { HALF_MOST = 16 };
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
 /* Returns the index in `map` of the lattice site at which particle i is; -1 if its position is not a lattice site. */
-int64_t lattice_site_of(const struct site_map *map, const struct particles *p, int64_t i)
+int64_t site_map_find_site(const struct site_map *map, const struct particles *p, int64_t i)
 {
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -75,12 +75,13 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     bool regular = true;
 #pragma omp parallel for schedule(static) reduction(&& : regular)
     for (int64_t i = 0; i < p->n; i++) {
-        const int64_t site = lattice_site_of(l, p, i);
-        regular = regular && site >= 0 && (i == 0 || lattice_site_of(l, p, i - 1) < site) && p->body[i] == p->body[0];
+        const int64_t site = site_map_find_site(l, p, i);
+        regular =
+            regular && site >= 0 && (i == 0 || site_map_find_site(l, p, i - 1) < site) && p->body[i] == p->body[0];
         if (site >= 0) l->at[site] = (int32_t)i + 1;
     }
     for (int64_t k = p->n; k < p->n_all && regular; k++) {
-        const int64_t site = lattice_site_of(l, p, k);
+        const int64_t site = site_map_find_site(l, p, k);
         regular = site >= 0 && l->at[site] == 0;
         if (regular) l->at[site] = (int32_t)k + 1;
     }
@@ -144,7 +145,8 @@ void site_map_free(struct site_map *map)
     *map = (struct site_map){0};
 }
 
-struct site_map *site_map_share(struct site_map *existing, const struct bond_source *s, const struct particles *p)
+struct site_map *site_map_share_or_make(struct site_map *existing, const struct bond_source *s,
+                                        const struct particles *p)
 {
     struct site_map *l = existing ? existing : NEW("bonds.sites", 1, struct site_map);
     if (!existing) site_map_make(l, s, p);
@@ -161,7 +163,7 @@ void site_map_release(struct site_map *map)
 
 int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *found)
 {
-    const int32_t *own = map->at + lattice_site_of(map, p, i);
+    const int32_t *own = map->at + site_map_find_site(map, p, i);
     int n = 0;
     for (int k = 0; k < map->rows; k++)
         for (int a = -map->row[k].half; a <= map->row[k].half; a++) {
@@ -209,7 +211,7 @@ static bool is_full(const struct regular_bonds *b)
 
 bool regular_bonds_find(const struct site_map *map, const struct particles *p, int64_t i, struct regular_bonds *to)
 {
-    const int64_t site = lattice_site_of(map, p, i);
+    const int64_t site = site_map_find_site(map, p, i);
     int number = 0;
     to->n = 0;
     if (map->at[site + LANES - 1] - map->at[site] != LANES - 1) return false;
@@ -218,12 +220,12 @@ bool regular_bonds_find(const struct site_map *map, const struct particles *p, i
         number += 2 * map->row[k].half + (map->row[k].site != 0);
     }
     to->full = is_full(to);
-    if (to->full) return columns_use_offsets(to->n, to->n);
+    if (to->full) return columns_should_use_offsets(to->n, to->n);
     int bonds[LANES] = {0}, longest = 0;
     for (int k = 0; k < to->n; k++)
         for (int lane = 0; lane < LANES; lane++) bonds[lane] += lane >= to->from[k] && lane <= to->to[k];
     for (int lane = 0; lane < LANES; lane++) longest = bonds[lane] > longest ? bonds[lane] : longest;
-    return columns_use_offsets(to->n, longest);
+    return columns_should_use_offsets(to->n, longest);
 }
 
 bool regular_bonds_find_uncut(const struct site_map *map, const struct bond_source *source, const struct particles *p,
@@ -294,8 +296,8 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
     }
 }
 
-void regular_bonds_weigh(const struct bond_source *source, const struct particles *p, const struct pair_table *pairs,
-                         int64_t i, int64_t j, real *inverse, real *w)
+void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
+                                   const struct pair_table *pairs, int64_t i, int64_t j, real *inverse, real *w)
 {
     switch (p->dim) {
     case 1:

@@ -25,8 +25,8 @@ static void rows_watch(struct bonds *b, const struct bonds *previous, const stru
     }
 }
 
-void rows_soften(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
-                 const struct particles *p)
+void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
+                              const struct particles *p)
 {
     if (!source->limit.softening) return;
     b->soft.curve = source->limit.curve, b->soft.image = source->image;
@@ -44,33 +44,35 @@ void rows_soften(struct bonds *b, const struct bonds *previous, const struct bon
     rows_watch(b, previous, source, p);
 }
 
-void row_block_open_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
+void row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                    int64_t g)
 {
-    const int64_t first = bond_index_for_writing(b, g, 0, 0);
+    const int64_t first = bond_writable_index(b, g, 0, 0);
     for (int64_t q = first; q < first + b->column_count[g] * LANES; q++) {
         const int32_t i = b->particle[g * LANES + (q - first) % LANES];
-        bond_softness_put(&b->soft, q,
-                          b->inverse_length[q] == 0 ? bond_softness_none
-                                                    : bond_softness_closed(bond_range_of(p, limit, i, b->nbr[q])));
+        bond_softness_store(&b->soft, q,
+                            b->inverse_length[q] == 0
+                                ? bond_softness_none
+                                : bond_softness_initial(bond_softening_range(p, limit, i, b->nbr[q])));
     }
     b->soft.begun[g] = b->changed[g] = 1;
     b->stencil[g] = NULL;
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);
 }
 
-void row_soften(struct row *row, const struct row_maker *maker, int32_t i)
+void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i)
 {
     const struct bonds *old = maker->old;
     const int64_t before = old ? old->row_of[i] : -1;
     for (int k = 0; k < row->n; k++)
-        row->soft[k] = bond_softness_closed(bond_range_of(maker->p, &maker->source->limit, i, row->nbr[k]));
-    if (before < 0 || !row_block_softens(old, before / LANES)) return;
+        row->soft[k] = bond_softness_initial(bond_softening_range(maker->p, &maker->source->limit, i, row->nbr[k]));
+    if (before < 0 || !row_block_has_softening(old, before / LANES)) return;
     int n = 0; /* neighbours ascend in both rows */
     for (struct bond_iterator it = bond_iterator_of_row(old, before); bond_next(&it);) {
         const int64_t q = it.bond.entry;
         while (n < row->n && row->nbr[n] < it.bond.nbr) n++;
         if (n == row->n || row->nbr[n] != it.bond.nbr) continue;
-        row->soft[n] = bond_softness_get(&old->soft, q);
+        row->soft[n] = bond_softness_load(&old->soft, q);
     }
 }
 
@@ -81,15 +83,15 @@ static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struc
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
-        bond_softness_put(&b->soft, bond.entry, bond_softness_get(&old->soft, q));
+        bond_softness_store(&b->soft, bond.entry, bond_softness_load(&old->soft, q));
     }
 }
 
-void bonds_take_softness(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
-                         const struct bonds *previous, int64_t from, const int32_t *new_index)
+void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
+                              const struct bonds *previous, int64_t from, const int32_t *new_index)
 {
-    if (!row_block_softens(previous, from / LANES)) return;
-    if (!b->soft.begun[row / LANES]) row_block_open_softness(b, p, limit, row / LANES);
+    if (!row_block_has_softening(previous, from / LANES)) return;
+    if (!b->soft.begun[row / LANES]) row_block_initialise_softening(b, p, limit, row / LANES);
     for (struct bond_iterator it = bond_iterator_of_row(previous, from); bond_next(&it);)
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous, it.bond.entry);
 }
@@ -102,13 +104,13 @@ static void pack_softness(struct bonds *b, struct bond_softness *packed, bool sa
         for (int64_t k = 0; b->soft.begun[g] && k < b->column_count[g] * LANES; k++, packed++) {
             const int64_t q = b->column[g] * LANES + k;
             if (saving)
-                *packed = bond_softness_get(&b->soft, q);
+                *packed = bond_softness_load(&b->soft, q);
             else
-                bond_softness_put(&b->soft, q, *packed);
+                bond_softness_store(&b->soft, q, *packed);
         }
 }
 
-status softness_archive(struct bonds *b, struct archive *a)
+status softening_save_or_load(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;
     if (!b->soft.curve) return OK;
@@ -134,11 +136,11 @@ static real row_block_spent(const void *context, int64_t g)
     const struct bonds *b = context;
     real sum = 0;
     for (int64_t q = b->column[g] * LANES; b->soft.begun[g] && q < (b->column[g] + b->column_count[g]) * LANES; q++)
-        sum += bond_half_spent(b, g, q);
+        sum += bond_half_softening_energy(b, g, q);
     return sum;
 }
 
-real bonds_softening_energy(const struct bonds *b)
+real bonds_dissipated_softening_energy(const struct bonds *b)
 {
     return b->soft.curve ? reproducible_sum(b->row_blocks, row_block_spent, b) : 0;
 }
@@ -147,7 +149,7 @@ real bonds_softening_energy(const struct bonds *b)
 static bool row_has_bond(const struct bonds *b, int64_t row, bool begun)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
-        if (it.bond.w != 0 && bond_softens(b, row / LANES, it.bond.entry) == begun) return true;
+        if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry) == begun) return true;
     return false;
 }
 
@@ -155,18 +157,19 @@ bool row_has_closed(const struct bonds *b, int64_t row) { return row_has_bond(b,
 
 bool bonds_row_has_begun(const struct bonds *b, int64_t row)
 {
-    return row >= 0 && row_block_softens(b, row / LANES) && row_has_bond(b, row, true);
+    return row >= 0 && row_block_has_softening(b, row / LANES) && row_has_bond(b, row, true);
 }
 
-real bonds_row_softening(const struct bonds *b, const struct particles *p, int64_t row)
+real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int64_t g = row / LANES;
     real sum = 0;
-    if (row < 0 || !row_block_softens(b, g) || !(b->family_volume[row] > 0)) return 0;
+    if (row < 0 || !row_block_has_softening(b, g) || !(b->family_volume[row] > 0)) return 0;
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
-        if (it.bond.w == 0 || !bond_softens(b, g, it.bond.entry)) continue;
+        if (it.bond.w == 0 || !bond_is_softening(b, g, it.bond.entry)) continue;
         const int64_t q = it.bond.entry;
-        sum += (1 - softening_kept(b->soft.curve, b->soft.onset[q], b->soft.end[q], b->soft.most[q])) *
+        sum += (1 - softening_remaining_stiffness_fraction(b->soft.curve, b->soft.onset[q], b->soft.end[q],
+                                                           b->soft.most[q])) *
                p->volume0[it.bond.nbr];
     }
     return sum / b->family_volume[row];

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-real state_intact_weighted_volume(const struct bonds *b, int64_t row)
+real state_row_intact_weighted_volume(const struct bonds *b, int64_t row)
 {
     real Q = 0;
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
@@ -51,7 +51,7 @@ static void state_weigh_new(struct bonds *b, const struct particles *p, const st
         if (b->state.weighted[g * LANES] == 0) row_block_weigh(b, p, s, g);
 }
 
-void bonds_state_start(struct bonds *b, const struct bond_source *s)
+void bonds_state_prepare(struct bonds *b, const struct bond_source *s)
 {
     if (!s->modulus) return;
     b->state.modulus = s->modulus;

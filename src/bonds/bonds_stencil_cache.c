@@ -81,7 +81,7 @@ static bool same_weights(const struct bond_source *s, const struct regular_bonds
     if (s->neighbour_volume && !same_around(s->neighbour_volume, b, i, j)) return false;
     const struct surface_weights *w = s->surface;
     return !w || (memcmp(w->class_of + i, w->class_of + j, LANES * sizeof *w->class_of) == 0 &&
-                  load_eight_bytes(w->mirrors + i) == load_eight_bytes(w->mirrors + j));
+                  eight_bytes_as_word(w->mirrors + i) == eight_bytes_as_word(w->mirrors + j));
 }
 
 int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i)

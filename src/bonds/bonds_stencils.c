@@ -12,7 +12,7 @@ struct stencils {
     int32_t first[HASHES]; /* first stencil with this hash, + 1; 0: none */
 };
 
-struct stencils *stencils_make(struct stencils *existing)
+struct stencils *stencils_share_or_make(struct stencils *existing)
 {
     struct stencils *p = existing ? existing : NEW("bonds.stencils", 1, struct stencils);
     p->users++;
@@ -63,7 +63,7 @@ bool stencil_add_column(struct stencil *to, const struct bonds *b, const struct 
     int16_t excess[LANES];
     int alone = from->first < 0, alike = 1, bonds = 0;
     *column = (struct stencil_column){.offset = (int32_t)(from->first - i),
-                                      .shell = (uint8_t)lattice_shell_of(b, inverse, excess)};
+                                      .shell = (uint8_t)bonds_find_lattice_shell(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
         to->w[to->columns][l] = w[l];
         alone |= (w[l] == 0) != (inverse[l] == 0); /* cut or broken */
@@ -189,7 +189,7 @@ void bond_column_write(const struct bonds *b, int64_t column, const struct colum
     memcpy(b->nbr + column * LANES, from->nbr, sizeof from->nbr);
     memcpy(b->inverse_length + column * LANES, from->inverse_length, sizeof from->inverse_length);
     memcpy(b->w + column * LANES, from->w, sizeof from->w);
-    bonds_update_column_common(b, column);
+    bond_column_update_common_properties(b, column);
 }
 
 /* Writes the columns of a row block (rows of eight particles), which its stencil defines, to the column arrays. */
@@ -202,7 +202,7 @@ static void expand(struct bonds *b, int64_t row_block)
     }
 }
 
-void row_block_write_columns(struct bonds *b, int64_t row_block)
+void row_block_expand_stencil(struct bonds *b, int64_t row_block)
 {
 #pragma omp critical(bonds_unfold)
     if (b->implicit[row_block]) {
@@ -211,10 +211,10 @@ void row_block_write_columns(struct bonds *b, int64_t row_block)
     }
 }
 
-void bonds_update_common_of_bond(struct bonds *b, int64_t row, int64_t q)
+void bond_changed_update_column(struct bonds *b, int64_t row, int64_t q)
 {
     b->stencil[row / LANES] = NULL;
     b->changed[row / LANES] = 1;
-    bonds_update_column_common(b, q / LANES);
+    bond_column_update_common_properties(b, q / LANES);
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED); /* several threads may break bonds */
 }

@@ -124,7 +124,7 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
             continue;
         }
         const real stretch = begun ? sqrt(dot(y, y, dim)) * inverse - 1 : 0;
-        const real kept = begun ? bond_kept_share(e->b, row / LANES, it.bond.entry, stretch) : 1;
+        const real kept = begun ? bond_remaining_stiffness_fraction(e->b, row / LANES, it.bond.entry, stretch) : 1;
         moment_add(sum->M, weight * kept, xi, xi, dim);
         moment_add(sum->Y, weight * kept, y, xi, dim);
         if (kept < 1) moment_add(sum->L, weight * (1 - kept), xi, xi, dim);
@@ -393,13 +393,13 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
 {
     const struct particles *p = e->p;
     const struct bond_limit *limit = &e->source->limit;
-    const real closed = bond_range_of(p, limit, i, bond->nbr).onset;
+    const real closed = bond_softening_range(p, limit, i, bond->nbr).onset;
     const real critical = bond_breaking_stretch(p, limit, i, bond->nbr);
     real length2 = 0;
     for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][bond->nbr] - p->x[d][i]);
     const real onset = real_max(sqrt(length2) * bond->inverse_length - 1, real_min(least, closed));
     const bool sudden = !(onset < critical * (1 - SUDDEN));
-    const real end = sudden ? onset * (1 + SUDDEN) : softening_end(limit->curve, onset, critical);
+    const real end = sudden ? onset * (1 + SUDDEN) : softening_end_stretch(limit->curve, onset, critical);
     return (struct bond_softness){(float)onset, (float)onset, (float)end};
 }
 
@@ -411,11 +411,11 @@ static void row_block_start(const struct evaluation *e, struct bonds *b, struct 
         const real own = start_of(e, i);
         for (int64_t k = 0; k < b->column_count[g]; k++) {
             const struct bond bond = bond_read(b, g, k, (int)(row % LANES));
-            if (bond.w == 0 || bond_softens(b, g, bond.entry)) continue;
+            if (bond.w == 0 || bond_is_softening(b, g, bond.entry)) continue;
             const real least = real_min(own, start_of(e, bond.nbr));
             if (isinf(least) || isinf(bond_breaking_stretch(p, &e->source->limit, i, bond.nbr))) continue;
-            if (!b->soft.begun[g]) row_block_open_softness(b, p, &e->source->limit, g);
-            bond_softness_put(&b->soft, bond.entry, bond_started(e, &bond, i, least));
+            if (!b->soft.begun[g]) row_block_initialise_softening(b, p, &e->source->limit, g);
+            bond_softness_store(&b->soft, bond.entry, bond_started(e, &bond, i, least));
             softness_mark_point(b, p, i);
         }
     }

@@ -17,7 +17,7 @@
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int capacity)
 {
-    const int n = find_neighbours_of(map, s, p, (int32_t)i, found, capacity);
+    const int n = particle_find_neighbours(map, s, p, (int32_t)i, found, capacity);
     real volume = 0;
     for (int k = 0; k < n; k++) {
         real xi[DIM_MAX];
@@ -92,10 +92,10 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][row->nbr[k]] - p->X[d][i]) * row->inverse_length[k];
         spring_bound_add_spring(&bound, stiffness * row->w[k] * row->inverse_length[k], n, p->dim);
     }
-    return spring_bound_eigenvalue(&bound, p->dim);
+    return spring_bound_largest_eigenvalue(&bound, p->dim);
 }
 
-real bonds_row_stiffness_bound(const struct bonds *b, const struct particles *p, int64_t row)
+real bonds_row_largest_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int64_t i = b->particle[row];
     struct spring_bound bound = {{{0}}, 0};
@@ -106,7 +106,7 @@ real bonds_row_stiffness_bound(const struct bonds *b, const struct particles *p,
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond.nbr] - p->X[d][i]) * bond.inverse_length;
         spring_bound_add_spring(&bound, b->stiffness * bond.w * bond.inverse_length, n, p->dim);
     }
-    return spring_bound_eigenvalue(&bound, p->dim);
+    return spring_bound_largest_eigenvalue(&bound, p->dim);
 }
 
 /* Sums of the springs on eight consecutive particles, from which bounds of their frequencies follow: stiffness matrix
@@ -159,7 +159,7 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
         struct spring_bound one = {.total = bounds->total[l]};
         for (int a = 0; a < p->dim; a++)
             for (int c = 0; c < p->dim; c++) one.block[a][c] = bounds->block[a][c][l];
-        largest = real_max(largest, spring_bound_eigenvalue(&one, p->dim) / p->mass[i + l]);
+        largest = real_max(largest, spring_bound_largest_eigenvalue(&one, p->dim) / p->mass[i + l]);
     }
     return largest;
 }
@@ -174,7 +174,7 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     for (int k = 0; k < bonds->n; k++) {
         real inverse[LANES];
         real w[LANES];
-        regular_bonds_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
+        regular_bonds_compute_weights(s, p, pairs, i, i + bonds->offset[k], inverse, w);
         for (int l = 0; l < LANES; l++) w[l] = l >= bonds->from[k] && l <= bonds->to[k] ? w[l] : 0;
         bounds_add_any(&bounds, p, i, i + bonds->offset[k], inverse, w, stiffness);
     }
@@ -190,8 +190,8 @@ static real row_block_frequency_made(const struct bonds *b, const struct particl
     real largest = 0;
     for (int64_t k = 0; k < columns && regular && !b->stencil[g]; k++) regular = b->first[b->column[g] + k] >= 0;
     if (!regular) {
-        for (int64_t r = g * LANES; r < g * LANES + row_block_rows(b, g); r++)
-            largest = real_max(largest, bonds_row_stiffness_bound(b, p, r) / p->mass[b->particle[r]]);
+        for (int64_t r = g * LANES; r < g * LANES + row_block_row_count(b, g); r++)
+            largest = real_max(largest, bonds_row_largest_eigenvalue_bound(b, p, r) / p->mass[b->particle[r]]);
         return largest;
     }
     struct eight_bounds bounds = {0};
@@ -203,7 +203,7 @@ static real row_block_frequency_made(const struct bonds *b, const struct particl
     return bounds_frequency(&bounds, p, b->particle[g * LANES]);
 }
 
-real bonds_critical_step_of_existing(const struct bonds *b, const struct particles *p)
+real bonds_critical_time_step_of_rows(const struct bonds *b, const struct particles *p)
 {
     real largest = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest)
@@ -216,7 +216,7 @@ real bonds_critical_step_of_existing(const struct bonds *b, const struct particl
  * Release `ratio` with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
-    struct pair_table pairs = pair_table_make(s);
+    struct pair_table pairs = material_pair_table_make(s);
     const real first = family_micro_modulus(&s->family, &s->material[0]);
     for (int a = 0; a < s->materials && s->modulus; a++)
         for (int b = 0; b < s->materials; b++)
@@ -238,7 +238,7 @@ static uint8_t *first_of_classes(const struct surface_weights *w, const struct s
     return first;
 }
 
-real bonds_critical_step(const struct particles *p, const struct bond_source *s)
+real bonds_critical_time_step(const struct particles *p, const struct bond_source *s)
 {
     real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
     struct pair_table pairs = pairs_of_bound(s);
@@ -289,5 +289,5 @@ real bonds_fracture_energy(const struct bonds *b)
 {
     real sum = 0; /* few rows have any; a serial sum is equal on any number of threads */
     for (int64_t r = 0; r < b->rows; r++) sum += b->fracture_energy[r];
-    return sum + bonds_softening_energy(b);
+    return sum + bonds_dissipated_softening_energy(b);
 }

@@ -12,10 +12,10 @@ static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
         const struct bond bond = bond_read(b, row / LANES, k, lane);
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
         if (bond.w == 0 && bond.inverse_length < 0) return;
-        const int64_t q = bond_index_for_writing(b, row / LANES, k, lane);
+        const int64_t q = bond_writable_index(b, row / LANES, k, lane);
         b->w[q] = 0;
         b->inverse_length[q] = -fabs(b->inverse_length[q]);
-        bonds_update_common_of_bond(b, row, q);
+        bond_changed_update_column(b, row, q);
         return;
     }
 }
@@ -31,7 +31,7 @@ void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bo
         b->plastic_work[row] = old->plastic_work[from];
         b->broken[row] = old->broken[from];
         if (!old->changed[from / LANES]) continue;
-        if (old->soft.curve) bonds_take_softness(b, p, limit, row, old, from, new_index);
+        if (old->soft.curve) bonds_copy_row_softening(b, p, limit, row, old, from, new_index);
         for (struct bond_iterator it = bond_iterator_of_row(old, from); bond_next(&it);)
             if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, new_index[it.bond.nbr]);
     }

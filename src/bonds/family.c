@@ -117,7 +117,7 @@ void family_make(struct family *f, enum space space, real spacing, real horizon_
     f->space = space;
     f->spacing = spacing;
     f->section = section;
-    f->cell_volume = lattice_volume(section, spacing, space_dim(space));
+    f->cell_volume = lattice_particle_volume(section, spacing, space_dim(space));
     f->horizon = horizon_in_spacings * spacing;
     f->shell_weight[0] = f->shell_weight[1] = 1;
     if (f->calibration == CALIBRATION_VMPD) /* whole neighbours cover (m + 1/2) spacings exactly (Zeng et al. 2021) */

@@ -66,7 +66,7 @@ static real layer_work(const struct state_modulus *m, const struct family *f, re
     return work;
 }
 
-real family_separation_work(const struct family *f, const struct state_modulus *m, bool present_family)
+real family_separation_work_per_area(const struct family *f, const struct state_modulus *m, bool present_family)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing);
     const int64_t room = (int64_t)reach * (2 * reach + 1) * (space_dim(f->space) > 2 ? 2 * reach + 1 : 1);
@@ -79,7 +79,7 @@ real family_separation_work(const struct family *f, const struct state_modulus *
 
 /* Returns the energy per area of all bonds across a plane at the critical stretch of material m [J/m^2]. Each column of
  * the lattice has n parallel bonds across the plane if their normal component is n spacings. */
-real family_crossing_energy(const struct family *f, const struct material *m)
+real family_crack_energy_per_area(const struct family *f, const struct material *m)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);
     const int width = dim > 1 ? reach : 0, depth = dim > 2 ? reach : 0;

@@ -219,7 +219,7 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
             const int32_t j = near_face_neighbour_of(b, t, k);
             if (j < 0 || (b->whole[b->particle[t]] && particle_family_is_complete(b, j))) continue;
             const struct seen seen = mirrored_source_of(b, j);
-            const int64_t other = entry_of(a, b, b->place[seen.particle], reverse_offset(b, &seen, k));
+            const int64_t other = entry_of(a, b, b->place[seen.particle], near_faces_reverse_offset(b, &seen, k));
             groups_join(parent, entry_of(a, b, t, k), other);
         }
 }

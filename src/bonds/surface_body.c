@@ -84,7 +84,7 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-struct seen source_of_image(const struct near_faces *b, int64_t j)
+struct seen near_faces_source_of_image(const struct near_faces *b, int64_t j)
 {
     struct seen to = {image_source_particle(b->p, b->source->image, j), 0};
     for (int d = 0; d < b->p->dim; d++)
@@ -92,7 +92,7 @@ struct seen source_of_image(const struct near_faces *b, int64_t j)
     return to;
 }
 
-int reverse_offset(const struct near_faces *b, const struct seen *to, int k)
+int near_faces_reverse_offset(const struct near_faces *b, const struct seen *to, int k)
 {
     return b->offset.n - 1 - b->offset.mirrored[to->mirrors * b->offset.n + k];
 }
@@ -156,11 +156,11 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
-    const bool near = cracks_near_particle(s, b->p, i);
+    const bool near = particle_is_near_crack(s, b->p, i);
     int kept = 0;
     for (int k = 0; to && k < b->offset.n; k++) to[k] = -1;
     if (search->eight) return regular_neighbours(b, search, i, near, to);
-    const int n = find_neighbours_of(search->map, s, b->p, (int32_t)i, search->found, search->room);
+    const int n = particle_find_neighbours(search->map, s, b->p, (int32_t)i, search->found, search->room);
     for (int k = 0; k < n; k++) {
         const int32_t j = search->found[k];
         if (near && cracks_separate_particles(s->crack, s->cracks, b->p, i, j)) continue;
@@ -224,8 +224,9 @@ static void near_mark(uint8_t *near, const struct near_faces *b, const struct si
                 near_put(b, near, i);
                 for (int k = 0; search.eight && k < regular->n; k++)
                     if (l >= regular->from[k] && l <= regular->to[k]) near_put(b, near, i + regular->offset[k]);
-                const int n =
-                    search.eight ? 0 : find_neighbours_of(map, b->source, p, (int32_t)i, search.found, search.room);
+                const int n = search.eight
+                                  ? 0
+                                  : particle_find_neighbours(map, b->source, p, (int32_t)i, search.found, search.room);
                 for (int k = 0; k < n; k++) near_put(b, near, search.found[k]);
             }
         }
@@ -287,10 +288,10 @@ static void apart_find(const struct near_faces *b, const struct site_map *map, i
     int32_t *found = NEW("surface.found", room, int32_t);
     apart[0] = apart[1] = -1;
     for (int64_t i = 0; i < b->p->n && apart[0] < 0; i++) {
-        const int n = find_neighbours_of(map, s, b->p, (int32_t)i, found, room);
+        const int n = particle_find_neighbours(map, s, b->p, (int32_t)i, found, room);
         for (int k = 0; k < n && apart[0] < 0; k++)
             if (offset_between(&b->offset, b->p, s->family.spacing, i, found[k]) < 0 &&
-                !(cracks_near_particle(s, b->p, i) &&
+                !(particle_is_near_crack(s, b->p, i) &&
                   cracks_separate_particles(s->crack, s->cracks, b->p, i, found[k])))
                 apart[0] = i, apart[1] = found[k];
     }

@@ -328,7 +328,7 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     const struct particles *p = b->p;
     const int32_t i = b->particle[t];
     const bool across = particle_is_beside_void(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
-    if (!across && !cracks_near_particle(b->source, p, i)) return false;
+    if (!across && !particle_is_near_crack(b->source, p, i)) return false;
     for (int k = 0; k < o->n; k++) {
         const int32_t j = near_face_neighbour_of(b, t, k);
         if (j < 0) continue;

@@ -42,13 +42,13 @@ struct seen {
 
 /* Returns the particle of the body of which image `entry` of the particle arrays is an image, and the mirrors in
  * between as one bit per reversed axis. */
-struct seen source_of_image(const struct near_faces *b, int64_t entry);
+struct seen near_faces_source_of_image(const struct near_faces *b, int64_t entry);
 
 /* Returns the particle of the body of which the entry of the particle arrays is an image (`entry` itself, if it is not
  * an image), and the mirrors in between as one bit per reversed axis. */
 static inline struct seen mirrored_source_of(const struct near_faces *b, int64_t entry)
 {
-    return entry < b->p->n ? (struct seen){entry, 0} : source_of_image(b, entry);
+    return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_of_image(b, entry);
 }
 
 /* Returns -1 if the bits `mirrors` (one per axis) contain `axis`, i.e. if the mirrors reverse that axis, else 1. */
@@ -83,7 +83,7 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
 /* Returns the offset number of a bond in reverse direction. offset: offset number of the bond at its first particle;
  * to: other particle of the bond, at which the reverse offset is listed; if it is seen through mirrors, the reverse
  * offset is reflected in them. */
-int reverse_offset(const struct near_faces *b, const struct seen *to, int offset);
+int near_faces_reverse_offset(const struct near_faces *b, const struct seen *to, int offset);
 
 /* Lists the particles near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a
  * message, if the particles are not on a lattice; apart[0] is then the first particle with a neighbour that is not a

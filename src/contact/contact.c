@@ -37,7 +37,7 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
                                   .shape = shape};
     c->rigid = rigid, c->rigids = rigids;
     if (!contact_is_possible(c)) return;
-    contact_profile_make(&c->law.profile, space_dim(family.space));
+    contact_density_profile_make(&c->law.profile, space_dim(family.space));
     if (law.distance == DISTANCE_SPACING)
         family_make(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
     c->law.stiffness = NEW("contact.stiffness", n * n, real);
@@ -94,8 +94,8 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
  * a normal stiffness of 1, 1.5 and 2 k in total. Rubble, with up to eight contacts per particle, needs 0.61 of the
  * critical step of the bonds in 2D; the safety factor where bonds may break is 0.5. (The rule of LAMMPS adds contact
  * with all 2, 8 or 26 neighbours to full families.) */
-real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *material,
-                           real bonds_time_step)
+real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *material,
+                                real bonds_time_step)
 {
     static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2}, squeezed[DIM_MAX + 1] = {0, 2, 4, 26.0 / 3};
     const int n = c->law.materials;
@@ -179,20 +179,20 @@ static void record(struct contact *c, const struct particles *p, bool after)
         for (int64_t i = 0; i < p->n; i++) c->push[d][i] = after ? p->f[d][i] - c->push[d][i] : p->f[d][i];
 }
 
-void contact_force(struct contact *c, struct particles *p, real dt)
+void contact_compute_forces(struct contact *c, struct particles *p, real dt)
 {
     struct contact_found all = {0, 0, INT32_MAX};
     if (c->recorded) record(c, p, false);
     if (c->pairs > 0) rows_sweep(c, p, dt, &all);
     if (c->pairs > 0 && c->law.form == CONTACT_SURFACE && (all.touching > 0 || c->spring)) faces_force(c, p, dt);
-    contact_rigid_force(c, p, dt, &all);
+    contact_rigid_compute_forces(c, p, dt, &all);
     if (c->recorded) record(c, p, true);
     c->overlap = all.overlap, c->touching = all.touching, c->deepest = all.touching > 0 ? all.deepest : -1;
     c->overlap_most = real_max(c->overlap_most, all.overlap);
     if (all.touching / 2 > c->pairs_most) c->pairs_most = all.touching / 2;
 }
 
-void contact_update_times(struct contact *c, real t)
+void contact_record_first_and_last_time(struct contact *c, real t)
 {
     if (c->touching == 0) return;
     c->ended = t;
@@ -216,7 +216,7 @@ static real contact_energy_term(const void *context, int64_t row)
 real contact_energy(const struct contact *c, const struct particles *p)
 {
     const real pairs = c->pairs > 0 ? reproducible_sum(c->rows, contact_energy_term, &(struct contact_sum){c, p}) : 0;
-    return pairs + contact_rigid_energy(c, p) + contact_friction_stored(c);
+    return pairs + contact_rigid_energy(c, p) + contact_friction_stored_energy(c);
 }
 
 /* ---- other particles --------------------------------------------------------------------------------------------- */
@@ -262,7 +262,7 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
         return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact");
     TRY(contact_array_save_or_load(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
-    archive_renumber(a, c->particle, c->n);
+    archive_renumber_particles(a, c->particle, c->n);
     for (int d = 0; d < p->dim; d++) {
         char name[] = "contact/at_x";
         name[sizeof name - 2] = (char)('x' + d);

@@ -14,7 +14,7 @@
 /* largest part against the rate, relative to the change of the contact force in a step [1]; empirical */
 #define BALANCE_DRAG 0.1 /* force against the rate over the change of the contact force in the step [1]; empirical */
 
-real contact_energy_correction(struct contact_balance *balance, real stiffness, real gap, bool advance)
+real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool advance)
 {
     if (!advance) return balance->drag;
     const real was = balance->gap;

@@ -40,7 +40,7 @@ static void layer_density(int dim, real s, real *density, real *slope)
 #define DEPTH_LEAST 0.2 /* range of the table [spacings] */
 #define DEPTH_MOST 1.9
 
-void contact_profile_make(struct contact_profile *profile, int dim)
+void contact_density_profile_make(struct contact_profile *profile, int dim)
 {
     for (int k = 0; k < PROFILE_NODES; k++) {
         profile->depth[k] = DEPTH_LEAST + (DEPTH_MOST - DEPTH_LEAST) * k / (PROFILE_NODES - 1);
@@ -137,7 +137,7 @@ void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t
     const struct face_gap at = face_gap(c, &field, face->zero);
     const bool touches = contact_is_active(contact_selection_marks(c), row, at.gap < 0);
     const real force = 0.5 * face->stiffness * (touches ? at.gap : 0) +
-                       contact_energy_correction(&c->balance[row], face->stiffness, at.gap, dt > 0);
+                       contact_energy_correction_force(&c->balance[row], face->stiffness, at.gap, dt > 0);
     face->mean = field.mean;
     if (!touches) return;
     face->push = force * at.slope;
@@ -194,7 +194,7 @@ void contact_face_add_force(const struct contact *c, struct particles *p, int64_
         const int64_t l = c->other[q];
         if (c->face[row].push == 0 && c->face[c->root[l]].push == 0) continue;
         const real own = field_share(c, p->dim, row, l, &reach), back = field_share(c, p->dim, l, row, &reach);
-        const real r2 = contact_distance_vector(c, p, row, l, apart);
+        const real r2 = contact_pair_vector(c, p, row, l, apart);
         if (r2 >= square(reach) || r2 == 0) continue;
         const real r = sqrt(r2), slope = kernel_slope(r / reach) / (reach * r);
         const real pull = (face_pull(c, row, l) * own + face_pull(c, l, row) * back) * slope;
@@ -213,8 +213,7 @@ void contact_face_spring(const struct contact *c, const struct particles *p, int
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
         real apart[DIM_MAX], reach;
-        const real share = field_share(c, p->dim, row, l, &reach),
-                   r = sqrt(contact_distance_vector(c, p, row, l, apart));
+        const real share = field_share(c, p->dim, row, l, &reach), r = sqrt(contact_pair_vector(c, p, row, l, apart));
         if (r >= reach || !(r > 0)) continue;
         const real by_weight = at.slope - (at.leans ? (c->rise[l] - field.mean) / field.density : 0);
         const real pull = by_weight * share * kernel_slope(r / reach) / (reach * r);
@@ -236,9 +235,9 @@ static real face_stiffness(const struct contact *c, const struct particles *p, i
     real least = INFINITY;
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
-        least = real_min(least, contact_stiffness(c, p, row, l) * square(0.5 * (c->size[row] + c->size[l])));
+        least = real_min(least, contact_pair_stiffness(c, p, row, l) * square(0.5 * (c->size[row] + c->size[l])));
     }
-    return isfinite(least) ? least : contact_stiffness(c, p, row, row) * square(c->size[row]);
+    return isfinite(least) ? least : contact_pair_stiffness(c, p, row, row) * square(c->size[row]);
 }
 
 /* Returns the largest width [spacings] of a notch (a pre-crack with a width) between the particle of row `row` of the
@@ -282,8 +281,8 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
  * particle in the previous list `previous`, -1: none. A row already in contact gets the overlap with which its energy
  * does not change. Otherwise contact begins where the surfaces of the bodies meet, or later if the particle is closer
  * in the reference or the present configuration. */
-void contact_face_set_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
-                             const struct particles *p, int64_t row)
+void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
+                                   const struct particles *p, int64_t row)
 {
     struct contact_face *face = &c->face[row];
     const bool pairs = c->first[row + 1] > c->first[row];

@@ -90,7 +90,7 @@ static void rows_touch(const struct contact *c, const struct particles *p, struc
     memory_free(list);
 }
 
-void contact_activate_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
+void contact_activate_newly_moving(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     if (c->waiting > 0 && rows_follow(c, p)) rows_touch(c, p, b, l);
 }

@@ -224,7 +224,7 @@ static real springs_sum(const struct contact *c, real (*term)(const void *contex
     return sum;
 }
 
-real contact_friction_stored(const struct contact *c) { return springs_sum(c, stored_in); }
+real contact_friction_stored_energy(const struct contact *c) { return springs_sum(c, stored_in); }
 real contact_friction_work(const struct contact *c) { return c->friction_work + springs_sum(c, lost_by); }
 
 void contact_reactions_make(struct contact *c)
@@ -242,7 +242,7 @@ void contact_springs_copy(struct contact *c, const struct contact *previous)
     contact_reactions_make(c);
     for (int64_t row = 0; row < c->rows; row++)
         contact_spring_copy(&c->spring[row], previous->spring,
-                            previous->made ? contact_list_find(previous, c->particle[row]) : -1);
+                            previous->made ? contact_list_find_particle(previous, c->particle[row]) : -1);
 }
 
 void contact_spring_copy(struct contact_spring *to, const struct contact_spring *previous, int64_t previous_entry)
@@ -252,7 +252,8 @@ void contact_spring_copy(struct contact_spring *to, const struct contact_spring 
     to->lost = 0;
 }
 
-void contact_friction_carry_over(struct contact *c, const struct contact *previous)
+void contact_friction_transfer_work(struct contact *c, const struct contact *previous)
 {
-    c->friction_work = contact_friction_work(previous) + contact_friction_stored(previous) - contact_friction_stored(c);
+    c->friction_work =
+        contact_friction_work(previous) + contact_friction_stored_energy(previous) - contact_friction_stored_energy(c);
 }

@@ -43,8 +43,8 @@ static inline void contact_found_add_overlap(struct contact_found *found, real o
 
 /* Computes the vector between the present positions of two particles, from entry `other` to entry `entry` of the
  * contact list c->particle, dim components [m]. Returns its square [m^2]. */
-static inline real contact_distance_vector(const struct contact *c, const struct particles *p, int64_t entry,
-                                           int64_t other, real *vector)
+static inline real contact_pair_vector(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
+                                       real *vector)
 {
     const int32_t i = c->particle[entry], j = c->particle[other];
     real r2 = 0;
@@ -57,7 +57,8 @@ static inline real contact_distance_vector(const struct contact *c, const struct
 
 /* Returns the contact stiffness k of the pair of entries `entry` and `other` of the contact list c->particle [N/m],
  * from their materials and volumes. */
-static inline real contact_stiffness(const struct contact *c, const struct particles *p, int64_t entry, int64_t other)
+static inline real contact_pair_stiffness(const struct contact *c, const struct particles *p, int64_t entry,
+                                          int64_t other)
 {
     const int32_t i = c->particle[entry], j = c->particle[other];
     return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
@@ -70,7 +71,7 @@ static inline bool contact_is_possible(const struct contact *c)
 }
 
 /* Returns true if contact forces may act on the particle number `row` of the contact list in this step, as
- * contact_activate_more and contact_activate_particles have determined. */
+ * contact_activate_newly_moving and contact_activate_particles have determined. */
 static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 {
     return c->followed[row] >= ROW_SOURCE;
@@ -78,18 +79,18 @@ static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 
 /* Activates further particles of the contact list, after neighbours that were at rest have started to move: marks them
  * as loaded in `loads` and their bonds as active in b. To be called in steps without a search for pairs. */
-void contact_activate_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
+void contact_activate_newly_moving(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
 
-/* Returns the array of bytes that selects which contacts between particles act in an equilibrium (contact_select): one
- * per particle of the contact list for the form `surface`, one per pair for the form `pair`. Returns NULL if
- * overlapping contacts act. */
+/* Returns the array of bytes that selects which contacts between particles act in an equilibrium
+ * (contact_select_active): one per particle of the contact list for the form `surface`, one per pair for the form
+ * `pair`. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_selection_marks(const struct contact *c)
 {
     return c->by_overlap ? NULL : c->touch;
 }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
- * (contact_select), one per particle listed near this body. Returns NULL if overlapping contacts act. */
+ * (contact_select_active), one per particle listed near this body. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_rigid_selection_marks(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
@@ -123,7 +124,7 @@ void contact_face_spring(const struct contact *c, const struct particles *p, int
 /* Enables contact forces on all particles of the contact list, whether they move or not, as an equilibrium requires. */
 void contact_selection_activate_all(struct contact *c);
 
-/* Saves the selection of contacts for equilibria (contact_select) to the archive if a->saving, else restores it.
+/* Saves the selection of contacts for equilibria (contact_select_active) to the archive if a->saving, else restores it.
  * Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a);
 
@@ -136,7 +137,7 @@ static inline real contact_list_margin(const struct contact *c)
 
 /* Returns the entry of particle i in the contact list (particles that may come into contact), by bisection, or -1 if i
  * is not in it. */
-int64_t contact_list_find(const struct contact *c, int64_t i);
+int64_t contact_list_find_particle(const struct contact *c, int64_t i);
 
 /* Returns the width of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other` of
  * the contact list in the reference configuration [m]; 0 if there is none or if they belong to different bodies. */
@@ -162,7 +163,7 @@ real contact_pair_distance(const struct contact *c, const struct particles *p, i
 
 /* Computes the table that gives the depth of a face below a particle as a function of the density of the face at the
  * particle, for particles on a square or cubic lattice. dim: space dimension. */
-void contact_profile_make(struct contact_profile *profile, int dim);
+void contact_density_profile_make(struct contact_profile *profile, int dim);
 
 /* Computes gap and energy derivatives of the contact between particle number `row` of the contact list and the faces
  * beside it, by the contact law of form `surface`, into c->face[row]. First of two passes over the particles;
@@ -183,14 +184,14 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
  * search, by the contact law of form `surface`. previous_entry: entry of the particle on the previous list `previous`,
  * -1 if it was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy
  * does not change. */
-void contact_face_set_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
-                             const struct particles *p, int64_t row);
+void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
+                                   const struct particles *p, int64_t row);
 
 /* Returns a damping force on the gap of a contact that removes the energy which leap-frog integration adds when contact
  * begins or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy 1/4
  * stiffness gap^2. balance: state of this contact, updated if `advance`, i.e. if a time step was done since the last
  * call; otherwise the last force is returned again. */
-real contact_energy_correction(struct contact_balance *balance, real stiffness, real gap, bool advance);
+real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool advance);
 
 /* Returns the state with which contact_balance starts for a contact on a new list. gap: present gap; previous: state of
  * the contact on the previous list, whose account of energy errors is continued; NULL if the contact was not listed. */
@@ -223,7 +224,7 @@ void contact_face_advance_spring(struct contact *c, const struct particles *p, i
 void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic energy stored in all friction springs [J]. */
-real contact_friction_stored(const struct contact *c);
+real contact_friction_stored_energy(const struct contact *c);
 
 /* Allocates the reactions to friction springs, one for each particle of the contact list. Their values are computed
  * with the next contact forces. */
@@ -239,7 +240,7 @@ void contact_spring_copy(struct contact_spring *to, const struct contact_spring 
 
 /* Sets the friction work of a new list of particles to that of the previous list `previous` plus the elastic energy of
  * springs that are not on the new list. */
-void contact_friction_carry_over(struct contact *c, const struct contact *previous);
+void contact_friction_transfer_work(struct contact *c, const struct contact *previous);
 
 /* Lists for each rigid body the particles within `skin` [m] of its surface, with the gaps at which contact begins and
  * the friction springs. previous: the previous list, from which known particles keep gap and spring. */
@@ -256,7 +257,7 @@ bool contact_rigid_has_moved(const struct contact *c, real distance);
 /* Adds the contact forces of all rigid bodies on particles to p->f, and the opposite forces and moments to the rigid
  * bodies. dt: time since the last call [s], by which friction springs are stretched; all: receives largest overlap and
  * number of contacts. */
-void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct contact_found *all);
+void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *all);
 
 /* Saves the lists of particles near rigid bodies to the archive if a->saving, else restores them. Returns FAILED, with
  * a message, if the archive cannot be read or written, or if a restored list has indices or counts that do not fit. */

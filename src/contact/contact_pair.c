@@ -14,11 +14,11 @@ struct contact_pair {
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     struct contact_pair pair = {0};
-    const real r2 = contact_distance_vector(c, p, row, c->other[q], pair.apart);
+    const real r2 = contact_pair_vector(c, p, row, c->other[q], pair.apart);
     if (!contact_is_active(contact_selection_marks(c), q, r2 < square(c->distance[q]))) return pair;
     pair.r = sqrt(r2);
     pair.overlap = c->distance[q] - pair.r;
-    pair.k = contact_stiffness(c, p, row, c->other[q]);
+    pair.k = contact_pair_stiffness(c, p, row, c->other[q]);
     return pair;
 }
 
@@ -48,7 +48,7 @@ real contact_pair_energy(const struct contact *c, const struct particles *p, int
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     real apart[DIM_MAX];
-    return sqrt(contact_distance_vector(c, p, row, c->other[q], apart)) - c->distance[q];
+    return sqrt(contact_pair_vector(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
 /* Returns the distance at which contact between list entries k and l begins [m]: the smaller of their distance in the
@@ -64,6 +64,6 @@ real contact_pair_distance(const struct contact *c, const struct particles *p, i
     const real mean = 0.5 * (c->size[k] + c->size[l]);
     if (c->law.distance == DISTANCE_LAMMPS) return real_min(NEAR_LAMMPS * sqrt(reference2), FAR_LAMMPS * mean);
     const real nominal = real_min(sqrt(reference2), mean) - contact_notch_width(c, p, k, l);
-    const real r = sqrt(contact_distance_vector(c, p, k, l, apart));
+    const real r = sqrt(contact_pair_vector(c, p, k, l, apart));
     return real_min(nominal, isnan(previous_distance) ? r : real_max(previous_distance, r));
 }

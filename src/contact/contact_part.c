@@ -19,16 +19,16 @@ static void put_contact(const struct contact *c, const struct grid_method *mpm, 
     const struct grid_contact *g = &mpm->contact;
     if (c->law.between == CONTACT_NONE && mpm->fields < 2) return;
     json_open(j, "contact", '{');
-    json_real(j, "began", fmin(c->began, g->began));
-    json_real(j, "ended", fmax(c->ended, g->ended));
-    if (mpm->fields > 1) json_count(j, "nodes_max", g->nodes_most);
+    json_write_real(j, "began", fmin(c->began, g->began));
+    json_write_real(j, "ended", fmax(c->ended, g->ended));
+    if (mpm->fields > 1) json_write_integer(j, "nodes_max", g->nodes_most);
     if (c->law.between == CONTACT_NONE) {
         json_close(j, '}');
         return;
     }
-    json_count(j, "pairs_max", c->pairs_most);
-    json_real(j, "friction_work", contact_friction_work(c));
-    json_real(j, "overlap_max", c->overlap_most / c->law.spacing);
+    json_write_integer(j, "pairs_max", c->pairs_most);
+    json_write_real(j, "friction_work", contact_friction_work(c));
+    json_write_real(j, "overlap_max", c->overlap_most / c->law.spacing);
     json_close(j, '}');
 }
 
@@ -52,13 +52,13 @@ static void put_rigid(const struct rigid_set *rigid, const struct contact *c, co
     for (int k = 0; k < rigid->n; k++) {
         const struct rigid_body *r = &rigid->body[k];
         real v[DIM_MAX];
-        rigids_velocity(rigid, k, clock->t, clock->dt, v);
+        rigids_velocity_of_body(rigid, k, clock->t, clock->dt, v);
         json_open(j, NULL, '{');
-        json_text(j, "name", r->name);
-        json_point(j, "", r->x, r->dim);
-        for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], v[d]);
-        json_real(j, "force_max", r->force_most);
-        json_real(j, "patch", contact_patch_diameter(c, p, k));
+        json_write_text(j, "name", r->name);
+        json_write_point(j, "", r->x, r->dim);
+        for (int d = 0; d < r->dim; d++) json_write_real(j, velocity[d], v[d]);
+        json_write_real(j, "force_max", r->force_most);
+        json_write_real(j, "patch", contact_patch_diagonal(c, p, k));
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -73,7 +73,7 @@ static void put_contact_and_rigid(const struct run *e, struct json *j)
 #define OVERLAP_DOUBTFUL 0.3 /* overlap from which a warning is given [spacings] */
 #define OVERLAP_MOST 0.9     /* overlap beyond which particles pass each other [spacings] */
 
-status contact_overlap_check(struct run *e)
+status contact_check_largest_overlap(struct run *e)
 {
     const struct contact *c = e->contact;
     const real overlap = c->overlap / e->scene->spacing;

@@ -48,7 +48,7 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
  * not in it. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
-    const int64_t row = before->made ? contact_list_find(before, particle) : -1;
+    const int64_t row = before->made ? contact_list_find_particle(before, particle) : -1;
     int64_t low = 0, high = row >= 0 ? before->near[body].n : 0;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
@@ -140,7 +140,7 @@ static real overlap_of(const struct contact *c, const struct particles *p, int b
     return marks ? overlap : real_max(0, overlap);
 }
 
-real contact_patch_diameter(const struct contact *c, const struct particles *p, int rigid_body)
+real contact_patch_diagonal(const struct contact *c, const struct particles *p, int rigid_body)
 {
     real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX], width2 = 0;
     for (int d = 0; d < DIM_MAX; d++) low[d] = INFINITY, high[d] = -INFINITY;
@@ -159,8 +159,8 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
 {
     const struct contact_near *near = &c->near[body];
     real normal[DIM_MAX];
-    const real k = 4 * contact_stiffness(c, p, near->row[q], near->row[q]);
-    contact_energy_correction(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
+    const real k = 4 * contact_pair_stiffness(c, p, near->row[q], near->row[q]);
+    contact_energy_correction_force(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
 }
 
 /* Computes the contact force of rigid body `body` on the particle of entry q in its list, force[DIM_MAX] [N]: normal
@@ -170,7 +170,7 @@ static real push_of(const struct contact *c, const struct particles *p, int body
     const struct contact_near *near = &c->near[body];
     real normal[DIM_MAX] = {0};
     const real overlap = overlap_of(c, p, body, q, normal);
-    const real k = 2 * contact_stiffness(c, p, near->row[q], near->row[q]);
+    const real k = 2 * contact_pair_stiffness(c, p, near->row[q], near->row[q]);
     for (int d = 0; d < DIM_MAX; d++)
         force[d] = (k * overlap - near->balance[q].drag) * normal[d] + (near->spring ? near->spring[q].drag[d] : 0);
     return overlap;
@@ -183,10 +183,10 @@ static void spring_step(struct contact *c, const struct particles *p, int body, 
     const int32_t i = c->particle[near->row[q]];
     real normal[DIM_MAX] = {0}, x[DIM_MAX] = {0}, v[DIM_MAX], slid[DIM_MAX];
     const real overlap = overlap_of(c, p, body, q, normal);
-    const real k = 2 * contact_stiffness(c, p, near->row[q], near->row[q]);
+    const real k = 2 * contact_pair_stiffness(c, p, near->row[q], near->row[q]);
     if (overlap == 0 && near->spring[q].stored == 0) return;
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-    rigid_velocity(&c->rigid[body], x, v);
+    rigid_velocity_at_point(&c->rigid[body], x, v);
     for (int d = 0; d < p->dim; d++) slid[d] = (p->v[d][i] - v[d]) * dt;
     contact_spring_advance(&near->spring[q], p->dim, normal, slid, k, c->law.friction * k * overlap);
 }
@@ -239,7 +239,7 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
     for (int d = 0; d < DIM_MAX; d++) c->rigid[body].force[d] = sum[d], c->rigid[body].moment[d] = sum[DIM_MAX + d];
 }
 
-void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct contact_found *all)
+void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     for (int b = 0; b < c->rigids && c->near; b++) body_force(c, p, b, dt, all);
 }
@@ -260,7 +260,7 @@ static real near_energy(const void *context, int64_t q)
     const struct rigid_sum *s = context;
     const int64_t row = s->c->near[s->body].row[q];
     real normal[DIM_MAX];
-    return contact_stiffness(s->c, s->p, row, row) * square(overlap_of(s->c, s->p, s->body, q, normal));
+    return contact_pair_stiffness(s->c, s->p, row, row) * square(overlap_of(s->c, s->p, s->body, q, normal));
 }
 
 real contact_rigid_energy(const struct contact *c, const struct particles *p)

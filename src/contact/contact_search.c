@@ -36,7 +36,7 @@ static bool is_exposed(const struct particles *p, const struct bonds *b, real le
     return everywhere || p->damage[i] > 0 || lacks_family(b, row, 0, least_volume);
 }
 
-int64_t contact_list_find(const struct contact *c, int64_t i)
+int64_t contact_list_find_particle(const struct contact *c, int64_t i)
 {
     int64_t low = 0, high = c->rows;
     while (low < high) {
@@ -58,7 +58,7 @@ real contact_notch_width(const struct contact *c, const struct particles *p, int
     particle_reference_position(p, j, b);
     for (int n = 0; n < c->law.cracks; n++) {
         const struct crack *notch = &c->law.crack[n];
-        if (notch->width > widest && crack_cuts(notch, a, b, p->dim)) widest = notch->width;
+        if (notch->width > widest && crack_cuts_bond(notch, a, b, p->dim)) widest = notch->width;
     }
     return widest;
 }
@@ -67,7 +67,7 @@ real contact_notch_width(const struct contact *c, const struct particles *p, int
  * to round-off. */
 static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
 {
-    const real full = lattice_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
+    const real full = lattice_particle_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
     if (fabs(share - 1) < 1e-6) return law->spacing;
     return law->spacing * pow(share, 1.0 / p->dim);
 }
@@ -97,7 +97,9 @@ void contact_list_compute_arrays(struct contact *c, const struct particles *p)
         c->size[k] = contact_spacing(&c->law, p, c->particle[k]);
         c->rise[k] = contact_rise(&c->law, p, image_source_particle(p, c->law.image, c->particle[k]), c->size[k]);
         c->root[k] =
-            (int32_t)(k < c->rows ? k : contact_list_find(c, image_source_particle(p, c->law.image, c->particle[k])));
+            (int32_t)(k < c->rows
+                          ? k
+                          : contact_list_find_particle(c, image_source_particle(p, c->law.image, c->particle[k])));
     }
 }
 
@@ -234,9 +236,9 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
         c->distance = BARE("contact.distance", c->pairs, real);
 #pragma omp parallel for schedule(static)
     for (int64_t row = 0; row < c->rows; row++) {
-        const int64_t was = before->made ? contact_list_find(before, c->particle[row]) : -1;
+        const int64_t was = before->made ? contact_list_find_particle(before, c->particle[row]) : -1;
         if (c->law.form == CONTACT_SURFACE)
-            contact_face_set_height(c, before, was, p, row);
+            contact_face_set_onset_height(c, before, was, p, row);
         else
             for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
                 c->distance[q] = contact_pair_distance(c, p, row, c->other[q],
@@ -273,7 +275,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     pairs_begin(c, &before, p);
     contact_springs_copy(c, &before);
     contact_rigid_list_particles(c, &before, p, contact_list_margin(c));
-    contact_friction_carry_over(c, &before);
+    contact_friction_transfer_work(c, &before);
     before.law.stiffness = NULL; /* the new list keeps the law and the recorded forces */
     memset(before.push, 0, sizeof before.push);
     contact_free(&before);
@@ -305,8 +307,8 @@ static bool has_come_far(const struct contact *c)
 
 /* Requests a search for contact if one of the particles list[n], which have just become peridynamic, is part of the
  * first layer of a face. Particles with few broken bonds form no face; they are listed by the next search. */
-void contact_request_search(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list,
-                            int64_t n)
+void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
+                                          const int32_t *list, int64_t n)
 {
     const real least_volume = first_layer_share(family) * family->full;
     if (!contact_is_possible(c)) return;
@@ -323,8 +325,8 @@ bool contact_search_needed(struct contact *c, const struct particles *p)
     return !c->made || has_come_far(c);
 }
 
-void contact_update_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                         const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions)
+void contact_update_pair_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+                              const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions)
 {
     if (!contact_is_possible(c)) return;
     const bool new_faces = broken_bonds != c->broken && step - c->searched >= BREAKS_WAIT;
@@ -334,7 +336,7 @@ void contact_update_list(struct contact *c, const struct particles *p, struct bo
         c->made = true, c->due = false, c->moved = 0;
         c->searched = step, c->broken = broken_bonds;
     } else if (conversions == c->changed) {
-        contact_activate_more(c, p, b, l);
+        contact_activate_newly_moving(c, p, b, l);
         return;
     }
     c->changed = conversions;

@@ -72,7 +72,7 @@ static void balances_rest(struct contact *c)
         for (int64_t q = 0; q < c->near[b].n; q++) c->near[b].balance[q].drag = 0;
 }
 
-int64_t contact_select(struct contact *c, const struct particles *p, real gap_limit)
+int64_t contact_select_active(struct contact *c, const struct particles *p, real gap_limit)
 {
     int64_t changed = 0;
     real normal[DIM_MAX];
@@ -85,18 +85,18 @@ int64_t contact_select(struct contact *c, const struct particles *p, real gap_li
     return changed;
 }
 
-int64_t contact_search_and_select(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                                  const struct family *family, real gap_limit)
+int64_t contact_search_and_select_active(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+                                         const struct family *family, real gap_limit)
 {
     c->due = true;
-    contact_update_list(c, p, b, l, family, c->searched, c->broken, c->changed);
+    contact_update_pair_list(c, p, b, l, family, c->searched, c->broken, c->changed);
     marks_room(c);
     contact_selection_activate_all(c);
     balances_rest(c);
-    return contact_select(c, p, gap_limit);
+    return contact_select_active(c, p, gap_limit);
 }
 
-real contact_list_safe_distance(const struct contact *c) { return 0.5 * contact_list_margin(c); }
+real contact_list_largest_safe_motion(const struct contact *c) { return 0.5 * contact_list_margin(c); }
 
 void contact_use_selection(struct contact *c, bool use) { c->by_overlap = !use; }
 
@@ -131,9 +131,9 @@ static void pair_terms(struct visit *v, int64_t row)
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
         real apart[DIM_MAX] = {0};
-        const real r = sqrt(contact_distance_vector(c, v->p, row, l, apart));
+        const real r = sqrt(contact_pair_vector(c, v->p, row, l, apart));
         if (!c->touch[q] || !(r > 0)) continue;
-        t->n = 2, t->stiffness = 0.5 * contact_stiffness(c, v->p, row, l);
+        t->n = 2, t->stiffness = 0.5 * contact_pair_stiffness(c, v->p, row, l);
         t->particle[0] = c->particle[row], t->particle[1] = c->particle[l];
         for (int d = 0; d < DIM_MAX; d++) t->along[0][d] = apart[d] / r, t->along[1][d] = -apart[d] / r;
         v->visit(v->context, t);
@@ -147,7 +147,7 @@ static void rigid_terms(struct visit *v, int body)
     const struct contact_near *near = &c->near[body];
     for (int64_t q = 0; q < near->n; q++) {
         if (!near->touch[q]) continue;
-        v->term.n = 1, v->term.stiffness = 2 * contact_stiffness(c, v->p, near->row[q], near->row[q]);
+        v->term.n = 1, v->term.stiffness = 2 * contact_pair_stiffness(c, v->p, near->row[q], near->row[q]);
         v->term.particle[0] = c->particle[near->row[q]];
         contact_rigid_gap(c, v->p, body, q, v->term.along[0]);
         v->visit(v->context, &v->term);
@@ -177,8 +177,8 @@ void contact_visit_springs(const struct contact *c, const struct particles *p,
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the marks of active contacts of an equilibrium (contact_select) to the archive if a->saving, else restores
- * them. Returns the status of the archive. */
+/* Saves the marks of active contacts of an equilibrium (contact_select_active) to the archive if a->saving, else
+ * restores them. Returns the status of the archive. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;

@@ -47,7 +47,7 @@ static bool loses_bond(const struct bond_source *s, const struct particles *p, i
     return false;
 }
 
-void convert_cut_particles(struct particles *p, const struct bond_source *source, const struct region *region)
+void convert_particles_at_precracks(struct particles *p, const struct bond_source *source, const struct region *region)
 {
 #pragma omp parallel
     {
@@ -57,14 +57,14 @@ void convert_cut_particles(struct particles *p, const struct bond_source *source
             real X[DIM_MAX];
             particle_reference_position(p, i, X);
             if (region && region_contains(region, X, p->dim, ON_SURFACE * source->family.spacing)) p->kind[i] = KIND_PD;
-            if (!cracks_near_particle(source, p, i)) continue;
+            if (!particle_is_near_crack(source, p, i)) continue;
             family_find(&near, source, NULL, p, i);
             if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;
         }
         memory_free(near.at);
     }
     mirror_images_copy_kinds(p, source);
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
 }
 
 /* ---- one pass ---------------------------------------------------------------------------------------------------- */
@@ -96,7 +96,7 @@ static void list_stiffened(struct index_list *l, const struct bond_source *s, co
 {
     if (!s->modulus || !s->local) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(load_eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_LOST_BOND))) continue;
+        if (!(eight_bytes_as_word(p->flag + first) & EIGHT_TIMES(FLAG_LOST_BOND))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++)
             if (p->kind[i] == KIND_PD && p->flag[i] & FLAG_LOST_BOND && conversion_meets_points(b, p, i))
                 list_add(l, i);
@@ -122,7 +122,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     struct index_list triggered = {0};
     struct neighbour_list near = {0};
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(load_eight_bytes(p->flag + first) & EIGHT_TIMES(MARKS))) continue;
+        if (!(eight_bytes_as_word(p->flag + first) & EIGHT_TIMES(MARKS))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) {
             if (triggers(rule, p, i)) list_add(&triggered, i);
             p->flag[i] &= (uint8_t)~MARKS;
@@ -178,7 +178,7 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t)
 {
-    if (!conversion_is_due(p)) return 0;
+    if (!particles_are_flagged_for_conversion(p)) return 0;
     struct index_list changed = {0}, touched = {0};
     list_stiffened(&touched, source, p, b);
     convert_marked(c, rule, p, source, b->site_map, &changed, t);

@@ -34,10 +34,10 @@ static void sync_listed(void *context, const int32_t *list, int64_t n)
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
-    contact_request_search(e->contact, &e->bonds, &e->source.family, list, n);
+    contact_request_search_if_at_surface(e->contact, &e->bonds, &e->source.family, list, n);
 }
 
-bool conversion_prepare(struct run *e)
+bool conversion_flag_points(struct run *e)
 {
     if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
     if (e->coupling->approaches && e->clock.step % APPROACH_STEPS == 0) {
@@ -70,7 +70,8 @@ int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examine
     const int64_t converted =
         convert_flagged_points(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
                                c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
-    if (converted > 0) interface_rebuild(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
+    if (converted > 0)
+        interface_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
     /* where bonds fade; for broken bonds convert_flagged_points() has updated the partial stresses */
     if (c->uses_partial && e->scene->growths > 0 && (broken_bonds > 0 || converted > 0 || bonds_fade))
         partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
@@ -92,8 +93,8 @@ static void bonded_make(struct coupling_state *c, const struct particles *p, con
     for (int64_t i = 0; i < p->n; i++) c->bonded[i] = p->kind[i] == KIND_MPM && particle_has_intact_bond(b, i);
 }
 
-void interface_rebuild(struct coupling_state *c, const struct particles *p, const struct bonds *b,
-                       const struct bond_source *source)
+void interface_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p, const struct bonds *b,
+                                         const struct bond_source *source)
 {
     bonded_make(c, p, b);
     if (p->n_free == 0) interface_zone_free(&c->zone);
@@ -108,7 +109,7 @@ void coupling_compute_partial_stress(struct run *e)
     c->partial.gives_all = e->coupling_kind != COUPLING_PARTIAL_STRESS;
     c->uses_partial = !c->partial.gives_all || e->part.end_strain;
     if (c->uses_partial) partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    interface_rebuild(c, &e->part, &e->bonds, &e->source);
+    interface_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source);
 }
 
 status coupling_make_mesh(struct run *e, bool motion_set_later)

@@ -27,8 +27,8 @@ static void put_notches(struct json *j, const struct notches *n, real spacing)
     if (n->n == 0) return;
     json_open(j, "notches", '[');
     for (int k = 0; k < n->n && k < SAID; k++) {
-        notch_describe(n, k, spacing, text, sizeof text);
-        json_text(j, NULL, text);
+        notch_describe_representation(n, k, spacing, text, sizeof text);
+        json_write_text(j, NULL, text);
     }
     json_close(j, ']');
 }
@@ -39,18 +39,18 @@ static void put_conversion(const struct run *e, struct json *j)
     real n = (real)e->part.n_body, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
     json_open(j, "conversion", '{');
     if (isfinite(c->first_time) && c->events > 0) {
-        json_real(j, "first_time", c->first_time);
-        json_point(j, "", c->first_place, e->part.dim);
+        json_write_real(j, "first_time", c->first_time);
+        json_write_point(j, "", c->first_place, e->part.dim);
     }
-    json_real(j, "pd_share_start", start);
-    json_real(j, "pd_share_end", end);
-    json_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
+    json_write_real(j, "pd_share_start", start);
+    json_write_real(j, "pd_share_end", end);
+    json_write_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
     put_notches(j, &e->coupling->notches, e->scene->spacing);
     if (e->part.low_since) {
-        json_count(j, "converted", c->converted);
-        json_count(j, "reverted", c->reverted);
-        json_count(j, "reversions_most", reversions_most(&e->part));
-        json_real(j, "reversion_energy", c->reversion_energy);
+        json_write_integer(j, "converted", c->converted);
+        json_write_integer(j, "reverted", c->reverted);
+        json_write_integer(j, "reversions_most", reversions_most(&e->part));
+        json_write_real(j, "reversion_energy", c->reversion_energy);
     }
     json_close(j, '}');
 }

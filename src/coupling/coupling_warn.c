@@ -46,7 +46,7 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
 {
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
-    if (!scene_bodies_can_meet(s) || approaches || scene_accepts(s, ACCEPT_CONTACT)) return;
+    if (!scene_bodies_can_meet(s) || approaches || scene_silences_warning(s, ACCEPT_CONTACT)) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_is_single_equilibrium(s))) return;
     if (s->method == METHOD_PD)
         warnings_add(to,
@@ -124,5 +124,5 @@ void warn_of_joined_bodies(const struct run *e, struct warnings *to)
 {
     warn_of_contact(e->scene, e->frame, e->coupling->approaches, to);
     warn_of_touch(e, to);
-    voids_warn(e, to);
+    warn_of_voids(e, to);
 }

@@ -199,7 +199,7 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
 
 /* Returns half of the energy that damping removed [J]: -1/2 times the sum over members of change of momentum times
  * present velocity. The other half has been computed with the velocities before the step. */
-real interface_damped_second_half(const struct interface_zone *r, const struct particles *p)
+real interface_zone_damped_energy_second_half(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */
     for (int64_t k = 0; k < r->n; k++)
@@ -217,7 +217,7 @@ real interface_zone_damp_velocities(struct interface_zone *r, struct particles *
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, strength);
     }
-    const real lost = interface_damped_second_half(r, p);
+    const real lost = interface_zone_damped_energy_second_half(r, p);
     for (int64_t k = 0; k < r->n; k++)
         for (int d = 0; d < p->dim; d++) p->v[d][r->particle[k]] += r->change[k * p->dim + d] / p->mass[r->particle[k]];
     return lost;

@@ -40,7 +40,7 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
             away[d] = 0.5 * (from[d] + to[d]) - middle[d];
             length2 += square(away[d]);
         }
-        if (mirrors_continue_crack(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
+        if (mirrors_continue_crack_end(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
         for (int d = 0; d < p->dim && length2 > 0; d++) X[d] += s->family.spacing * away[d] / sqrt(length2);
         if (cells_find_near(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2) return true;
     }
@@ -86,7 +86,7 @@ static bool parted(const struct crack *c, const struct particles *p, int64_t i, 
     real a[DIM_MAX], b[DIM_MAX];
     particle_reference_position(p, i, a);
     particle_reference_position(p, j, b);
-    return crack_cuts(c, a, b, p->dim);
+    return crack_cuts_bond(c, a, b, p->dim);
 }
 
 /* Returns true if crack c is within the cutoff of bonds of particle i. */
@@ -94,7 +94,7 @@ static bool near_crack(const struct crack *c, const struct particles *p, const s
 {
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
-    return crack_may_cut_near(c, X, s->family.cutoff, p->dim);
+    return crack_may_cut_bonds_near(c, X, s->family.cutoff, p->dim);
 }
 
 static real apart(const struct particles *p, int64_t i, int64_t j)

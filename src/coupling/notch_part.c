@@ -26,7 +26,7 @@ static const char *obstacle_of(const struct scene *s, const struct reference_fra
 {
     const char *why = scene_obstacle(s);
     if (!why && !reference_frame_in_use(r)) why = "there are no material points in the reference frame";
-    if (!why && grid_mirror_off_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
+    if (!why && grid_has_mirror_off_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
 }
 
@@ -58,11 +58,11 @@ status precracks_apply(struct run *e)
                            tips);
     notches_convert(n, &e->part, &e->source);
     convert_particles_beside_voids(&e->part, e->source.voids, mesh_ignores_voids(g, s));
-    convert_cut_particles(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
+    convert_particles_at_precracks(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
     return OK;
 }
 
-void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t capacity)
+void notch_describe_representation(const struct notches *n, int crack, real spacing, char *text, size_t capacity)
 {
     if (n->notch[crack].slit)
         snprintf(text, capacity, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / spacing);

@@ -7,7 +7,7 @@
 
 /* Returns the share of the length of the segment from a to b that is inside a cube [1]. X: middle of the cube;
  * half_edge: half of its edge [m]. */
-real segment_share_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim);
+real segment_fraction_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim);
 
 /* Reflection that maps the particle `root` of the body to one of its mirror images, by one or several mirrors: X'_d =
  * sign_d X_d + offset_d. */
@@ -18,7 +18,7 @@ struct reflection {
 
 /* Returns the reflection that maps a particle of the body to entry i of the particle arrays, a mirror image; the
  * identity if i itself is a particle of the body. */
-struct reflection mirror_reflection_of(const struct bond_source *s, const struct particles *p, int64_t i);
+struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t i);
 
 /* Derivative of the force F of a bond by a uniform strain eps, times the length of the bond [N m]. With the unit vector
  * e along the bond,
@@ -28,8 +28,8 @@ struct response {
 };
 
 /* Returns the derivative of the force of a bond in the row of particle i by a uniform strain (struct response). */
-struct response bond_response_of(const struct particles *p, const struct bonds *b, const struct bond_source *source,
-                                 int32_t i, const struct bond *bond);
+struct response bond_strain_response(const struct particles *p, const struct bonds *b, const struct bond_source *source,
+                                     int32_t i, const struct bond *bond);
 
 /* Adds to the tensor `tensor` [J] the contribution of the bond from `point`, a material point, to `other`, in
  * proportion to the share of its length inside the cell with the centre `centre` and half edge `half_edge`: T_abcd = l
@@ -42,14 +42,15 @@ void partial_tensor_add_bond(real *tensor, const real *point, const real *other,
  * that the elastic energy of the point stays positive (partial_positive.c). mean_strain_derivative: receives the
  * derivative of the point's mean strain by the strain of its cell, in symmetric components [1]; 0 if the point has no
  * bonds. Returns true if it has bonds. */
-bool partial_tensor_limit_state(real *tensor, real *mean_strain_derivative, const struct particles *p,
-                                const struct bonds *b, const struct bond_source *source, int64_t i);
+bool partial_tensor_limit_state_based(real *tensor, real *mean_strain_derivative, const struct particles *p,
+                                      const struct bonds *b, const struct bond_source *source, int64_t i);
 
 /* Limits the tensor `tensor` of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its
  * cell, so that no eigenvalue of V C - `tensor` is negative. V, C: volume and elastic tensor of the point. Otherwise
  * the cell would be unstable with any time step. The limit acts only for irregular particles or bonds stiffer than the
  * material. */
-void partial_tensor_limit_bonds(real *tensor, const struct particles *p, const struct bond_source *source, int64_t i);
+void partial_tensor_limit_bond_based(real *tensor, const struct particles *p, const struct bond_source *source,
+                                     int64_t i);
 
 /* Returns half the edge of the cell of a particle [m]. */
 real particle_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);

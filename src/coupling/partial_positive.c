@@ -110,8 +110,8 @@ static void stay_below(real *T, const struct material *m, int dim, real V, real 
                             (partial_positive_root_of(c, dim) * partial_positive_root_of(d, dim));
 }
 
-bool partial_tensor_limit_state(real *tensor, real *mean_strain_derivative, const struct particles *p,
-                                const struct bonds *b, const struct bond_source *s, int64_t i)
+bool partial_tensor_limit_state_based(real *tensor, real *mean_strain_derivative, const struct particles *p,
+                                      const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
     const struct state_modulus *m = &s->modulus[p->material[i]];
@@ -134,7 +134,7 @@ bool partial_tensor_limit_state(real *tensor, real *mean_strain_derivative, cons
     return end;
 }
 
-void partial_tensor_limit_bonds(real *tensor, const struct particles *p, const struct bond_source *s, int64_t i)
+void partial_tensor_limit_bond_based(real *tensor, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const real none[SYM_MAX] = {0};
     stay_below(tensor, &s->material[p->material[i]], p->dim, p->volume0[i], 0, none);

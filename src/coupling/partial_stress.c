@@ -27,7 +27,7 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* Returns the fraction of the segment from a to b that is inside the cube with centre X and half edge half_edge [m]
  * [1]. a, b, X: [dim] [m]. */
-real segment_share_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim)
+real segment_fraction_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim)
 {
     real in = 0, out = 1;
     for (int d = 0; d < dim; d++) {
@@ -43,7 +43,7 @@ real segment_share_in_cube(const real *a, const real *b, const real *X, real hal
     return out > in ? out - in : 0;
 }
 
-struct reflection mirror_reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
+struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     struct reflection r = {.sign = {1, 1, 1}, .root = i};
     while (r.root >= p->n) { /* X of this image: reflection of X of its source along one axis */
@@ -66,7 +66,7 @@ static bool same(int a, int b) { return a == b; }
 void partial_tensor_add_bond(real *tensor, const real *point, const real *other, const real *centre, real half_edge,
                              struct response k, int dim)
 {
-    real share = segment_share_in_cube(point, other, centre, half_edge, dim), e[DIM_MAX], length = 0;
+    real share = segment_fraction_in_cube(point, other, centre, half_edge, dim), e[DIM_MAX], length = 0;
     if (share == 0) return;
     for (int d = 0; d < dim; d++) e[d] = other[d] - point[d], length += square(e[d]);
     length = sqrt(length);
@@ -92,8 +92,8 @@ static real family_share(const struct particles *p, const struct bonds *b, const
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 
-struct response bond_response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                                 int32_t i, const struct bond *bond)
+struct response bond_strain_response(const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                                     int32_t i, const struct bond *bond)
 {
     const int32_t j = bond->nbr;
     const real r = fabs(1 / bond->inverse_length), D = p->dim;
@@ -142,7 +142,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
                            const struct box *box, int64_t j, const real *X, real half)
 {
     if (j < p->n && (b->row_of[j] < 0 || box_passes(&box[b->row_of[j]], X, half, p->dim))) return;
-    struct reflection r = mirror_reflection_of(s, p, j);
+    struct reflection r = mirror_image_reflection(s, p, j);
     int32_t row = b->row_of[r.root];
     if (row < 0 || p->kind[r.root] != KIND_MPM) return;
     real xp[DIM_MAX], xm[DIM_MAX];
@@ -156,7 +156,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
         }
         if (apart) continue;
-        partial_tensor_add_bond(T, xp, xm, X, half, bond_response_of(p, b, s, b->particle[row], &bond), p->dim);
+        partial_tensor_add_bond(T, xp, xm, X, half, bond_strain_response(p, b, s, b->particle[row], &bond), p->dim);
     }
 }
 
@@ -187,7 +187,7 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
     real compliance[SYM_MAX * SYM_MAX];
-    material_compliance(&s->material[p->material[i]], dim, compliance);
+    material_compliance_matrix(&s->material[p->material[i]], dim, compliance);
     real largest = 0;
     for (int a = 0; a < n; a++)
         for (int c = 0; c < n; c++) {
@@ -214,7 +214,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int n = symmetric_component_count(p->dim);
-    const bool end = partial_tensor_limit_state(T, entry + n * n, p, b, s, i);
+    const bool end = partial_tensor_limit_state_based(T, entry + n * n, p, b, s, i);
     if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
     array_fill_bytes(entry, 0, partial_stress_entry_size(s, p->dim), sizeof *entry);
     return end;
@@ -224,7 +224,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
  * Returns false if no bond crosses the cell of the point. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    partial_tensor_limit_bonds(T, p, s, i);
+    partial_tensor_limit_bond_based(T, p, s, i);
     return partial_matrix(entry, T, p, s, i);
 }
 
@@ -269,7 +269,7 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 {
     int64_t found = 0;
     for (int64_t first = 0; first < n; first += LANES) {
-        if (!load_eight_bytes(mark + first)) continue;
+        if (!eight_bytes_as_word(mark + first)) continue;
         for (int64_t i = first; i < first + LANES; i++) {
             if (mark[i] && list) list[found] = (int32_t)i;
             found += mark[i] != 0;
@@ -445,7 +445,7 @@ void bonded_points_strain_from_stress(const struct partial_stress *partial, stru
         const int64_t i = p->list_free[k], entry = partial->index[i];
         const int m = p->material[i];
         if (entry < 0) continue;
-        if (!known[m]) material_compliance(&material[m], dim, compliance[m]), known[m] = true;
+        if (!known[m]) material_compliance_matrix(&material[m], dim, compliance[m]), known[m] = true;
         p->end_strain[i] = 0;
         for (int c = 0; c < n; c++)
             for (int d = 0; d < n; d++)

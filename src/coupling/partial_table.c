@@ -151,7 +151,7 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
                 int start[DIM_MAX];
                 for (int d = 0; d < t->dim; d++) X[d] = cell[d], start[d] = -cell[d];
-                const real share = segment_share_in_cube(from, end, X, 0.5, t->dim);
+                const real share = segment_fraction_in_cube(from, end, X, 0.5, t->dim);
                 const int64_t place = place_from(t, start);
                 if (share <= 0) continue;
                 if (count)
@@ -281,7 +281,7 @@ static void responses_room(struct partial_table *t, int64_t open)
     const int64_t room = 2 * open; /* only entries that are written take memory */
     a->response = a->response ? memory_resize_uninitialised("partial.answer", a->response, a->room * each, room * each,
                                                             sizeof *a->response)
-                              : memory_new_sparse("partial.answer", room * each, sizeof *a->response);
+                              : memory_new_lazy_uninitialised("partial.answer", room * each, sizeof *a->response);
     a->free = memory_resize("partial.free", a->free, a->room, room, sizeof *a->free);
     a->room = room;
 }
@@ -318,7 +318,7 @@ static void response_make(const struct partial_table *t, const struct particles 
         particle_reference_position(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         INVARIANT(place >= 0 && t->vector[place] >= 0);
-        const struct response r = bond_response_of(p, b, s, b->particle[row], &bond);
+        const struct response r = bond_strain_response(p, b, s, b->particle[row], &bond);
         real *part = response + t->vector[place] * t->parts;
         part[0] = s->rotates ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
@@ -339,7 +339,7 @@ static bool partial_table_has_bonds(struct row_block_intact *last, const struct 
     const int64_t row = b->row_of[i], row_block = row / LANES;
     if (p->kind[i] != KIND_MPM || row < 0) return false;
     if (last->row_block != row_block)
-        *last = (struct row_block_intact){row_block, row_block_intact_lanes(b, row_block)};
+        *last = (struct row_block_intact){row_block, row_block_lanes_with_intact_bonds(b, row_block)};
     return last->rows >> row % LANES & 1;
 }
 
@@ -434,7 +434,7 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
-    const int32_t *own = l->at + lattice_site_of(l, p, i);
+    const int32_t *own = l->at + site_map_find_site(l, p, i);
     int n = 0;
     for (int k = 0; k <= t->vectors; k++) {
         const struct near_place *near = &t->near[k];
@@ -477,7 +477,7 @@ void partial_table_sum_tensor(const struct partial_table *t, const struct partic
         if (k + ROWS_AHEAD < rows) row_fetch(t, &row[k + ROWS_AHEAD]);
         int signs = 0;
         if (row[k].j >= p->n) {
-            const struct reflection r = mirror_reflection_of(s, p, row[k].j);
+            const struct reflection r = mirror_image_reflection(s, p, row[k].j);
             for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         }
         if (t->parts == 1)

@@ -218,7 +218,7 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
         if (real_max(from[d], end[d]) <= to->X[d] - to->half || real_min(from[d], end[d]) >= to->X[d] + to->half)
             return;
     }
-    const real share = 0.5 * segment_share_in_cube(from, end, to->X, to->half, dim);
+    const real share = 0.5 * segment_fraction_in_cube(from, end, to->X, to->half, dim);
     if (share == 0) return;
     for (int d = 0; d < dim; d++) {
         e[d] = (end[d] - from[d]) * bond->inverse_length;
@@ -251,7 +251,7 @@ static void crossing_of(struct crossing *to, const struct particles *p, const st
     particles_find_near(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim), true);
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
-        const struct reflection r = mirror_reflection_of(source, p, j);
+        const struct reflection r = mirror_image_reflection(source, p, j);
         const int64_t row = b->row_of[r.root];
         if (row < 0 || p->body[j] != p->body[i]) continue;
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)

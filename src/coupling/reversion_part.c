@@ -18,7 +18,7 @@ static int64_t period(const struct run_clock *clock, const struct material_table
     return steps > 1 ? steps : 1;
 }
 
-status reversion_check(const struct scene *s)
+status reversion_check_scene(const struct scene *s)
 {
     const char *why = NULL;
     if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
@@ -35,7 +35,7 @@ status reversion_check(const struct scene *s)
 /* Returns the sum of elastic and kinetic energies of the bodies at the present positions [J]. */
 static real energy_now(struct run *e)
 {
-    if (e->source.modulus) compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    if (e->source.modulus) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
@@ -51,7 +51,7 @@ static void revert_listed(struct run *e, const int32_t *list, int64_t n)
     frame_insert_points(e->frame, &e->part, list, n, &e->damped);
     conversion_update_mesh(e, n);
     frame_update_point_motion(e->frame, &e->part, &e->loads);
-    interface_rebuild(e->coupling, &e->part, &e->bonds, &e->source);
+    interface_rebuild_after_bond_change(e->coupling, &e->part, &e->bonds, &e->source);
     e->grid->sort_needed = e->contact->due = true;
     e->coupling->conversion.reversion_energy += energy_now(e) - before;
 }
@@ -63,7 +63,7 @@ void reversion_apply_due(struct run *e)
     if (!e->part.low_since || e->clock.step == 0 || e->clock.step % period(&e->clock, &e->tables, &e->source) != 0 ||
         e->part.n_of[KIND_PD] == 0)
         return;
-    compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     const int64_t n = reversion_select_particles(
         &(struct reversion_rule){.source = &e->source,
                                  .elastic = e->tables.elastic,

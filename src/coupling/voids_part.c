@@ -11,7 +11,7 @@
 
 bool mesh_ignores_voids(const struct grid *g, const struct scene *s)
 {
-    return s->dim == 1 || grid_mirror_off_nodes(g, s);
+    return s->dim == 1 || grid_has_mirror_off_nodes(g, s);
 }
 
 void convert_particles_beside_voids(struct particles *p, const struct voids *v, bool include_meshed)
@@ -83,7 +83,7 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
     return 2 * regular > all ? found : (struct closed){0};
 }
 
-void voids_warn(const struct run *e, struct warnings *to)
+void warn_of_voids(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     const bool uncut = mesh_ignores_voids(&e->grid->field[0].grid, s);
@@ -97,7 +97,7 @@ void voids_warn(const struct run *e, struct warnings *to)
             s->body[e->part.body[grid.first]].name, particle_position_text(&e->part, grid.first, 4).text,
             (long long)grid.n, uncut ? "" : "mpm.frame: reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
-        if (s->body[b].joined != b || body_surface_is_exact(s, b)) continue;
+        if (s->body[b].joined != b || joined_bodies_have_exact_surface(s, b)) continue;
         const struct closed gap =
             closed_in_lattice(s, &e->part, &e->cells, b, voids_interaction_distance(s, e->source.family.cutoff));
         if (gap.n == 0) continue;

@@ -60,7 +60,7 @@ static real one_operand(enum expression_op op, real a)
     }
 }
 
-real expression_apply_operation(enum expression_op op, real a, real b)
+real expression_op_apply(enum expression_op op, real a, real b)
 {
     switch (op) {
     case EXPRESSION_ADD:
@@ -99,11 +99,11 @@ real expression_evaluate(const struct expression *e, const real *X, int dim, rea
     real stack[EXPRESSION_STACK + 1];
     int top = -1;
     for (const struct expression_step *step = e->step, *end = step + e->n; step < end; step++) {
-        if (expression_is_leaf(step->op)) {
+        if (expression_op_is_leaf(step->op)) {
             stack[++top] = leaf(step, X, dim, t);
-        } else if (expression_has_two(step->op)) {
+        } else if (expression_op_is_binary(step->op)) {
             top--;
-            stack[top] = expression_apply_operation(step->op, stack[top], stack[top + 1]);
+            stack[top] = expression_op_apply(step->op, stack[top], stack[top + 1]);
         } else {
             stack[top] = one_operand(step->op, stack[top]);
         }
@@ -120,7 +120,8 @@ void expression_make(struct expression *e, const struct expression_step *step, i
     memcpy(e->text, text, length);
     for (int k = 0; k < n; k++) {
         e->in_time |= step[k].op == EXPRESSION_T;
-        e->in_space |= expression_is_leaf(step[k].op) && step[k].op != EXPRESSION_NUMBER && step[k].op != EXPRESSION_T;
+        e->in_space |=
+            expression_op_is_leaf(step[k].op) && step[k].op != EXPRESSION_NUMBER && step[k].op != EXPRESSION_T;
     }
 }
 

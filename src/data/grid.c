@@ -88,7 +88,7 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
     return OK;
 }
 
-bool grid_compute_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes)
+bool grid_set_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes)
 {
     real n = 1;
     g->n = 1;

@@ -143,7 +143,7 @@ static int64_t count_shells(const struct hull *s)
 
 /* Computes the area vector of face k, normal to it and of the length of its area [m^2]; for a segment in 2D of its
  * length [m]. */
-void hull_face_area(const struct hull *s, int64_t k, real area[DIM_MAX])
+void hull_face_area_vector(const struct hull *s, int64_t k, real area[DIM_MAX])
 {
     const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];
     if (s->dim == 2) {
@@ -164,14 +164,14 @@ static real volume_of(const struct hull *s)
     real sum = 0;
     for (int64_t k = 0; k < s->faces; k++) {
         real area[DIM_MAX], arm[DIM_MAX];
-        hull_face_area(s, k, area);
+        hull_face_area_vector(s, k, area);
         for (int d = 0; d < s->dim; d++) arm[d] = s->corner[s->face[k][0]][d] - s->corner[s->face[0][0]][d];
         sum += dot(arm, area, s->dim) / s->dim;
     }
     return sum;
 }
 
-real hull_support(const struct hull *s, const real *direction)
+real hull_support_function(const struct hull *s, const real *direction)
 {
     real most = -INFINITY;
     for (int64_t k = 0; k < s->faces; k++)

@@ -36,7 +36,7 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < DIM_MAX; d++) n->low[d] = INFINITY, n->high[d] = -INFINITY;
     for (int32_t k = n->first; k < n->first + n->count; k++) {
         real area[DIM_MAX];
-        hull_face_area(s, leaf[k].face, area);
+        hull_face_area_vector(s, leaf[k].face, area);
         const real size = sqrt(dot(area, area, s->dim));
         weight += size;
         for (int d = 0; d < s->dim; d++) {
@@ -216,7 +216,7 @@ static void face_nearest(const struct hull *s, int64_t k, const real *X, real *n
         segment_nearest(corner[0], corner[1], X, 2, nearest);
         return;
     }
-    hull_face_area(s, k, area);
+    hull_face_area_vector(s, k, area);
     triangle_nearest(corner, area, X, nearest);
 }
 
@@ -280,7 +280,7 @@ real hull_distance(const struct hull *s, const real *X, real *normal)
     if (s->faces == 0) return INFINITY;
     const int32_t face = nearest_face(s, X, point, &r2);
     const real distance = sqrt(r2), side = hull_outside(s, X) ? 1 : -1;
-    if (normal) hull_face_area(s, face, area);
+    if (normal) hull_face_area_vector(s, face, area);
     const real size = sqrt(dot(area, area, s->dim));
     for (int d = 0; normal && d < s->dim; d++)
         normal[d] = distance > 1e-12 * size ? side * (X[d] - point[d]) / distance : size > 0 ? area[d] / size : 0;

@@ -83,14 +83,14 @@ static real rayleigh_speed(real longitudinal, real shear)
     return 0.5 * (low + high);
 }
 
-real material_stress_at(const struct material *m, real strain)
+real material_uniaxial_stress(const struct material *m, real strain)
 {
     const real elastic = m->young * strain;
     if (!material_yields(m) || elastic <= m->yield_stress) return elastic;
     return m->yield_stress + m->yield_tangent * (strain - m->yield_stress / m->young);
 }
 
-void material_compute_constants(struct material *m, enum space space)
+void material_compute_derived_constants(struct material *m, enum space space)
 {
     real E = m->young, nu = m->poisson;
     m->yield_hardening = E * m->yield_tangent / (E - m->yield_tangent);
@@ -98,12 +98,12 @@ void material_compute_constants(struct material *m, enum space space)
         m->c11 = m->bulk = E;
         m->c12 = m->shear = m->shear_speed = m->rayleigh_speed = 0;
         m->wave_speed = sqrt(E / m->density);
-        law_compute_constants(&m->law, m->yield_stress, E, nu, 0, m->density);
+        law_compute_derived_constants(&m->law, m->yield_stress, E, nu, 0, m->density);
         return;
     }
     bool thin = space == SPACE_PLANE_STRESS;
     m->shear = E / (2 * (1 + nu));
-    law_compute_constants(&m->law, m->yield_stress, E, nu, m->shear, m->density);
+    law_compute_derived_constants(&m->law, m->yield_stress, E, nu, m->shear, m->density);
     m->c12 = thin ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
     m->c11 = m->c12 + 2 * m->shear;
     m->bulk = m->c12 + 2 * m->shear / space_dim(space);
@@ -124,12 +124,12 @@ static void isotropic_matrix(int dim, real diagonal, real off, real shear, real 
         }
 }
 
-void material_stiffness(const struct material *m, int dim, real *matrix)
+void material_stiffness_matrix(const struct material *m, int dim, real *matrix)
 {
     isotropic_matrix(dim, m->c11, m->c12, 2 * m->shear, matrix);
 }
 
-void material_compliance(const struct material *m, int dim, real *matrix)
+void material_compliance_matrix(const struct material *m, int dim, real *matrix)
 {
     real c11 = m->c11, c12 = m->c12;
     real determinant = (c11 - c12) * (c11 + (dim - 1) * c12);

@@ -120,7 +120,7 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional_arrays
             particles_put(p, f, k, memory_new(f->name, n + LANES, f->size));
     for (int kind = 0; kind < KINDS; kind++) p->list[kind] = NEW("particles.list", n, int32_t);
     p->list_free = NEW("particles.list_free", n, int32_t);
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
 }
 
 void particles_add_images(struct particles *p, int64_t images, int optional_arrays)
@@ -200,7 +200,7 @@ int64_t particles_nearest(const struct particles *p, const real *X)
     return nearest;
 }
 
-real particles_longest_edge(const struct particles *p)
+real particles_bounding_box_longest_edge(const struct particles *p)
 {
     real low, high, longest = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -250,7 +250,7 @@ void particles_sort(struct particles *p, real spacing, int optional_arrays)
     find_places(p, spacing, place);
     if (in_order(place, p->n)) { /* a single lattice is created in this order */
         memory_free(place);
-        particles_update_lists(p);
+        particles_update_kind_lists(p);
         return;
     }
     char *scratch = NEW("particles.scratch", p->n * (int64_t)sizeof(real), char);
@@ -260,14 +260,14 @@ void particles_sort(struct particles *p, real spacing, int optional_arrays)
             permute(get(p, f, k), f->size, place, p->n, scratch);
     memory_free(scratch);
     memory_free(place);
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
 }
 
 /* Returns true if the eight particles i .. i + 7 have one kind, and either all or none of them are points of the
  * mesh. */
 static bool eight_alike(const struct particles *p, int64_t i)
 {
-    const uint64_t meshed = load_eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
+    const uint64_t meshed = eight_bytes_as_word(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
     return eight_bytes_are_equal(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
@@ -278,7 +278,7 @@ static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
     *n += more;
 }
 
-void particles_update_lists(struct particles *p)
+void particles_update_kind_lists(struct particles *p)
 {
     for (int kind = 0; kind < KINDS; kind++) p->n_of[kind] = 0;
     p->n_free = 0;
@@ -294,12 +294,12 @@ void particles_update_lists(struct particles *p)
 /* Returns true if a particle is marked for conversion from material point to peridynamics: it lost a bond, has a high
  * stress, or is near another body. Eight particles are tested at a time; entries beyond the body are images, which
  * never have these flags. */
-bool conversion_is_due(const struct particles *p)
+bool particles_are_flagged_for_conversion(const struct particles *p)
 {
     uint64_t any = 0;
 #pragma omp parallel for simd schedule(static) reduction(| : any)
     for (int64_t i = 0; i < p->n; i += LANES)
-        any |= load_eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED | FLAG_NEAR);
+        any |= eight_bytes_as_word(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED | FLAG_NEAR);
     return any != 0;
 }
 

@@ -23,25 +23,25 @@ static real direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
     return length;
 }
 
-real region_support_bound(const struct region *r, const real *direction, int dim)
+real region_support_function_bound(const struct region *r, const real *direction, int dim)
 {
     real most = r->n == 0 || r->solid[0].intersect ? INFINITY : -INFINITY;
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
         if (s->subtract) continue;
-        const real own = solid_support(s, direction, dim);
+        const real own = solid_support_function(s, direction, dim);
         most = s->intersect ? real_min(most, own) : real_max(most, own);
     }
     return most;
 }
 
-bool region_bounds(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX])
+bool region_bounding_box(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX])
 {
     bool bounded = r->n > 0;
     for (int d = 0; d < dim; d++) {
         real along[DIM_MAX] = {0};
-        along[d] = -1, lower[d] = -region_support_bound(r, along, dim);
-        along[d] = 1, upper[d] = region_support_bound(r, along, dim);
+        along[d] = -1, lower[d] = -region_support_function_bound(r, along, dim);
+        along[d] = 1, upper[d] = region_support_function_bound(r, along, dim);
         if (!isfinite(lower[d]) || !isfinite(upper[d])) bounded = false;
     }
     return bounded;
@@ -165,7 +165,7 @@ static real table_steepest(const struct time_function *f, real t)
     return most;
 }
 
-real time_function_largest_slope(const struct time_function *f, real t_end)
+real time_function_largest_slope_until(const struct time_function *f, real t_end)
 {
     static const real pi = 3.14159265358979323846;
     const bool meets = f->from < t_end && f->until > 0;
@@ -285,7 +285,7 @@ static bool far_apart(const struct crack *c, const real *a, const real *b, int d
     return false;
 }
 
-bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
+bool crack_cuts_bond(const struct crack *c, const real *a, const real *b, int dim)
 {
     struct crack_plane plane;
     int d = 0;
@@ -306,7 +306,7 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
     return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
 }
 
-bool crack_may_cut_near(const struct crack *c, const real *X, real bond_length, int dim)
+bool crack_may_cut_bonds_near(const struct crack *c, const real *X, real bond_length, int dim)
 {
     real far = -INFINITY,
          size = 0; /* distance from the bounding box of its corners; all tolerances are below size/1e9 */
@@ -325,7 +325,7 @@ bool crack_may_cut_near(const struct crack *c, const real *X, real bond_length, 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
 /* Returns velocity, displacement and strain of the wave w at X[dim] at t = 0, in a material with wave speed c [m/s]. */
-struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim)
+struct wave_state wave_pulse_initial_state(const struct wave_pulse *w, const real *X, real c, int dim)
 {
     const real root_of_pi = 1.77245385090551602730, radius = 0.25 * w->width;
     real xi = 0;

@@ -22,7 +22,7 @@ static int run_length(const struct region *r, int first)
     return end - first < RUN_LEAST ? 1 : end - first;
 }
 
-void region_build_index(struct region *r, int dim)
+void region_build_search_trees(struct region *r, int dim)
 {
     int runs = 0;
     for (int k = 0; k < r->n; k += run_length(r, k)) runs++;
@@ -59,7 +59,7 @@ static bool run_within(const struct solid *s, const struct region_run *run, cons
     bool within = false;
     if (run->count == 1) return solid_is_within(s, X, dim, most);
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; !within && (k = box_search_next(&near, solid_level_distance_bound(most))) >= 0;)
+    for (int k; !within && (k = box_search_next(&near, solid_distance_bound_from_level(most))) >= 0;)
         within = solid_is_within(&s[k], X, dim, most);
     return within;
 }
@@ -72,7 +72,7 @@ static real run_level(const struct solid *s, const struct region_run *run, const
     real nearest = INFINITY;
     if (run->count == 1) return solid_level_set_value(s, X, dim);
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; (k = box_search_next(&near, solid_level_distance_bound(nearest))) >= 0;)
+    for (int k; (k = box_search_next(&near, solid_distance_bound_from_level(nearest))) >= 0;)
         nearest = real_min(nearest, solid_level_set_value(&s[k], X, dim));
     return nearest;
 }
@@ -88,7 +88,7 @@ static real run_distance(const struct solid *s, const struct region_run *run, co
     if (run->count == 1) return solid_distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; (k = box_search_next(&near, solid_level_distance_bound(nearest))) >= 0;) {
+    for (int k; (k = box_search_next(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
         const real distance = solid_distance(&s[k], X, dim, own);
         if (!(distance < nearest || (distance == nearest && k < first))) continue;
         nearest = distance, first = k;
@@ -135,13 +135,13 @@ real region_level_set_value(const struct region *r, const real *X, int dim)
     return level;
 }
 
-bool region_has_endless_box(const struct region *r, int dim)
+bool region_has_infinite_box(const struct region *r, int dim)
 {
     bool endless = false;
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
         for (int d = 0; d < dim && s->kind == SOLID_BOX; d++) endless |= !isfinite(s->from[d]) || !isfinite(s->to[d]);
-        endless |= region_has_endless_box(&s->region, dim);
+        endless |= region_has_infinite_box(&s->region, dim);
     }
     return endless;
 }

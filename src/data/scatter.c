@@ -5,7 +5,7 @@
 
 /* Returns the quantile of the standard normal distribution for the probability `probability`, by algorithm AS 241
  * (PPND7) of Wichura 1988, with seven digits. */
-real normal_quantile(real probability)
+real normal_distribution_quantile(real probability)
 {
     const real q = probability - 0.5;
     if (fabs(q) <= 0.425) {
@@ -27,7 +27,7 @@ real normal_quantile(real probability)
 }
 
 /* Returns a standard normal number that depends on the hash alone: the quantile of its leading 53 bits. */
-static real noise_of(uint64_t hash) { return normal_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
+static real noise_of(uint64_t hash) { return normal_distribution_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
 /* Number of lattice nodes along each axis that contribute to the field at a point. The lattice has the spacing
  * length/2; omitted nodes have weights below exp(-8) of the largest. */
@@ -42,7 +42,7 @@ static int64_t weights_along(real place, real weight[NODES])
     return first;
 }
 
-real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
+real scatter_gaussian_field(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
 {
     if (!(s->length > 0)) return noise_of(hash_add_word(hash_add_word(s->seed, 0), (uint64_t)particle_id));
     real weight[DIM_MAX][NODES] = {{1}, {1}, {1}}, sum = 0, squares = 1;
@@ -80,10 +80,10 @@ static real lognormal_of(real g, real variation)
     return exp(sqrt(spread2) * g - 0.5 * spread2);
 }
 
-real scatter_factor(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
+real scatter_strength_factor(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
 {
     if (!s->given) return 1;
-    const real g = scatter_gaussian(s, X, dim, particle_id);
+    const real g = scatter_gaussian_field(s, X, dim, particle_id);
     const real factor = s->form == SCATTER_WEIBULL ? weibull_of(g, s->modulus) : lognormal_of(g, s->variation);
     return s->of == SCATTER_ENERGY ? sqrt(factor) : factor;
 }

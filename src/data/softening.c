@@ -58,11 +58,11 @@ static real area_to(const struct softening_curve *c, real x)
     return area;
 }
 
-real softening_spent(const struct softening_curve *c, real onset, real end, real largest_stretch)
+real softening_dissipated_energy(const struct softening_curve *c, real onset, real end, real largest_stretch)
 {
     const real x = real_min(1, (largest_stretch - onset) / (end - onset));
     if (!(x > 0)) return 0;
-    const real force = onset * softening_level(c, x);
+    const real force = onset * softening_curve_value(c, x);
     return 0.5 * square(onset) + onset * (end - onset) * area_to(c, x) - 0.5 * force * real_min(largest_stretch, end);
 }
 
@@ -88,7 +88,7 @@ struct directions {
 static real bond_tension(const struct directions *a, real s)
 {
     if (s <= 1) return s;
-    return a->reach > 0 ? softening_level(a->curve, (s - 1) / a->reach) : 0;
+    return a->reach > 0 ? softening_curve_value(a->curve, (s - 1) / a->reach) : 0;
 }
 
 /* Returns axial and lateral stress over E' s_0 [1] of a family of bonds in all directions, strained by `axial` along
@@ -177,16 +177,17 @@ static real peak(const struct directions *a, real (*stress)(const struct directi
     return most;
 }
 
-struct softening_strength softening_strength_of(const struct softening_curve *c, enum space space, real squared_ratio)
+struct softening_strength softening_curve_strength(const struct softening_curve *c, enum space space,
+                                                   real squared_ratio)
 {
     const struct directions a = {c, space, (squared_ratio - 1) / (2 * c->area)};
     return (struct softening_strength){peak(&a, tension_at), peak(&a, biaxial_at), peak(&a, shear_at)};
 }
 
-real softening_onset_of(const struct material *m, enum space space)
+real softening_onset_from_strength(const struct material *m, enum space space)
 {
     const struct softening_curve c = softening_curve_of(m->softening);
-    const real strain = m->tensile_strength / material_tension_modulus(m, space);
+    const real strain = m->tensile_strength / material_uniaxial_tension_modulus(m, space);
     real onset = strain;
     for (int k = 0; k < 20; k++) {
         const real kappa = square(m->critical_stretch / onset);

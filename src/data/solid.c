@@ -279,7 +279,7 @@ static real polygon_from(const struct solid *s, const real *X, int dim, real *no
 static real polygon_reach(const struct solid *s, const real *along, int dim)
 {
     (void)dim;
-    return polygon_support(s->polygon, along);
+    return polygon_support_function(s->polygon, along);
 }
 
 static real ellipsoid_support(const struct solid *s, const real *along, int dim)
@@ -343,7 +343,7 @@ static real extrusion_support(const struct solid *s, const real *along, int dim)
     plane_axes(s, axes);
     const real flat[] = {along[axes[0]], along[axes[1]]}, up = along[s->axis];
     const real ends = up == 0 ? 0 : up * (up > 0 ? s->end : s->begin);
-    return ends + (flat[0] == 0 && flat[1] == 0 ? 0 : region_support_bound(&s->region, flat, 2));
+    return ends + (flat[0] == 0 && flat[1] == 0 ? 0 : region_support_function_bound(&s->region, flat, 2));
 }
 
 static real group_from(const struct solid *s, const real *X, int dim, real *normal)
@@ -363,7 +363,7 @@ static bool group_within(const struct solid *s, const real *X, int dim, real mos
 
 static real group_support(const struct solid *s, const real *along, int dim)
 {
-    return region_support_bound(&s->region, along, dim);
+    return region_support_function_bound(&s->region, along, dim);
 }
 
 static real hull_from(const struct solid *s, const real *X, int dim, real *normal)
@@ -374,7 +374,7 @@ static real hull_from(const struct solid *s, const real *X, int dim, real *norma
 
 static real hull_reach(const struct solid *s, const real *along, int dim)
 {
-    return hull_support(s->hull, along) + s->radius * sqrt(dot(along, along, dim));
+    return hull_support_function(s->hull, along) + s->radius * sqrt(dot(along, along, dim));
 }
 
 /* Returns true if the signed distance of X[3] from the solid bounded by a surface, extended by s->radius, is at most
@@ -439,7 +439,7 @@ const struct solid_type solid_types[SOLID_KINDS] = {
     [SOLID_GROUP] = {group_from, group_level, group_support, group_within},
 };
 
-real solid_radius(const struct solid *s, int dim)
+real solid_radius_if_round(const struct solid *s, int dim)
 {
     real least = INFINITY;
     for (int d = 0; d < dim && s->kind == SOLID_ELLIPSOID; d++) least = real_min(least, s->radii[d]);
@@ -457,7 +457,7 @@ real solid_least_thickness(const struct solid *s, int dim)
     case SOLID_TORUS:
         return 2 * s->inner;
     default:
-        return 2 * solid_radius(s, dim);
+        return 2 * solid_radius_if_round(s, dim);
     }
 }
 

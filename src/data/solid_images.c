@@ -136,7 +136,7 @@ static void placement_box(const struct solid *s, const struct placement *i, int 
         real along[DIM_MAX] = {0}, end[2];
         for (int side = 0; side < 2; side++) {
             along[d] = side == 0 ? -1 : 1;
-            end[side] = i ? image_support(s, i, along, dim) : solid_support(s, along, dim);
+            end[side] = i ? image_support(s, i, along, dim) : solid_support_function(s, along, dim);
         }
         const real more = slack + 1e-9 * (fabs(end[0]) + fabs(end[1]));
         box->low[d] = isfinite(end[0]) ? -end[0] - more : -INFINITY;
@@ -185,7 +185,7 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     if (s->images == 0) return solid_types[s->kind].distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; (k = box_search_next(&near, solid_level_distance_bound(nearest))) >= 0;) {
+    for (int k; (k = box_search_next(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
         const struct placement *i = &s->image[k];
         place_back(i, X, dim, at);
         const real distance = solid_types[s->kind].distance(s, at, dim, own);
@@ -214,7 +214,7 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim)
     struct box_search near;
     if (s->images == 0) return image_level(s, X, dim);
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; (k = box_search_next(&near, solid_level_distance_bound(nearest))) >= 0;) {
+    for (int k; (k = box_search_next(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
         nearest = real_min(nearest, image_level(s, at, dim));
     }
@@ -236,14 +236,14 @@ bool solid_is_within(const struct solid *s, const real *X, int dim, real max_dis
     struct box_search near;
     if (s->images == 0) return image_within(s, X, dim, max_distance);
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; !within && (k = box_search_next(&near, solid_level_distance_bound(max_distance))) >= 0;) {
+    for (int k; !within && (k = box_search_next(&near, solid_distance_bound_from_level(max_distance))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
         within = image_within(s, at, dim, max_distance);
     }
     return within;
 }
 
-real solid_support(const struct solid *s, const real *direction, int dim)
+real solid_support_function(const struct solid *s, const real *direction, int dim)
 {
     real most = -INFINITY;
     if (s->images == 0) return solid_types[s->kind].support(s, direction, dim);

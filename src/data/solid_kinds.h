@@ -10,7 +10,7 @@ struct solid_type {
     real (*distance)(const struct solid *s, const real *X, int dim, real *normal); /* as solid_distance */
     real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level_set_value; NULL: the distance */
     real (*support)(const struct solid *s, const real *along,
-                    int dim); /* as solid_support, for `along` of any length */
+                    int dim); /* as solid_support_function, for `along` of any length */
     bool (*within)(const struct solid *s, const real *X, int dim, real most); /* as solid_is_within; NULL: by level */
 };
 extern const struct solid_type solid_types[SOLID_KINDS];
@@ -26,7 +26,7 @@ struct axis_place {
 real polygon_distance(const struct polygon *p, const real *X, real *normal);
 
 /* Returns the largest scalar product X . along over the points X of a polygon (support function). */
-real polygon_support(const struct polygon *p, const real *along);
+real polygon_support_function(const struct polygon *p, const real *along);
 
 /* Returns the signed distance of the point X from the surface of an ellipsoid, negative inside [m]. dim: 2 for an
  * ellipse, 3; normal: receives the outward unit normal at the nearest point. */

@@ -126,7 +126,7 @@ real polygon_distance(const struct polygon *p, const real *X, real *normal)
     return sign * r;
 }
 
-real polygon_support(const struct polygon *p, const real *along)
+real polygon_support_function(const struct polygon *p, const real *along)
 {
     real most = -INFINITY;
     for (int k = 0; k < p->n; k++) {
@@ -234,7 +234,7 @@ static enum polygon_fault bends_make(struct polygon *p, int *corner)
     return fault;
 }
 
-enum polygon_fault polygon_make(struct polygon *p, int *faulty_corner)
+enum polygon_fault polygon_check_and_complete(struct polygon *p, int *faulty_corner)
 {
     real twice_area = 0, size2 = 0;
     enum polygon_fault fault = polygon_check(p, faulty_corner);

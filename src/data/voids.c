@@ -12,10 +12,11 @@ enum { FINE_STEPS = 400 };
 enum { SOLIDS_MOST = 31 }; /* in bodies of more solids all pairs are tested */
 #define ALONE UINT32_MAX
 
-bool region_has_image(const struct region *r)
+bool region_has_voxel_image(const struct region *r)
 {
     bool image = false;
-    for (int k = 0; k < r->n; k++) image |= r->solid[k].kind == SOLID_VOXELS || region_has_image(&r->solid[k].region);
+    for (int k = 0; k < r->n; k++)
+        image |= r->solid[k].kind == SOLID_VOXELS || region_has_voxel_image(&r->solid[k].region);
     return image;
 }
 
@@ -67,7 +68,7 @@ static bool region_is_box(const struct region *r)
 bool region_has_voids(const struct region *r)
 {
     const bool convex = region_is_box(r) || (r->n == 1 && solid_convex(&r->solid[0]));
-    return !convex && !region_has_image(r);
+    return !convex && !region_has_voxel_image(r);
 }
 
 /* ---- along a line ------------------------------------------------------------------------------------------------ */

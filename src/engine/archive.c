@@ -88,7 +88,7 @@ static status body_restore(struct run *e, struct archive *a)
 {
     TRY(particles_save_or_load(&e->part, e->optional, a));
     TRY(particles_check(e->scene, &e->part));
-    particles_update_lists(&e->part);
+    particles_update_kind_lists(&e->part);
     bonds_free(&e->bonds);
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     partial_stress_free(&e->coupling->partial);

@@ -21,8 +21,8 @@ struct predecessor {
  * body that coarse cells replace). predecessor: if not NULL, particles, bonds and time are transferred from this run;
  * the caller sets all other state that its time steps have changed, and the refinement levels of cells. Returns as
  * engine_make does. */
-status engine_remake(struct run *e, const struct scene *s, struct output *out, struct cells_without_particles hollow,
-                     struct predecessor *predecessor);
+status engine_make_from_predecessor(struct run *e, const struct scene *s, struct output *out,
+                                    struct cells_without_particles hollow, struct predecessor *predecessor);
 
 /* Replaces a run by one whose particles are those that the given refinement levels of mesh cells require, with the
  * state of the present run. level: refinement level of each mesh cell. Returns FAILED if this fails or a frame in
@@ -43,52 +43,52 @@ void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
 status parts_save_or_load(struct run *e, struct archive *a);
 
 /* Adds warnings to *to about bodies with particles that have no neighbours. */
-void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, const struct bonds *b,
-                             const struct particles *p, struct warnings *to);
+void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
+                                       const struct particles *p, struct warnings *to);
 
 /* Returns true if the bounding box of a crack overlaps the box low..high [dim, m], extended by `reach` [m] on every
  * side. */
-bool crack_meets_box(const struct crack *c, const real *low, const real *high, int dim, real reach);
+bool crack_overlaps_box(const struct crack *c, const real *low, const real *high, int dim, real reach);
 
 /* Adds warnings to *to about pre-cracks that are outside of all bodies or cut no bond, and about probes of cracks where
  * no bond can break. reach: length of the longest bonds [m]. */
-void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,
-                           struct warnings *to);
+void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,
+                                   struct warnings *to);
 
 /* Adds warnings to *to about values that look like mistakes of units, unless the key `accept` of the scene excepts
  * them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
-void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *loads,
-                          const struct run_clock *clock, real wave_speed, struct warnings *to);
+void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *loads,
+                                   const struct run_clock *clock, real wave_speed, struct warnings *to);
 
 /* Adds warnings to *to about supports whose prescribed speed is so high that the bonds next to the particles that they
  * drive break. */
-void engine_warn_of_speed(const struct scene *s, const struct loads *loads, const struct particles *p,
-                          struct warnings *to);
+void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                  struct warnings *to);
 
 /* Adds warnings to *to about supports that hold all particles, and about pairs of supports that prescribe different
  * motions of the same particles. */
-void engine_warn_of_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
-                             struct warnings *to);
+void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                         struct warnings *to);
 
 /* Adds warnings to *to about bodies of a few rows of particles, whose stiffness pd.surface: moments cannot correct, and
  * about weights of bonds near faces whose solver has given up. w: these weights. */
-void engine_warn_of_faces(const struct scene *s, const struct particles *p, const struct surface_weights *w,
-                          struct warnings *to);
+void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p, const struct surface_weights *w,
+                                      struct warnings *to);
 
 /* Computes the box of the particles of body b and of all that are joined to it [m]. Returns false if there are none. */
-bool engine_body_box(const struct scene *s, const struct particles *p, int b, real *low, real *high);
+bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int b, real *low, real *high);
 
 /* Returns the number of particles along an axis between the positions low and high [m], including their images beyond
  * planes of symmetry. */
-real engine_particles_across(const struct scene *s, real low, real high, int axis);
+real engine_count_particles_across(const struct scene *s, real low, real high, int axis);
 
 /* Adds warnings to *to about solids of the shape of a body that add nothing to it or remove nothing from it. */
-void engine_warn_of_shapes(const struct scene *s, struct warnings *to);
+void engine_warn_of_useless_solids(const struct scene *s, struct warnings *to);
 
 /* Adds warnings to *to about bodies that move at the start and meet no other body within the duration. */
-void engine_warn_of_encounters(const struct scene *s, const struct particles *p, struct warnings *to);
+void engine_warn_of_missed_encounters(const struct scene *s, const struct particles *p, struct warnings *to);
 
 /* Adds warnings to *to about times of frames beyond the end of the run. */
-void engine_warn_of_output(const struct scene *s, struct warnings *to);
+void engine_warn_of_late_frames(const struct scene *s, struct warnings *to);
 
 #endif

@@ -97,7 +97,7 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
     if (s->model == MODEL_BOND) return;
     tables->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
     for (int k = 0; k < s->materials; k++)
-        tables->modulus[k] = state_modulus_of(&s->material[k], s->space, s->model == MODEL_MOSPD);
+        tables->modulus[k] = state_modulus_of_material(&s->material[k], s->space, s->model == MODEL_MOSPD);
     source->modulus = tables->modulus;
     source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
 }
@@ -109,7 +109,7 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
-    real most = isnan(s->conversion.stress) ? material_stress_at(m, m->onset_stretch) : s->conversion.stress;
+    real most = isnan(s->conversion.stress) ? material_uniaxial_stress(m, m->onset_stretch) : s->conversion.stress;
     return s->conversion.alpha * most;
 }
 
@@ -128,7 +128,7 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                               .poisson = given->poisson,
                                               .law = given->law.given ? &given->law : NULL,
                                               .mode = scene_has_load_steps(s) ? LAW_LOAD_STEP : LAW_EXPLICIT,
-                                              .mean_dilatation = material_averages_dilatation(given, s->space),
+                                              .mean_dilatation = material_uses_mean_dilatation(given, s->space),
                                               .trigger = conversion_trigger(s, given),
                                               .trigger_mean = conversion_trigger(s, given),
                                               .failure = s->conversion.alpha * given->surface.g0};
@@ -149,7 +149,7 @@ static void make_family(const struct scene *s, struct bond_source *source)
     struct family *f = &source->family;
     f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
     f->influence = s->influence;
-    family_make(f, s->space, s->spacing, s->horizon, scene_section_factor(s));
+    family_make(f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
     source->material = s->material, source->materials = s->materials;
 }
 
@@ -182,7 +182,7 @@ static status make_bonds(struct run *e, struct predecessor *before)
     const struct scene *s = e->scene;
     make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
     e->source.image = e->loads.image;
-    if (run_voids_list(&e->tables, s, &e->loads)) {
+    if (run_list_shapes_with_voids(&e->tables, s, &e->loads)) {
         voids_mark_particles(&e->tables.voids, &e->part, &e->cells, e->loads.image,
                              voids_interaction_distance(s, e->source.family.cutoff));
         e->source.voids = &e->tables.voids;
@@ -246,7 +246,7 @@ static real particles_expected(const struct scene *s, bool boxes, real *longest)
     real n = 0, from[DIM_MAX], to[DIM_MAX];
     *longest = 0;
     for (int b = 0; b < s->bodies; b++) {
-        if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
+        if (s->body[b].file || !region_bounding_box(&s->body[b].shape, s->dim, from, to)) continue;
         real count = boxes ? 1 : share_filled(&s->body[b].shape, from, to, s->dim);
         for (int d = 0; d < s->dim; d++) {
             count *= (to[d] - from[d]) / s->spacing;
@@ -370,7 +370,7 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
  * or NULL. Returns REFUSED, with a message, if no time step is possible. */
 static status make_time(struct run *e, const struct predecessor *before)
 {
-    if (!before) return scene_locate(e->scene, time_step_choose(e));
+    if (!before) return scene_prepend_location(e->scene, time_step_choose(e));
     e->clock = before->run->clock;
     e->source.limit.dt = before->run->source.limit.dt;
     e->source.core = e->bonds.core = before->run->source.core;
@@ -396,11 +396,12 @@ static status make_particles(struct run *e)
     make_materials(s, &e->tables, &e->source);
     make_family(s, &e->source);
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
-    TRY(scene_locate(s, cells_without_particles_choose(&e->frame->hollow, s, &e->source)));
-    if (!e->frame->hollow.absent) TRY(scene_locate(s, make_affordable(s, &e->part, &e->source)));
+    TRY(scene_prepend_location(s, cells_without_particles_choose(&e->frame->hollow, s, &e->source)));
+    if (!e->frame->hollow.absent) TRY(scene_prepend_location(s, make_affordable(s, &e->part, &e->source)));
     TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
-    lower_conversion_stress(e->tables.elastic, &e->part);
-    return scene_locate(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
+    conversion_stress_reduce_to_weakest(e->tables.elastic, &e->part);
+    return scene_prepend_location(s,
+                                  make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
 /* Creates crack tips, crack growth, static solver, diagnostics and probes. Returns REFUSED, with a message, if growth
@@ -410,16 +411,16 @@ static status make_probes(struct run *e)
     const struct scene *s = e->scene;
     e->probing->strain_stress = particles_largest_stress(&e->part);
     tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
-    if (e->coupling->notches.lost) tips_exclude_precracks(&e->fracture->tips, e->coupling->notches.lost);
-    TRY(scene_locate(s, sif_growth_check(e)));
+    if (e->coupling->notches.lost) tips_exclude_precrack_damage(&e->fracture->tips, e->coupling->notches.lost);
+    TRY(scene_prepend_location(s, sif_growth_check(e)));
     e->fracture->growth = NEW("engine.growth", s->growths, struct growing_crack);
     e->fracture->growths = s->growths;
     for (int k = 0; k < s->growths; k++) growing_crack_make(&e->fracture->growth[k], &s->growth[k]);
-    if (scene_is_single_equilibrium(s)) TRY(scene_locate(s, engine_static_solver_make(e)));
+    if (scene_is_single_equilibrium(s)) TRY(scene_prepend_location(s, engine_static_solver_make(e)));
     diagnostics_make(e->diagnostics);
     scene_list_pulses(e->scene, e->probing);
     struct observed_run o = observed_run_of(e);
-    return scene_locate(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
+    return scene_prepend_location(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
 /* Creates loads, bonds, rigid bodies, contact, coupling and mesh, and computes the time step. before: run that is
@@ -427,14 +428,14 @@ static status make_probes(struct run *e)
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
-    TRY(scene_locate(s, body_frames_choose(e->frame, e->grid, &e->part, s)));
+    TRY(scene_prepend_location(s, body_frames_choose(e->frame, e->grid, &e->part, s)));
     if (!scene_is_dynamic(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_is_single_equilibrium(s))
-        loads_make_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
+        static_boundaries_make(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     else if (e->boundary)
         array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
-    TRY(scene_locate(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part,
-                                   s->spacing, e->source.family.cutoff, e->optional)));
+    TRY(scene_prepend_location(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries,
+                                             &e->part, s->spacing, e->source.family.cutoff, e->optional)));
     e->tables.impedance = absorbing_impedances(s, &e->source);
     const struct impedance *z = e->tables.impedance;
     if (z)
@@ -445,19 +446,19 @@ static status make_forces(struct run *e, struct predecessor *before)
     TRY(make_bonds(e, before));
     TRY(rigids_make(e->rigid, s));
     TRY(rigids_check(e->rigid, s, &e->part));
-    TRY(scene_locate(s, joined_bodies_check(s, &e->part, &e->cells, e->source.family.cutoff)));
-    TRY(scene_locate(s, statics_check_scene(e)));
+    TRY(scene_prepend_location(s, joined_bodies_check(s, &e->part, &e->cells, e->source.family.cutoff)));
+    TRY(scene_prepend_location(s, statics_check_scene(e)));
     make_contact(e->contact, s, &e->source, e->rigid);
     coupling_compute_partial_stress(e);
-    TRY(scene_locate(s, coupling_make_mesh(e, before != NULL)));
+    TRY(scene_prepend_location(s, coupling_make_mesh(e, before != NULL)));
     TRY(prescribed_motion_check(&e->loads, &e->part, s, before == NULL));
     bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, s->material);
     stability_store_start_speed(e->stability, &e->part);
     return make_time(e, before);
 }
 
-status engine_remake(struct run *e, const struct scene *s, struct output *out, struct cells_without_particles hollow,
-                     struct predecessor *predecessor)
+status engine_make_from_predecessor(struct run *e, const struct scene *s, struct output *out,
+                                    struct cells_without_particles hollow, struct predecessor *predecessor)
 {
     memset(e, 0, sizeof *e);
     run_parts_make(e);
@@ -467,15 +468,15 @@ status engine_remake(struct run *e, const struct scene *s, struct output *out, s
     e->report->began = wall_clock();
     e->frame->hollow = hollow;
     TRY(make_particles(e));
-    TRY(scene_locate(s, reversion_check(e->scene)));
+    TRY(scene_prepend_location(s, reversion_check_scene(e->scene)));
     TRY(make_forces(e, predecessor));
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
-    if (!predecessor) TRY(scene_locate(s, frame_levels_make(e, false)));
+    if (!predecessor) TRY(scene_prepend_location(s, frame_levels_make(e, false)));
     e->coupling->damping_share =
         interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
-                              s->contact_convert && joined_group_first_body(s, 1) + s->rigids >= 0 &&
+                              s->contact_convert && joined_bodies_first_body(s, 1) + s->rigids >= 0 &&
                               !coupling_has_one_grid(s->coupling);
     e->grid->transfer = (struct transfer_data){.order = &e->grid->field[0].order,
                                                .partial = &e->coupling->partial,
@@ -493,7 +494,7 @@ status engine_make(struct run *e, const struct scene *s, struct output *out)
 {
     struct cells_without_particles hollow = {0};
     for (;;) {
-        TRY(engine_remake(e, s, out, hollow, NULL));
+        TRY(engine_make_from_predecessor(e, s, out, hollow, NULL));
         if (!e->frame->lacks) return OK;
         hollow = e->frame->hollow;
         e->frame->hollow = (struct cells_without_particles){0};

@@ -49,7 +49,7 @@ static void nodes_take(struct run *e, struct run *old)
     r->levels.fine = &r->mesh;
     was->levels = (struct mesh_levels){0};
     r->coarse = was->coarse, was->coarse = NULL;
-    levels_reconnect_finest(&r->levels, &e->part, &r->source);
+    levels_reconnect_finest_mesh(&r->levels, &e->part, &r->source);
     frame_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
     frame_update_point_motion(r, &e->part, &e->loads);
     bonded_points_update_strain(&e->coupling->partial, r, &e->part, e->scene->material);
@@ -82,7 +82,7 @@ static status run_replace(struct run *e)
     old->frame->hollow = (struct cells_without_particles){0};
     memory_set_reuse(false);
     leave_derived(old);
-    if (s == OK) s = engine_remake(e, old->scene, NULL, hollow, &before);
+    if (s == OK) s = engine_make_from_predecessor(e, old->scene, NULL, hollow, &before);
     if (s == OK) {
         rest_take(e, old);
         memory_archive_rewind(&parts);

@@ -5,7 +5,7 @@
 #include "step/report.h"
 
 /* Creates the run again with the hollow cells of a checkpoint, and keeps its report, warnings and timers. absent: 1 for
- * each cell without particles; owned by the run from now on. Returns the status of engine_remake. */
+ * each cell without particles; owned by the run from now on. Returns the status of engine_make_from_predecessor. */
 static status remake(struct run *e, uint8_t *absent)
 {
     struct run_report *const report = e->report;
@@ -18,7 +18,7 @@ static status remake(struct run *e, uint8_t *absent)
     e->frame->hollow = (struct cells_without_particles){0};
     e->report = NULL, e->warnings = (struct warnings){0};
     engine_free(e);
-    const status made = engine_remake(e, s, NULL, hollow, NULL);
+    const status made = engine_make_from_predecessor(e, s, NULL, hollow, NULL);
     memory_free(e->report->record), memory_free(e->report);
     e->report = report, e->warnings = warnings, e->timers = timers;
     return made;

@@ -15,7 +15,7 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
     f->rings = 0;
     for (int k = 0; k < p->n; k++)
-        f->rings += probes_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
+        f->rings += probes_get_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
 /* Adapts the refinement levels of cells to cracks and stress. If refined cells lack particles, the run is first

@@ -24,26 +24,26 @@
 static void put_run(struct json *j, const struct run *e, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
-    json_text(j, "name", e->scene->name);
-    json_text(j, "version", CLEAVE_VERSION);
-    json_text(j, "method", method[e->scene->method]);
-    json_text(j, "status", s == OK ? "done" : s == INTERRUPTED ? "interrupted" : "failed");
-    if (s != OK && message[0]) json_text(j, "message", message);
-    json_count(j, "steps", e->clock.step);
-    json_real(j, "time_step", e->clock.dt);
-    json_real(j, "time_step_critical", e->clock.dt_critical);
-    json_real(j, "time_end", e->clock.t);
-    json_count(j, "particles", e->part.n_body);
-    json_count(j, "particles_made", e->part.n);
-    json_count(j, "particles_pd_start", e->coupling->conversion.start);
-    json_count(j, "particles_pd_end", e->part.n_of[KIND_PD]);
-    json_count(j, "bonds_peak", e->coupling->conversion.peak_bonds);
+    json_write_text(j, "name", e->scene->name);
+    json_write_text(j, "version", CLEAVE_VERSION);
+    json_write_text(j, "method", method[e->scene->method]);
+    json_write_text(j, "status", s == OK ? "done" : s == INTERRUPTED ? "interrupted" : "failed");
+    if (s != OK && message[0]) json_write_text(j, "message", message);
+    json_write_integer(j, "steps", e->clock.step);
+    json_write_real(j, "time_step", e->clock.dt);
+    json_write_real(j, "time_step_critical", e->clock.dt_critical);
+    json_write_real(j, "time_end", e->clock.t);
+    json_write_integer(j, "particles", e->part.n_body);
+    json_write_integer(j, "particles_made", e->part.n);
+    json_write_integer(j, "particles_pd_start", e->coupling->conversion.start);
+    json_write_integer(j, "particles_pd_end", e->part.n_of[KIND_PD]);
+    json_write_integer(j, "bonds_peak", e->coupling->conversion.peak_bonds);
 }
 
 static void put_warnings(struct json *j, const struct warnings *w)
 {
     json_open(j, "warnings", '[');
-    for (int k = 0; k < w->n; k++) json_text(j, NULL, w->text[k]);
+    for (int k = 0; k < w->n; k++) json_write_text(j, NULL, w->text[k]);
     json_close(j, ']');
 }
 
@@ -62,10 +62,10 @@ static bool has_fragments(const struct scene *scene, const struct diagnostics *d
 static void put_fragments(struct json *j, const struct fragments *f)
 {
     json_open(j, "fragments", '{');
-    json_count(j, "count", f->n);
-    json_real(j, "mass_max", f->n > 0 ? f->fragment[0].mass : 0);
-    json_count(j, "particles_alone", f->singles);
-    json_real(j, "mass_alone", f->mass_singles);
+    json_write_integer(j, "count", f->n);
+    json_write_real(j, "mass_max", f->n > 0 ? f->fragment[0].mass : 0);
+    json_write_integer(j, "particles_alone", f->singles);
+    json_write_real(j, "mass_alone", f->mass_singles);
     json_close(j, '}');
 }
 
@@ -113,25 +113,25 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
 {
     real updates = 0, ns = 1e9 * spent->loop;
     for (int k = 0; k < KINDS; k++) updates += (real)r->particle_steps[k];
-    json_text(j, "processor", machine_processor_name());
-    if (*program_commit()) json_text(j, "commit", program_commit());
-    json_count(j, "threads", threads);
-    json_text(j, "kernels", simd_current_kernels()->name);
-    json_number(j, "wall_seconds", spent->wall, JSON_TIMING);
-    json_number(j, "setup_seconds", spent->setup, JSON_TIMING);
-    json_number(j, "loop_seconds", spent->loop, JSON_TIMING);
-    json_number(j, "output_seconds", spent->wall - spent->setup - spent->loop, JSON_TIMING);
-    json_count(j, "memory_peak_bytes", memory_peak());
-    json_number(j, "ns_per_particle_step", ns / updates, JSON_TIMING);
-    json_number(j, "ns_per_bond_step", ns / (real)r->bond_visits, JSON_TIMING);
-    json_number(j, "inactive_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
+    json_write_text(j, "processor", machine_processor_name());
+    if (*program_commit()) json_write_text(j, "commit", program_commit());
+    json_write_integer(j, "threads", threads);
+    json_write_text(j, "kernels", simd_current_kernels()->name);
+    json_write_rounded(j, "wall_seconds", spent->wall, JSON_TIMING);
+    json_write_rounded(j, "setup_seconds", spent->setup, JSON_TIMING);
+    json_write_rounded(j, "loop_seconds", spent->loop, JSON_TIMING);
+    json_write_rounded(j, "output_seconds", spent->wall - spent->setup - spent->loop, JSON_TIMING);
+    json_write_integer(j, "memory_peak_bytes", memory_peak());
+    json_write_rounded(j, "ns_per_particle_step", ns / updates, JSON_TIMING);
+    json_write_rounded(j, "ns_per_bond_step", ns / (real)r->bond_visits, JSON_TIMING);
+    json_write_rounded(j, "inactive_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
 }
 
 /* Writes the times of the timed sections of the time loop in this process to JSON object j [s]. */
 static void put_timers(struct json *j, const struct timers *timers)
 {
     json_open(j, "laps", '{');
-    for (int k = 0; k < TIMERS; k++) json_number(j, timer_name[k], timers->spent[k], JSON_TIMING);
+    for (int k = 0; k < TIMERS; k++) json_write_rounded(j, timer_name[k], timers->spent[k], JSON_TIMING);
     json_close(j, '}');
 }
 
@@ -147,7 +147,7 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->summary) (*p)->summary(e, &j);
     if (has_fragments(e->scene, e->diagnostics)) put_fragments(&j, fragments);
-    const struct run_seconds spent = report_seconds(e->report, &e->timers);
+    const struct run_seconds spent = report_wall_clock_times(e->report, &e->timers);
     put_machine(&j, e->report, e->clock.step, threads, &spent);
     put_timers(&j, &e->timers);
     fputs("\n}\n", file);

@@ -32,7 +32,7 @@ void engine_transfer_particles(struct run *e, struct predecessor *predecessor)
 {
     predecessor->now = numbers_now(&e->part, &e->loads, &predecessor->run->part, &predecessor->run->loads);
     particles_copy_fields(&e->part, &predecessor->run->part, predecessor->now, e->optional);
-    particles_update_lists(&e->part);
+    particles_update_kind_lists(&e->part);
     mirror_images_copy_kinds(&e->part, &e->source);
 }
 

@@ -45,7 +45,7 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
     if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add(to,
                      "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
-    if (coupling_moves_by_grid(kind) && !scene_accepts(s, ACCEPT_COUPLING))
+    if (coupling_moves_by_grid(kind) && !scene_silences_warning(s, ACCEPT_COUPLING))
         warnings_add(to,
                      "coupling %s, as published, has no potential energy, and a long run may gain energy: watch "
                      "energy.balance_error, or use coupling: partial stress; if this is meant: accept: [coupling]",
@@ -63,7 +63,7 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
                      "mpm.shape: %s beside fixed and driven particles: stress is up to a third too large there, "
                      "displacements 2 to 3 %%: use a boundary `mirror` to hold the face, or mpm.shape: linear or gimp",
                      s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
-    if (s->method != METHOD_PD && s->cell < 1.5 && !scene_accepts(s, ACCEPT_CELL))
+    if (s->method != METHOD_PD && s->cell < 1.5 && !scene_silences_warning(s, ACCEPT_CELL))
         warnings_add(to,
                      "mpm.cell: %.3g puts one point in a cell, and a wave that crosses a coupling interface leaves an "
                      "oscillation of 0.8 %% of its amplitude behind; use mpm.cell: 2; if this is meant: accept: [cell]",
@@ -77,7 +77,7 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                       : !scene_is_dynamic(s)    ? "a static solver has no use for coarse cells"
                       : frame->mesh.points == 0 ? "no material points are in the reference frame"
                                                 : NULL;
-    const char *all = why_all_particles_are_needed(s);
+    const char *all = scene_why_all_particles_needed(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
         warnings_add(to, "mpm.levels: %d has no effect, as %s; use auto or 0", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
@@ -198,7 +198,7 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
             s->horizon, 2 * s->dim);
 }
 
-void engine_warn_of_input(struct run *e)
+void engine_warn_of_suspicious_input(struct run *e)
 {
     const struct scene *s = e->scene;
     struct warnings *to = &e->warnings;
@@ -215,18 +215,18 @@ void engine_warn_of_input(struct run *e)
     warn_of_materials(s, &e->tables, to);
     warn_of_lists(s, to);
     warn_of_probes(s, to);
-    engine_warn_of_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
-    engine_warn_of_isolated(s, &e->cells, &e->bonds, &e->part, to);
-    engine_warn_of_speed(s, &e->loads, &e->part, to);
-    engine_warn_of_supports(s, &e->loads, &e->part, to);
-    engine_warn_of_shapes(s, to);
-    engine_warn_of_faces(s, &e->part, &e->tables.surface, to);
-    engine_warn_of_encounters(s, &e->part, to);
-    engine_warn_of_output(s, to);
+    engine_warn_of_mistaken_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
+    engine_warn_of_isolated_particles(s, &e->cells, &e->bonds, &e->part, to);
+    engine_warn_of_fast_supports(s, &e->loads, &e->part, to);
+    engine_warn_of_conflicting_supports(s, &e->loads, &e->part, to);
+    engine_warn_of_useless_solids(s, to);
+    engine_warn_of_uncorrected_faces(s, &e->part, &e->tables.surface, to);
+    engine_warn_of_missed_encounters(s, &e->part, to);
+    engine_warn_of_late_frames(s, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);
     warn_of_boundaries(s, &e->loads, to);
-    engine_warn_of_cracks(s, &e->part, &e->bonds, e->source.family.cutoff, to);
+    engine_warn_of_useless_cracks(s, &e->part, &e->bonds, e->source.family.cutoff, to);
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->warn) (*p)->warn(e, to);
 }

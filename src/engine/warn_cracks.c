@@ -21,7 +21,7 @@ static bool crack_meets_particles(const struct crack *c, const struct particles 
     for (int64_t i = 0; i < p->n && !meets; i++) {
         real X[DIM_MAX];
         particle_reference_position(p, i, X);
-        meets = crack_may_cut_near(c, X, reach, p->dim);
+        meets = crack_may_cut_bonds_near(c, X, reach, p->dim);
     }
     return meets;
 }
@@ -68,7 +68,7 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
     for (int d = 0; d < s->dim && s->cracks > SEARCHED; d++) particles_coordinate_range(p, p->n, d, &low[d], &high[d]);
     for (int k = 0; k < s->cracks && s->dim > 1 && far < NAMED; k++) {
         const struct crack *c = &s->crack[k];
-        if (s->cracks > SEARCHED ? crack_meets_box(c, low, high, s->dim, reach) : crack_meets_particles(c, p, reach))
+        if (s->cracks > SEARCHED ? crack_overlaps_box(c, low, high, s->dim, reach) : crack_meets_particles(c, p, reach))
             continue;
         far++;
         warnings_add(
@@ -92,8 +92,8 @@ static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
                                                    "critical_stretch");
 }
 
-void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,
-                           struct warnings *to)
+void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,
+                                   struct warnings *to)
 {
     warn_of_unbreakable(s, to);
     if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, reach, to)) return;

@@ -38,7 +38,7 @@ static void flights_of_rigids(const struct scene *s, struct flight *f)
 {
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         const struct scene_body *body = &s->body[b];
-        f[b].known = region_bounds(&body->shape, s->dim, f[b].low, f[b].high);
+        f[b].known = region_bounding_box(&body->shape, s->dim, f[b].low, f[b].high);
         for (int d = 0; d < s->dim; d++) f[b].slowest[d] = f[b].fastest[d] = body->velocity[d];
     }
 }
@@ -106,7 +106,7 @@ static void warn_of_flight(const struct scene *s, const struct flight *f, int a,
                      s->body[a].name, s->body[other].name);
 }
 
-void engine_warn_of_encounters(const struct scene *s, const struct particles *p, struct warnings *to)
+void engine_warn_of_missed_encounters(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     const int bodies = s->bodies + s->rigids;
     if (!fly_freely(s) || bodies < 2 || bodies > FLYING_MOST || p->n < p->n_body) return;

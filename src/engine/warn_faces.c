@@ -14,9 +14,9 @@ static void warn_of_thin(const struct scene *s, const struct particles *p, int b
 {
     real low[DIM_MAX], high[DIM_MAX], rows = INFINITY;
     int axis = 0;
-    if (!engine_body_box(s, p, b, low, high)) return;
+    if (!engine_joined_bodies_box(s, p, b, low, high)) return;
     for (int d = 0; d < s->dim; d++) {
-        const real n = engine_particles_across(s, low[d], high[d], d);
+        const real n = engine_count_particles_across(s, low[d], high[d], d);
         if (n < rows) rows = n, axis = d;
     }
     if (rows > ROWS_FEW) return;
@@ -28,8 +28,8 @@ static void warn_of_thin(const struct scene *s, const struct particles *p, int b
         s->body[b].name, rows, rows > 1.5 ? "s" : "", "xyz"[axis], s -> spacing *rows / ROWS_ENOUGH, ROWS_ENOUGH);
 }
 
-void engine_warn_of_faces(const struct scene *s, const struct particles *p, const struct surface_weights *w,
-                          struct warnings *to)
+void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p, const struct surface_weights *w,
+                                      struct warnings *to)
 {
     if (s->surface != SURFACE_MOMENTS || s->method != METHOD_PD || s->dim < 2) return;
     if (w->residual > UNSOLVED)
@@ -38,6 +38,6 @@ void engine_warn_of_faces(const struct scene *s, const struct particles *p, cons
                      "%.2g of the first one (1e-13 is solved): the stiffness near faces is between that of moments and "
                      "that of none; a larger particles.spacing, or pd.surface: volume, is solved",
                      w->residual);
-    for (int b = 0; b < s->bodies && p->n == p->n_body && !scene_accepts(s, ACCEPT_PARTICLES); b++)
+    for (int b = 0; b < s->bodies && p->n == p->n_body && !scene_silences_warning(s, ACCEPT_PARTICLES); b++)
         warn_of_thin(s, p, b, to);
 }

@@ -20,7 +20,7 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
 /* Returns true if load l prescribes a motion whose displacement is known at all times. */
 static bool motion_known(const struct load *l)
 {
-    return l->boundary->kind == BOUNDARY_VELOCITY && load_check_displacement_known(l->boundary) == OK;
+    return l->boundary->kind == BOUNDARY_VELOCITY && boundary_check_displacement_known(l->boundary) == OK;
 }
 
 /* Returns the components (bit d: component d) in which loads a and b prescribe different displacements of one particle,
@@ -32,8 +32,8 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     for (int m = 1; m <= MOMENTS_OF_SUPPORTS; m++) {
         real u[DIM_MAX], w[DIM_MAX];
         const real t = scene_is_dynamic(s) ? s->duration * m / MOMENTS_OF_SUPPORTS : INFINITY;
-        load_displacement_at(a, p, j, t, u);
-        load_displacement_at(b, p, k, t, w);
+        load_displacement_of_particle(a, p, j, t, u);
+        load_displacement_of_particle(b, p, k, t, w);
         for (int d = 0; d < s->dim; d++)
             if (fabs(u[d] - w[d]) > 1e-6 * (fabs(u[d]) + fabs(w[d]))) apart |= 1u << d;
     }
@@ -66,8 +66,8 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
                  a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s");
 }
 
-void engine_warn_of_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
-                             struct warnings *to)
+void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                         struct warnings *to)
 {
     for (int a = 0; a < loads->n; a++) {
         warn_of_held(s, &loads->load[a], p, to);

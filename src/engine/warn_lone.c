@@ -104,9 +104,9 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
     }
     memory_free(near.at);
     if (own <= MASS_POINTS) return;
-    const real distance = median_of(apart, n), share = median_of(count, n) / ball[p->dim];
+    const real distance = median_by_sorting(apart, n), share = median_by_sorting(count, n) / ball[p->dim];
     /* a square or cubic lattice has equal distances, and 2 nearest neighbours an axis inside */
-    const bool lattice = apart[n - 1] < (1 + ALIKE) * apart[0] && median_of(beside, n) <= 2 * p->dim;
+    const bool lattice = apart[n - 1] < (1 + ALIKE) * apart[0] && median_by_sorting(beside, n) <= 2 * p->dim;
     if (share > CROWDED_MOST || (isfinite(distance) && distance > APART_MOST * spacing) ||
         (lattice && fabs(distance / spacing - 1) > LATTICE_OFF))
         warnings_add(
@@ -116,8 +116,8 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
             b->file, spacing, distance, distance);
 }
 
-void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, const struct bonds *b,
-                             const struct particles *p, struct warnings *to)
+void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
+                                       const struct particles *p, struct warnings *to)
 {
     struct lone *lone = NEW("warn.lone", s->bodies, struct lone);
     for (int64_t i = 0; i < p->n; i++) lone[p->body[i]].all++;

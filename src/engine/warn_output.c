@@ -2,7 +2,7 @@
 
 #include "engine_internal.h"
 
-void engine_warn_of_output(const struct scene *s, struct warnings *to)
+void engine_warn_of_late_frames(const struct scene *s, struct warnings *to)
 {
     const real end = s->duration * (1 + 1e-9);
     if (s->every > end)

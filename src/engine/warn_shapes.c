@@ -47,7 +47,7 @@ static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struc
 {
     const struct region before = {.n = k, .solid = b->shape.solid};
     real low[DIM_MAX], high[DIM_MAX];
-    if (!region_bounds(&before, dim, low, high)) return;
+    if (!region_bounding_box(&before, dim, low, high)) return;
     const real apart = boxes_common(&b->shape.solid[k], dim, low, high);
     if (apart > 0)
         warnings_add(
@@ -74,7 +74,7 @@ static void warn_of_added(const struct scene_body *b, int k, int dim, struct war
                      b->name, k + 1);
 }
 
-void engine_warn_of_shapes(const struct scene *s, struct warnings *to)
+void engine_warn_of_useless_solids(const struct scene *s, struct warnings *to)
 {
     for (int b = 0; b < s->bodies + s->rigids; b++) {
         const struct scene_body *body = &s->body[b];

@@ -49,7 +49,7 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
             break;
         case BOUNDARY_VELOCITY:
             freely = l == own || both == 0 || !load_meets(s, p, l, d->body) ||
-                     loads_velocity_difference(own, l, p, s->duration) <= d->limit;
+                     loads_largest_velocity_difference(own, l, p, s->duration) <= d->limit;
             break;
         default:
             break;
@@ -66,7 +66,7 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     for (int m = 0; m < s->materials; m++) slowest = real_min(slowest, s->material[m].wave_speed);
     for (int b = 0; b < s->bodies; b++) {
         real low[DIM_MAX], high[DIM_MAX], size2 = 0;
-        if (!body[b] || !engine_body_box(s, p, b, low, high)) continue;
+        if (!body[b] || !engine_joined_bodies_box(s, p, b, low, high)) continue;
         for (int d = 0; d < p->dim; d++) size2 += square(high[d] - low[d] + s->spacing);
         most = real_max(most, sqrt(size2));
     }
@@ -79,7 +79,7 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
                            struct warnings *to)
 {
     const real within = body_crossing_time(p, s, d->body);
-    const real change = load_velocity_change(d->load, p, s->duration, within);
+    const real change = load_largest_velocity_change(d->load, p, s->duration, within);
     if (change > d->limit)
         warnings_add(to,
                      "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
@@ -90,19 +90,19 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
 
 /* Warns of boundaries that move particles, or change their velocity at t = 0, by more than the speed at which bonds
  * next to them break. A face moved at speed v strains the material behind it by v/c at once, c being the wave speed. */
-void engine_warn_of_speed(const struct scene *s, const struct loads *loads, const struct particles *p,
-                          struct warnings *to)
+void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                  struct warnings *to)
 {
     real limit = INFINITY;
-    if (scene_accepts(s, ACCEPT_SPEED)) return;
+    if (scene_silences_warning(s, ACCEPT_SPEED)) return;
     bool *body = NEW("warn.bodies", s->bodies, bool);
     for (int m = 0; m < s->materials; m++)
         limit = real_min(limit, s->material[m].critical_stretch * s->material[m].wave_speed);
     for (int b = 0; b < loads->n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
         const struct load *l = &loads->load[b];
         const struct driver driver = {l, body, limit};
-        const real speed = load_displacement_speed(l, p, s->duration);
-        const real jump = load_velocity_jump(l, p, s->duration);
+        const real speed = load_largest_displacement_speed(l, p, s->duration);
+        const real jump = load_largest_velocity_jump(l, p, s->duration);
         if (!(speed > limit || jump > limit)) continue;
         bodies_mark(s, p, l, body);
         if (isfinite(speed) && moves_freely(&driver, s, loads, p))

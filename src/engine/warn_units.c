@@ -56,7 +56,7 @@ static void units_judge(const struct scene *s, enum accept k, const char *subjec
 {
     const char *word = ACCEPT_WORDS;
     const bool low = (value < rule[k].least), high = (value > rule[k].most);
-    if ((!low && !high) || scene_accepts(s, k)) return;
+    if ((!low && !high) || scene_silences_warning(s, k)) return;
     for (int n = 0; n < (int)k; n++) word += strcspn(word, "|") + 1;
     warnings_add(to, "%s: %s %.3g%s%s, %s %.3g: check the units of %s; if this is meant: accept: [%.*s]", subject,
                  rule[k].what, value, rule[k].unit, note, low ? "below" : "above", low ? rule[k].least : rule[k].most,
@@ -72,7 +72,7 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
     const real bar = sqrt(m->young / m->density), usual = bar * sqrt(0.6 / (1.4 * 0.2)); /* at 0.4, in 3D */
     if (!(m->wave_speed > rule[ACCEPT_WAVES].most) || bar > rule[ACCEPT_WAVES].most || m->poisson <= 0.4)
         units_judge(s, ACCEPT_WAVES, subject, m->wave_speed, "", to);
-    else if (!scene_accepts(s, ACCEPT_WAVES))
+    else if (!scene_silences_warning(s, ACCEPT_WAVES))
         warnings_add(to,
                      "%s: its Poisson's ratio of %.6g makes its waves as fast as %.3g m/s, %.3g times as fast as at "
                      "0.4; if this is meant: accept: [waves]",
@@ -91,7 +91,7 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         units_of_waves(s, subject, a, to);
         units_judge(s, ACCEPT_DENSITY, subject, a->density, "", to);
         if (isfinite(a->energy_release_rate)) units_judge(s, ACCEPT_ENERGY, subject, a->energy_release_rate, "", to);
-        const real yield = material_first_yield(a);
+        const real yield = material_initial_yield_stress(a);
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", yield, a->young);
         if (material_yields(a)) units_judge(s, ACCEPT_YIELD, subject, yield / a->young, note, to);
         snprintf(note, sizeof note, ", at %.3g Pa", stretch * a->young);
@@ -115,11 +115,12 @@ struct load_figures {
 static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
 {
     real value[DIM_MAX] = {0}, density = 0;
-    load_value_at(l, p, k, t, value);
+    load_value_at_particle(l, p, k, t, value);
     if (l->boundary->kind == BOUNDARY_PRESSURE) return fabs(value[0]);
     if (l->boundary->kind == BOUNDARY_TRACTION) return sqrt(dot(value, value, s->dim));
     for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
-    return (l->boundary->by_mass ? density : 1) * sqrt(dot(value, value, s->dim)) * particles_longest_edge(p);
+    return (l->boundary->by_mass ? density : 1) * sqrt(dot(value, value, s->dim)) *
+           particles_bounding_box_longest_edge(p);
 }
 
 /* Updates the largest values *f by the stress or displacement that load l prescribes at its particle number k at time t
@@ -130,9 +131,11 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
     const enum boundary_kind kind = l->boundary->kind;
     if (kind == BOUNDARY_TRACTION || kind == BOUNDARY_PRESSURE || kind == BOUNDARY_BODY_FORCE)
         f->stress = real_max(f->stress, load_stress_at(s, p, l, k, t));
-    if (kind != BOUNDARY_VELOCITY || l->boundary->rotates || load_check_displacement_known(l->boundary) != OK) return;
+    if (kind != BOUNDARY_VELOCITY || l->boundary->rotates || boundary_check_displacement_known(l->boundary) != OK)
+        return;
     real u[DIM_MAX];
-    load_displacement_at(l, p, k, l->boundary->frozen ? INFINITY : t, u); /* frozen: in the pseudo-time of a solver */
+    load_displacement_of_particle(l, p, k, l->boundary->frozen ? INFINITY : t,
+                                  u); /* frozen: in the pseudo-time of a solver */
     for (int d = 0; d < s->dim; d++) f->least[d] = real_min(f->least[d], u[d]), f->most[d] = real_max(f->most[d], u[d]);
 }
 
@@ -148,7 +151,7 @@ static void load_figures_add(const struct scene *s, const struct particles *p, c
         for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES_OF_LOADS)
             load_figures_at(s, p, l, k, s->duration * m / MOMENTS_OF_LOADS, f);
     if (!drives || !scene_is_dynamic(s)) return;
-    const real speed = load_driven_speed(l, p, s->duration);
+    const real speed = load_largest_driven_speed(l, p, s->duration);
     if (isfinite(speed)) f->speed = real_max(f->speed, speed);
 }
 
@@ -237,7 +240,7 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     stress = real_max(stress, impedance * real_max(f.speed, scene_is_dynamic(s) ? units_speed_at_start(s, p) : 0));
     const real largest = real_max(stress, stretched);
     stress = real_max(stress, scene_is_dynamic(s) ? real_min(stretched, enough) : stretched);
-    if (stress == 0 && !scene_accepts(s, ACCEPT_STRESS)) {
+    if (stress == 0 && !scene_silences_warning(s, ACCEPT_STRESS)) {
         warnings_add(to,
                      "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "
                      "their values and times (us?); if this is meant: accept: [stress]",
@@ -285,7 +288,7 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
         units_judge(s, ACCEPT_STEPS, "time", (real)clock->steps, note, to);
 }
 
-bool crack_meets_box(const struct crack *c, const real *low, const real *high, int dim, real reach)
+bool crack_overlaps_box(const struct crack *c, const real *low, const real *high, int dim, real reach)
 {
     bool meets = true;
     for (int d = 0; d < dim; d++) {
@@ -296,7 +299,7 @@ bool crack_meets_box(const struct crack *c, const real *low, const real *high, i
     return meets;
 }
 
-real engine_particles_across(const struct scene *s, real low, real high, int axis)
+real engine_count_particles_across(const struct scene *s, real low, real high, int axis)
 {
     real n = round((high - low) / s->spacing) + 1;
     for (int b = 0; b < s->boundaries; b++)
@@ -311,14 +314,14 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     char subject[NAME_MAX_LENGTH + 16], note[80];
     real least = INFINITY;
     for (int d = 0; d < s->dim; d++) {
-        const real n = engine_particles_across(s, low[d], high[d], d);
+        const real n = engine_count_particles_across(s, low[d], high[d], d);
         if (n < least) least = n, snprintf(note, sizeof note, ", along %c", "xyz"[d]);
     }
     snprintf(subject, sizeof subject, "body %s", name);
     units_judge(s, ACCEPT_PARTICLES, subject, least, note, to);
 }
 
-bool engine_body_box(const struct scene *s, const struct particles *p, int b, real *low, real *high)
+bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int b, real *low, real *high)
 {
     for (int d = 0; d < s->dim; d++) {
         low[d] = INFINITY, high[d] = -INFINITY;
@@ -336,9 +339,9 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
         real low[DIM_MAX], high[DIM_MAX];
         bool cracked = false;
-        if (!engine_body_box(s, p, b, low, high)) continue;
+        if (!engine_joined_bodies_box(s, p, b, low, high)) continue;
         for (int k = 0; k < s->cracks; k++)
-            cracked = cracked || crack_meets_box(&s->crack[k], low, high, s->dim, s->spacing);
+            cracked = cracked || crack_overlaps_box(&s->crack[k], low, high, s->dim, s->spacing);
         if (cracked) units_of_body(s, s->body[b].name, low, high, to);
     }
 }
@@ -353,11 +356,11 @@ static void units_of_thickness(const struct scene *s, real longest, struct warni
     units_judge(s, ACCEPT_THICKNESS, "space", s->thickness / longest, note, to);
 }
 
-void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,
-                          const struct run_clock *clock, real wave_speed, struct warnings *to)
+void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *l,
+                                   const struct run_clock *clock, real wave_speed, struct warnings *to)
 {
-    units_of_time(s, clock, wave_speed, real_max(particles_longest_edge(p), s->spacing), to);
-    units_of_thickness(s, particles_longest_edge(p) + s->spacing, to);
+    units_of_time(s, clock, wave_speed, real_max(particles_bounding_box_longest_edge(p), s->spacing), to);
+    units_of_thickness(s, particles_bounding_box_longest_edge(p) + s->spacing, to);
     units_of_materials(s, to);
     units_of_tractions(s, to);
     units_of_loads(s, p, l, to);

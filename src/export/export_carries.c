@@ -57,7 +57,7 @@ static status carries_materials(const struct scene *s, bool bond_style)
     if (scene_strength_scatters(s))
         return lammps_refuse(s, "strength that scatters from place to place is not in LAMMPS' types; none is expected");
     if (s->damping > 0) return lammps_refuse(s, "damping is not exported; 0 is expected");
-    if (scene_viscous(s)) return lammps_refuse(s, "viscosity: bulk viscosity is not exported; none is expected");
+    if (scene_has_viscosity(s)) return lammps_refuse(s, "viscosity: bulk viscosity is not exported; none is expected");
     if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks that grow by prescription");
     return OK;
 }
@@ -89,7 +89,7 @@ static void contact_settings(struct lammps_settings *to, const struct scene *s, 
     settings_add(to, s->contact_stiffness != 1, "contact.stiffness", "1", effect);
 }
 
-bool lammps_families_differ(const struct scene *s) { return s->model == MODEL_OSPD && scene_bonds_break(s); }
+bool lammps_normalisation_differs(const struct scene *s) { return s->model == MODEL_OSPD && scene_bonds_break(s); }
 
 /* Appends the peridynamic settings of the scene that differ from the fixed rules of LAMMPS, with the effect of changing
  * them. bond_style: the export is for bond_style bpm/peri. */

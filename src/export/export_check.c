@@ -28,7 +28,7 @@ static void check_rows_write(FILE *to, const struct particles *p, const real *be
     }
 }
 
-int64_t lammps_check_steps(const struct exported *x)
+int64_t lammps_check_step_count(const struct exported *x)
 {
     return x->e->clock.steps < CHECK_STEPS ? x->e->clock.steps : CHECK_STEPS;
 }
@@ -42,7 +42,7 @@ status lammps_check_write(FILE *to, struct exported *x)
     joined_volume(before, &e->part, &e->bonds);
     array_copy(damage, e->part.damage, n, sizeof *damage);
     e->report->quiet = e->report->excerpt = true;
-    e->clock.steps = lammps_check_steps(x);
+    e->clock.steps = lammps_check_step_count(x);
     const status ran = engine_run(e);
     e->clock.steps = steps;
     if (ran == OK) {

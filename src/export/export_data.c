@@ -42,7 +42,7 @@ static void velocities_write(FILE *to, const struct exported *x)
     real v[DIM_MAX];
     fputs("\nVelocities\n\n", to);
     for (int64_t i = 0; i < x->e->part.n; i++) {
-        lammps_velocity(x, i, v);
+        lammps_initial_velocity(x, i, v);
         fprintf(to, "%d %.17g %.17g %.17g\n", x->e->part.id[i] + 1, v[0], v[1], v[2]);
     }
 }

@@ -120,7 +120,7 @@ static status exodus_frame_write(struct exodus_export *x, int k)
                            fields[field].name);
     }
     real *numbers = NEW("export.numbers", m->n, real);
-    if (s == OK) netcdf_reals(&x->w, 1, &f.t);
+    if (s == OK) netcdf_write_reals(&x->w, 1, &f.t);
     for (int nodal = 1; nodal >= 0 && s == OK; nodal--)
         for (int v = 0; v < x->variables[nodal]; v++) {
             const struct variable *of = &x->variable[nodal][v];
@@ -129,7 +129,7 @@ static status exodus_frame_write(struct exodus_export *x, int k)
                 const int64_t row = m->e->part.id[m->particle[i]];
                 numbers[i] = of->component < 0 ? 0 : value[of->field][row * width + of->component];
             }
-            netcdf_reals(&x->w, m->n, numbers); /* blocks follow each other as elements do */
+            netcdf_write_reals(&x->w, m->n, numbers); /* blocks follow each other as elements do */
         }
     memory_free(numbers);
     for (int field = 0; field < FIELDS; field++) memory_free(value[field]);
@@ -154,17 +154,17 @@ struct shared {
 static void blocks_define(struct exodus_export *x, const struct shared *d, int *over)
 {
     struct netcdf_writer *w = &x->w;
-    netcdf_array(w, "eb_status", 0, NETCDF_INT, 1, &d->blocks, NULL, NULL);
-    netcdf_array(w, "eb_prop1", 0, NETCDF_INT, 1, &d->blocks, "name", "ID");
-    netcdf_array(w, "eb_names", 0, NETCDF_CHAR, 2, (const int[]){d->blocks, d->name}, NULL, NULL);
+    netcdf_define_array(w, "eb_status", 0, NETCDF_INT, 1, &d->blocks, NULL, NULL);
+    netcdf_define_array(w, "eb_prop1", 0, NETCDF_INT, 1, &d->blocks, "name", "ID");
+    netcdf_define_array(w, "eb_names", 0, NETCDF_CHAR, 2, (const int[]){d->blocks, d->name}, NULL, NULL);
     for (int m = 0; m < x->mesh.scene.materials; m++) {
         if (block_size(&x->mesh, m) == 0) continue;
-        over[m] = netcdf_dimension(w, "num_el_in_blk", m + 1, block_size(&x->mesh, m));
-        const int one = netcdf_dimension(w, "num_nod_per_el", m + 1, 1);
-        const int two = netcdf_dimension(w, "num_att_in_blk", m + 1, 2);
-        netcdf_array(w, "connect", m + 1, NETCDF_INT, 2, (const int[]){over[m], one}, "elem_type", "SPHERE");
-        netcdf_array(w, "attrib", m + 1, NETCDF_DOUBLE, 2, (const int[]){over[m], two}, NULL, NULL);
-        netcdf_array(w, "attrib_name", m + 1, NETCDF_CHAR, 2, (const int[]){two, d->name}, NULL, NULL);
+        over[m] = netcdf_define_dimension(w, "num_el_in_blk", m + 1, block_size(&x->mesh, m));
+        const int one = netcdf_define_dimension(w, "num_nod_per_el", m + 1, 1);
+        const int two = netcdf_define_dimension(w, "num_att_in_blk", m + 1, 2);
+        netcdf_define_array(w, "connect", m + 1, NETCDF_INT, 2, (const int[]){over[m], one}, "elem_type", "SPHERE");
+        netcdf_define_array(w, "attrib", m + 1, NETCDF_DOUBLE, 2, (const int[]){over[m], two}, NULL, NULL);
+        netcdf_define_array(w, "attrib_name", m + 1, NETCDF_CHAR, 2, (const int[]){two, d->name}, NULL, NULL);
     }
 }
 
@@ -173,13 +173,13 @@ static void sets_define(struct exodus_export *x, const struct shared *d)
     struct netcdf_writer *w = &x->w;
     const struct loads *l = &x->mesh.e->loads;
     if (l->n == 0) return;
-    netcdf_array(w, "ns_status", 0, NETCDF_INT, 1, &d->sets, NULL, NULL);
-    netcdf_array(w, "ns_prop1", 0, NETCDF_INT, 1, &d->sets, "name", "ID");
-    netcdf_array(w, "ns_names", 0, NETCDF_CHAR, 2, (const int[]){d->sets, d->name}, NULL, NULL);
+    netcdf_define_array(w, "ns_status", 0, NETCDF_INT, 1, &d->sets, NULL, NULL);
+    netcdf_define_array(w, "ns_prop1", 0, NETCDF_INT, 1, &d->sets, "name", "ID");
+    netcdf_define_array(w, "ns_names", 0, NETCDF_CHAR, 2, (const int[]){d->sets, d->name}, NULL, NULL);
     for (int k = 0; k < l->n; k++) {
         if (l->load[k].n == 0) continue;
-        const int over = netcdf_dimension(w, "num_nod_ns", k + 1, l->load[k].n);
-        netcdf_array(w, "node_ns", k + 1, NETCDF_INT, 1, &over, NULL, NULL);
+        const int over = netcdf_define_dimension(w, "num_nod_ns", k + 1, l->load[k].n);
+        netcdf_define_array(w, "node_ns", k + 1, NETCDF_INT, 1, &over, NULL, NULL);
     }
 }
 
@@ -192,18 +192,19 @@ static void variables_define(struct exodus_export *x, const struct shared *d, co
                                                                                            "name_nod_var"};
     for (int nodal = 1; nodal >= 0; nodal--) {
         if (x->variables[nodal] == 0) continue;
-        const int n = netcdf_dimension(w, counts[nodal], 0, x->variables[nodal]);
-        netcdf_array(w, names[nodal], 0, NETCDF_CHAR, 2, (const int[]){n, d->name}, NULL, NULL);
+        const int n = netcdf_define_dimension(w, counts[nodal], 0, x->variables[nodal]);
+        netcdf_define_array(w, names[nodal], 0, NETCDF_CHAR, 2, (const int[]){n, d->name}, NULL, NULL);
     }
-    netcdf_array(w, "time_whole", 0, NETCDF_DOUBLE, 1, &d->records, NULL, NULL);
+    netcdf_define_array(w, "time_whole", 0, NETCDF_DOUBLE, 1, &d->records, NULL, NULL);
     for (int v = 0; v < x->variables[1]; v++)
-        netcdf_array(w, "vals_nod_var", v + 1, NETCDF_DOUBLE, 2, (const int[]){d->records, d->nodes}, NULL, NULL);
+        netcdf_define_array(w, "vals_nod_var", v + 1, NETCDF_DOUBLE, 2, (const int[]){d->records, d->nodes}, NULL,
+                            NULL);
     for (int v = 0; v < x->variables[0]; v++)
         for (int m = 0; m < x->mesh.scene.materials; m++) {
             char name[NETCDF_NAME];
             snprintf(name, sizeof name, "vals_elem_var%deb", v + 1);
             if (block_size(&x->mesh, m) == 0) continue;
-            netcdf_array(w, name, m + 1, NETCDF_DOUBLE, 2, (const int[]){d->records, over[m]}, NULL, NULL);
+            netcdf_define_array(w, name, m + 1, NETCDF_DOUBLE, 2, (const int[]){d->records, over[m]}, NULL, NULL);
         }
 }
 
@@ -217,20 +218,20 @@ static void all_define(struct exodus_export *x, const struct netcdf_attribute *a
     struct shared d;
     int *over = NEW("export.blocks", m->scene.materials, int);
     w->attribute = attribute, w->attributes = attributes, w->records = x->frames;
-    d.records = netcdf_dimension(w, "time_step", 0, 0);
-    netcdf_dimension(w, "len_string", 0, NAME_WIDTH);
-    d.line = netcdf_dimension(w, "len_line", 0, LINE_WIDTH);
-    netcdf_dimension(w, "four", 0, 4);
-    d.name = netcdf_dimension(w, "len_name", 0, NAME_WIDTH);
-    d.dim = netcdf_dimension(w, "num_dim", 0, DIM_MAX);
-    d.nodes = netcdf_dimension(w, "num_nodes", 0, m->n);
-    netcdf_dimension(w, "num_elem", 0, m->n);
-    d.blocks = netcdf_dimension(w, "num_el_blk", 0, m->scene.materials);
-    d.sets = m->e->loads.n > 0 ? netcdf_dimension(w, "num_node_sets", 0, m->e->loads.n) : -1;
-    d.rows = netcdf_dimension(w, "num_info", 0, m->scene.materials + 1);
-    netcdf_array(w, "info_records", 0, NETCDF_CHAR, 2, (const int[]){d.rows, d.line}, NULL, NULL);
-    netcdf_array(w, "coor_names", 0, NETCDF_CHAR, 2, (const int[]){d.dim, d.name}, NULL, NULL);
-    for (int k = 0; k < DIM_MAX; k++) netcdf_array(w, axes[k], 0, NETCDF_DOUBLE, 1, &d.nodes, NULL, NULL);
+    d.records = netcdf_define_dimension(w, "time_step", 0, 0);
+    netcdf_define_dimension(w, "len_string", 0, NAME_WIDTH);
+    d.line = netcdf_define_dimension(w, "len_line", 0, LINE_WIDTH);
+    netcdf_define_dimension(w, "four", 0, 4);
+    d.name = netcdf_define_dimension(w, "len_name", 0, NAME_WIDTH);
+    d.dim = netcdf_define_dimension(w, "num_dim", 0, DIM_MAX);
+    d.nodes = netcdf_define_dimension(w, "num_nodes", 0, m->n);
+    netcdf_define_dimension(w, "num_elem", 0, m->n);
+    d.blocks = netcdf_define_dimension(w, "num_el_blk", 0, m->scene.materials);
+    d.sets = m->e->loads.n > 0 ? netcdf_define_dimension(w, "num_node_sets", 0, m->e->loads.n) : -1;
+    d.rows = netcdf_define_dimension(w, "num_info", 0, m->scene.materials + 1);
+    netcdf_define_array(w, "info_records", 0, NETCDF_CHAR, 2, (const int[]){d.rows, d.line}, NULL, NULL);
+    netcdf_define_array(w, "coor_names", 0, NETCDF_CHAR, 2, (const int[]){d.dim, d.name}, NULL, NULL);
+    for (int k = 0; k < DIM_MAX; k++) netcdf_define_array(w, axes[k], 0, NETCDF_DOUBLE, 1, &d.nodes, NULL, NULL);
     blocks_define(x, &d, over);
     sets_define(x, &d);
     variables_define(x, &d, over);
@@ -245,13 +246,13 @@ static void info_write(struct exodus_export *x)
     const struct scene *s = &x->mesh.scene;
     char line[2 * LINE_WIDTH];
     snprintf(line, sizeof line, "spacing %.9g m, horizon %.9g m", s->spacing, s->horizon * s->spacing);
-    netcdf_text(&x->w, line, LINE_WIDTH);
+    netcdf_write_text_row(&x->w, line, LINE_WIDTH);
     for (int m = 0; m < s->materials; m++) {
         snprintf(line, sizeof line, "block_%d: %.24s: density %.5g kg/m^3, E %.5g Pa, nu %.4g", m + 1,
                  s->material[m].name, s->material[m].density, s->material[m].young, s->material[m].poisson);
-        netcdf_text(&x->w, line, LINE_WIDTH);
+        netcdf_write_text_row(&x->w, line, LINE_WIDTH);
     }
-    netcdf_end(&x->w);
+    netcdf_end_array(&x->w);
 }
 
 static void coordinates_write(struct exodus_export *x)
@@ -259,12 +260,12 @@ static void coordinates_write(struct exodus_export *x)
     static const char *const axis[] = {"x", "y", "z"};
     const struct particles *p = &x->mesh.e->part;
     real *numbers = NEW("export.numbers", x->mesh.n, real);
-    for (int d = 0; d < DIM_MAX; d++) netcdf_text(&x->w, axis[d], NAME_WIDTH);
-    netcdf_end(&x->w);
+    for (int d = 0; d < DIM_MAX; d++) netcdf_write_text_row(&x->w, axis[d], NAME_WIDTH);
+    netcdf_end_array(&x->w);
     for (int d = 0; d < DIM_MAX; d++) {
         for (int64_t k = 0; k < x->mesh.n; k++) numbers[k] = d < p->dim ? p->X[d][x->mesh.particle[k]] : 0;
-        netcdf_reals(&x->w, x->mesh.n, numbers);
-        netcdf_end(&x->w);
+        netcdf_write_reals(&x->w, x->mesh.n, numbers);
+        netcdf_end_array(&x->w);
     }
     memory_free(numbers);
 }
@@ -281,13 +282,13 @@ static void block_write(struct exodus_export *x, int material)
         node[k] = (int32_t)(first + k + 1);
         attribute[k][0] = cbrt(0.75 * volume / M_PI), attribute[k][1] = volume;
     }
-    netcdf_integers(&x->w, n, node);
-    netcdf_end(&x->w);
-    netcdf_reals(&x->w, 2 * n, attribute[0]);
-    netcdf_end(&x->w);
-    netcdf_text(&x->w, "radius", NAME_WIDTH);
-    netcdf_text(&x->w, "volume", NAME_WIDTH);
-    netcdf_end(&x->w);
+    netcdf_write_integers(&x->w, n, node);
+    netcdf_end_array(&x->w);
+    netcdf_write_reals(&x->w, 2 * n, attribute[0]);
+    netcdf_end_array(&x->w);
+    netcdf_write_text_row(&x->w, "radius", NAME_WIDTH);
+    netcdf_write_text_row(&x->w, "volume", NAME_WIDTH);
+    netcdf_end_array(&x->w);
     memory_free(node);
     memory_free(attribute);
 }
@@ -295,16 +296,16 @@ static void block_write(struct exodus_export *x, int material)
 static void blocks_write(struct exodus_export *x)
 {
     const int n = x->mesh.scene.materials;
-    for (int m = 0; m < n; m++) netcdf_integers(&x->w, 1, (const int32_t[]){block_size(&x->mesh, m) > 0});
-    netcdf_end(&x->w);
-    for (int m = 0; m < n; m++) netcdf_integers(&x->w, 1, (const int32_t[]){m + 1});
-    netcdf_end(&x->w);
+    for (int m = 0; m < n; m++) netcdf_write_integers(&x->w, 1, (const int32_t[]){block_size(&x->mesh, m) > 0});
+    netcdf_end_array(&x->w);
+    for (int m = 0; m < n; m++) netcdf_write_integers(&x->w, 1, (const int32_t[]){m + 1});
+    netcdf_end_array(&x->w);
     for (int m = 0; m < n; m++) {
         char name[NAME_WIDTH];
         snprintf(name, sizeof name, "block_%d", m + 1);
-        netcdf_text(&x->w, name, NAME_WIDTH);
+        netcdf_write_text_row(&x->w, name, NAME_WIDTH);
     }
-    netcdf_end(&x->w);
+    netcdf_end_array(&x->w);
     for (int m = 0; m < n; m++)
         if (block_size(&x->mesh, m) > 0) block_write(x, m);
 }
@@ -312,17 +313,18 @@ static void blocks_write(struct exodus_export *x)
 static void sets_write(struct exodus_export *x)
 {
     const struct loads *l = &x->mesh.e->loads;
-    for (int k = 0; k < l->n; k++) netcdf_integers(&x->w, 1, (const int32_t[]){l->load[k].n > 0});
-    netcdf_end(&x->w);
-    for (int k = 0; k < l->n; k++) netcdf_integers(&x->w, 1, (const int32_t[]){k + 1});
-    netcdf_end(&x->w);
+    for (int k = 0; k < l->n; k++) netcdf_write_integers(&x->w, 1, (const int32_t[]){l->load[k].n > 0});
+    netcdf_end_array(&x->w);
+    for (int k = 0; k < l->n; k++) netcdf_write_integers(&x->w, 1, (const int32_t[]){k + 1});
+    netcdf_end_array(&x->w);
     for (int k = 0; k < l->n; k++)
-        netcdf_text(&x->w, export_set_name(&x->mesh, k).text, NAME_WIDTH - 1), netcdf_text(&x->w, "", 1);
-    netcdf_end(&x->w);
+        netcdf_write_text_row(&x->w, export_set_name(&x->mesh, k).text, NAME_WIDTH - 1),
+            netcdf_write_text_row(&x->w, "", 1);
+    netcdf_end_array(&x->w);
     for (int k = 0; k < l->n; k++) {
         int32_t *node = export_set_nodes(&x->mesh, k);
-        netcdf_integers(&x->w, l->load[k].n, node);
-        netcdf_end(&x->w);
+        netcdf_write_integers(&x->w, l->load[k].n, node);
+        netcdf_end_array(&x->w);
         memory_free(node);
     }
 }
@@ -339,14 +341,15 @@ static status exodus_put(FILE *to, void *context)
         {"int64_status", NULL, NETCDF_INT, 0}};
     x->w.to = to;
     all_define(x, attribute, COUNT_OF(attribute));
-    netcdf_begin(&x->w);
+    netcdf_write_header(&x->w);
     info_write(x);
     coordinates_write(x);
     blocks_write(x);
     sets_write(x);
     for (int nodal = 1; nodal >= 0; nodal--) {
-        for (int v = 0; v < x->variables[nodal]; v++) netcdf_text(&x->w, x->variable[nodal][v].name, NAME_WIDTH);
-        netcdf_end(&x->w);
+        for (int v = 0; v < x->variables[nodal]; v++)
+            netcdf_write_text_row(&x->w, x->variable[nodal][v].name, NAME_WIDTH);
+        netcdf_end_array(&x->w);
     }
     for (int k = 0; k < x->frames; k++) TRY(exodus_frame_write(x, k));
     return OK;

@@ -57,7 +57,7 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
     scene_free(s);
     TRY(scene_make(s, r, &none));
     TRY(lammps_check_features(settings, s, r->bond_style));
-    if (settings->n == 0 && !lammps_families_differ(s)) return OK;
+    if (settings->n == 0 && !lammps_normalisation_differs(s)) return OK;
     if (!r->allow_different) return settings_refuse(settings, s);
     struct lammps_settings left;
     scene_free(s);
@@ -81,7 +81,7 @@ static void left_out_write(FILE *to, const struct scene *s)
 static void readme_write(FILE *to, const struct exported *x)
 {
     const char *style = x->bond_style ? "bond_style bpm/peri" : x->s->model == MODEL_BOND ? "peri/pmb" : "peri/lps";
-    const long long steps = (long long)lammps_check_steps(x);
+    const long long steps = (long long)lammps_check_step_count(x);
     fprintf(
         to,
         "%s for LAMMPS (%s), exported by Cleave %s\n\n"
@@ -101,7 +101,7 @@ static void readme_write(FILE *to, const struct exported *x)
         fprintf(to, "%s%s: %s   %s\n",
                 k ? "" : "\nThe results differ from those of the scene as it was, by LAMMPS' rules:\n",
                 x->settings.of[k].key, x->settings.of[k].value, x->settings.of[k].effect);
-    if (lammps_families_differ(x->s))
+    if (lammps_normalisation_differs(x->s))
         fputs("\nThe results differ once bonds break: families of LAMMPS keep the weight that they had whole, those of "
               "Cleave\n"
               "do not. check.csv agrees to round-off only as long as nothing has broken.\n",
@@ -175,7 +175,7 @@ static status file_export(const struct export_file *f, struct exported *x, const
     const bool closed = fclose(to) == 0;
     if (s == OK && !(whole && closed)) s = file_report_write_failure(path.text, errno);
     if (s == OK) s = file_append_and_sync(path.text, NULL, 0);
-    if (s != OK) file_discard(path.text);
+    if (s != OK) file_discard_temporary(path.text);
     return s;
 }
 
@@ -221,8 +221,9 @@ static status files_write_locked(struct exported *x, const struct lammps_types *
     for (; s == OK && written < COUNT_OF(files); written++) s = file_export(&files[written], x, t);
     if (s == OK) unlink(path_join(folder, "in.lammps").text);
     for (; s == OK && published < COUNT_OF(files); published++)
-        s = file_publish(path_join(folder, files[published].name).text);
-    for (; s != OK && published < written; published++) file_discard(path_join(folder, files[published].name).text);
+        s = file_replace_by_temporary(path_join(folder, files[published].name).text);
+    for (; s != OK && published < written; published++)
+        file_discard_temporary(path_join(folder, files[published].name).text);
     return s;
 }
 
@@ -250,7 +251,7 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
     left_out_write(stdout, x->s);
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
-    if (lammps_families_differ(x->s))
+    if (lammps_normalisation_differs(x->s))
         puts("differs from Cleave once bonds break: in peri/lps the weighted volume of a particle still includes "
              "broken bonds");
 }

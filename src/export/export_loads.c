@@ -74,7 +74,7 @@ status lammps_loads_make(struct exported *x)
     return OK;
 }
 
-void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX])
+void lammps_initial_velocity(const struct exported *x, int64_t i, real v[DIM_MAX])
 {
     const struct loads *l = &x->e->loads;
     const int dim = x->e->part.dim;

@@ -123,7 +123,7 @@ status export_write_file(const char *path, status (*write)(FILE *to, void *conte
     const bool closed = fclose(to) == 0;
     if (s == OK && !(whole && closed)) s = file_report_write_failure(path, errno);
     if (s == OK) s = file_append_and_sync(path, NULL, 0);
-    if (s == OK) s = file_publish(path);
-    if (s != OK) file_discard(path);
+    if (s == OK) s = file_replace_by_temporary(path);
+    if (s != OK) file_discard_temporary(path);
     return s;
 }

@@ -33,7 +33,7 @@ status lammps_check_features(struct lammps_settings *to, const struct scene *s, 
 
 /* Returns true if the results of LAMMPS differ in a way that no key of the scene removes: in the state-based model
  * LAMMPS continues to normalise by the weighted volume of the intact family after bonds have broken. */
-bool lammps_families_differ(const struct scene *s);
+bool lammps_normalisation_differs(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */
 
@@ -117,7 +117,7 @@ status lammps_loads_make(struct exported *x);
 
 /* Computes the velocity v[] with which particle i starts in LAMMPS [m/s]: its initial velocity, in the components that
  * a boundary drives the prescribed velocity at half a time step. */
-void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX]);
+void lammps_initial_velocity(const struct exported *x, int64_t i, real v[DIM_MAX]);
 
 /* Writes the names of all columns of `exported` to the file `to`, as arguments of the LAMMPS command `fix
  * property/atom`. */
@@ -147,9 +147,9 @@ void lammps_cost_write(FILE *to, const struct exported *exported);
 
 /* Returns the number of time steps after which the positions in both programs are compared: CHECK_STEPS, or all steps
  * of a shorter run. */
-int64_t lammps_check_steps(const struct exported *x);
+int64_t lammps_check_step_count(const struct exported *x);
 
-/* Makes lammps_check_steps time steps in Cleave and writes the positions of the particles and the broken share of
+/* Makes lammps_check_step_count time steps in Cleave and writes the positions of the particles and the broken share of
  * their bonds to the file `to`, the contents of check.csv (export_check.c). Returns FAILED if a step fails. */
 status lammps_check_write(FILE *to, struct exported *exported);
 

@@ -17,7 +17,7 @@ static void name_set(char *to, const char *name, int number)
         snprintf(to, NETCDF_NAME, "%s", name);
 }
 
-int netcdf_dimension(struct netcdf_writer *w, const char *name, int number, int64_t length)
+int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int number, int64_t length)
 {
     GROW("netcdf.dimensions", w->dimension, w->dimensions + 1);
     name_set(w->dimension[w->dimensions].name, name, number);
@@ -25,8 +25,8 @@ int netcdf_dimension(struct netcdf_writer *w, const char *name, int number, int6
     return w->dimensions++;
 }
 
-void netcdf_array(struct netcdf_writer *w, const char *name, int number, enum netcdf_type type, int ranks,
-                  const int *dimension, const char *attribute, const char *text)
+void netcdf_define_array(struct netcdf_writer *w, const char *name, int number, enum netcdf_type type, int ranks,
+                         const int *dimension, const char *attribute, const char *text)
 {
     GROW("netcdf.arrays", w->array, w->arrays + 1);
     struct netcdf_array *a = &w->array[w->arrays++];
@@ -130,7 +130,7 @@ static void header_build(struct netcdf_writer *w, int64_t first)
     }
 }
 
-void netcdf_begin(struct netcdf_writer *w)
+void netcdf_write_header(struct netcdf_writer *w)
 {
     header_build(w, 0); /* its length does not depend on the positions in it */
     header_build(w, w->length);
@@ -147,7 +147,7 @@ void netcdf_free(struct netcdf_writer *w)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
-void netcdf_reals(struct netcdf_writer *w, int64_t n, const real *value)
+void netcdf_write_reals(struct netcdf_writer *w, int64_t n, const real *value)
 {
     uint8_t chunk[CHUNK][8];
     for (int64_t first = 0; first < n; first += CHUNK) {
@@ -162,7 +162,7 @@ void netcdf_reals(struct netcdf_writer *w, int64_t n, const real *value)
     w->pending += 8 * n;
 }
 
-void netcdf_integers(struct netcdf_writer *w, int64_t n, const int32_t *value)
+void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *value)
 {
     for (int64_t k = 0; k < n; k++) {
         const uint32_t bits = (uint32_t)value[k];
@@ -171,14 +171,14 @@ void netcdf_integers(struct netcdf_writer *w, int64_t n, const int32_t *value)
     w->pending += 4 * n;
 }
 
-void netcdf_text(struct netcdf_writer *w, const char *text, int width)
+void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int width)
 {
     const int length = (int)strlen(text);
     for (int k = 0; k < width; k++) fputc(k < length ? text[k] : 0, w->to);
     w->pending += width;
 }
 
-void netcdf_end(struct netcdf_writer *w)
+void netcdf_end_array(struct netcdf_writer *w)
 {
     for (; w->pending % 4 != 0; w->pending++) fputc(0, w->to);
     w->pending = 0;

@@ -1,7 +1,7 @@
 /* Writes netCDF files of the classic format with 64-bit offsets (CDF-2; NetCDF User's Guide, "File format
- * specifications"): first dimensions, arrays and attributes are defined, then netcdf_begin writes the header, then the
- * numbers of all arrays follow in the order of their definition: those of one length, then for each record those over
- * records. Dimensions, arrays and attributes are few; faults of writing are found by ferror. */
+ * specifications"): first dimensions, arrays and attributes are defined, then netcdf_write_header writes the header,
+ * then the numbers of all arrays follow in the order of their definition: those of one length, then for each record
+ * those over records. Dimensions, arrays and attributes are few; faults of writing are found by ferror. */
 #ifndef CLEAVE_NETCDF_WRITE
 #define CLEAVE_NETCDF_WRITE
 
@@ -46,25 +46,25 @@ struct netcdf_writer {
 };
 
 /* Defines a dimension that is called `name` followed by `number` (0: without a number). Returns its index. */
-int netcdf_dimension(struct netcdf_writer *w, const char *name, int number, int64_t length);
+int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int number, int64_t length);
 
 /* Defines an array that is called `name` followed by `number` over `ranks` dimensions. attribute, text: name and text
  * of its attribute, kept by reference; NULL: none. */
-void netcdf_array(struct netcdf_writer *w, const char *name, int number, enum netcdf_type type, int ranks,
-                  const int *dimension, const char *attribute, const char *text);
+void netcdf_define_array(struct netcdf_writer *w, const char *name, int number, enum netcdf_type type, int ranks,
+                         const int *dimension, const char *attribute, const char *text);
 
 /* Writes the header to w->to. */
-void netcdf_begin(struct netcdf_writer *w);
+void netcdf_write_header(struct netcdf_writer *w);
 
 /* Writes the next n numbers of an array of reals or of whole numbers. */
-void netcdf_reals(struct netcdf_writer *w, int64_t n, const real *value);
-void netcdf_integers(struct netcdf_writer *w, int64_t n, const int32_t *value);
+void netcdf_write_reals(struct netcdf_writer *w, int64_t n, const real *value);
+void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *value);
 
 /* Writes the next row of an array of letters, cut or filled up to `width` bytes. */
-void netcdf_text(struct netcdf_writer *w, const char *text, int width);
+void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int width);
 
 /* Ends an array. */
-void netcdf_end(struct netcdf_writer *w);
+void netcdf_end_array(struct netcdf_writer *w);
 
 /* Releases the memory of *w. */
 void netcdf_free(struct netcdf_writer *w);

@@ -36,8 +36,8 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
                most = isnan(g->rule->fastest) ? bound : real_min(g->rule->fastest, bound);
     real wanted = 0;
     if (g->intensity > 0) {
-        const real filtered_speed = crack_speed_factor(m, SPEED_EXACT, g->filtered_speed);
-        wanted = crack_speed_from_factor(m, filtered_speed * g->rule->toughness / g->intensity, most);
+        const real filtered_speed = crack_speed_sif_factor(m, SPEED_EXACT, g->filtered_speed);
+        wanted = crack_speed_from_sif_factor(m, filtered_speed * g->rule->toughness / g->intensity, most);
     }
     g->target_speed += (wanted - g->target_speed) * -expm1(-(control->time - g->control_time) / (SMOOTHING * settling));
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
@@ -77,7 +77,7 @@ static bool grows(const struct growing_crack *g, real t)
  * crack in `control`. */
 static void growth_turn(struct growing_crack *g, const struct growth_control *control)
 {
-    const real angle = crack_kink_angle(control->factors.K), c = cos(angle), s = sin(angle);
+    const real angle = crack_kink_angle_of_sif(control->factors.K), c = cos(angle), s = sin(angle);
     const real x = control->along[0], y = control->along[1];
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
@@ -128,7 +128,7 @@ static void cross_row(struct growing_crack *g, const struct bonds *b, const stru
         const int32_t j = it.bond.nbr;
         if (it.bond.w == 0) continue;
         particle_reference_position(p, j, Y);
-        if (crack_cuts(path, X, Y, 2) && !fades(g, i, j)) fading_add(g, i, j, it.bond.w, g->grown);
+        if (crack_cuts_bond(path, X, Y, 2) && !fades(g, i, j)) fading_add(g, i, j, it.bond.w, g->grown);
     }
 }
 
@@ -189,7 +189,7 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
 {
     *row = b->row_of[i];
     for (struct bond_iterator it = bond_iterator_of_row(b, *row); bond_next(&it);)
-        if (it.bond.nbr == j) return bond_index_for_writing(b, it.row_block, it.k - 1, it.lane);
+        if (it.bond.nbr == j) return bond_writable_index(b, it.row_block, it.k - 1, it.lane);
     return -1;
 }
 
@@ -203,7 +203,7 @@ static void step_back(struct growing_crack *g, struct bonds *b)
         const int64_t q = growth_entry_of(b, bond->i, bond->j, &row);
         if (q < 0 || (b->w[q] == 0 && bond->now > 0)) continue;
         b->w[q] = bond->before;
-        bonds_update_common_of_bond(b, row, q);
+        bond_changed_update_column(b, row, q);
         g->fading[kept++] = *bond;
     }
     g->n = kept;

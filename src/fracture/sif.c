@@ -9,7 +9,7 @@
 
 #define AT_THE_TIP 1e-9 /* tolerance of positions at the tip or on the crack [outer radius] */
 
-void sif_weight_function(enum sif_weight form, const struct contour *c, real distance, real *weight, real *slope)
+void sif_contour_weight(enum sif_weight form, const struct contour *c, real distance, real *weight, real *slope)
 {
     const real width = c->outer - c->inner, z = real_max(0, real_min(1, (distance - c->inner) / width));
     const bool ramp = distance > c->inner && distance < c->outer;
@@ -57,12 +57,13 @@ static real disc_density(const struct crack_state *a, const struct crack_state *
     return density * sum;
 }
 
-real sif_integrand(const struct sif_tip *tip, const struct contour *c, const real x[2],
-                   const struct crack_state *actual, const struct crack_state *auxiliary, real inertia_factor)
+real sif_interaction_integrand(const struct sif_tip *tip, const struct contour *c, const real x[2],
+                               const struct crack_state *actual, const struct crack_state *auxiliary,
+                               real inertia_factor)
 {
     const real r = hypot(x[0], x[1]), n[2] = {x[0] / r, x[1] / r};
     real q, slope, sum = 0;
-    sif_weight_function(tip->weight, c, r, &q, &slope);
+    sif_contour_weight(tip->weight, c, r, &q, &slope);
     if (slope != 0) sum += slope * ring_density(actual, auxiliary, tip->medium.density, n);
     if (inertia_factor > 0 && q > 0) sum += inertia_factor * q * disc_density(actual, auxiliary, tip->medium.density);
     return sum;
@@ -134,7 +135,7 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
                              struct crack_state *state)
 {
     if (tip->stress == SIF_HOOKE) {
-        crack_hooke_stress(&tip->medium, state->gradient, state->stress);
+        crack_stress_from_gradient(&tip->medium, state->gradient, state->stress);
         return;
     }
     real global[2][2] = {{m->stress[0][i], m->stress[2][i]}, {m->stress[2][i], m->stress[1][i]}};
@@ -154,7 +155,7 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     point->area = p->volume0[i] / tip->thickness;
     local_place(tip, p, i, point->x);
     if (fabs(point->x[1]) <= AT_THE_TIP * fabs(point->x[0])) point->x[1] = copysign(0, tip->face);
-    gradient_evaluate(stencil, i, m->displacement, global);
+    gradient_stencil_apply(stencil, i, m->displacement, global);
     local_tensor(tip, global, point->state.gradient);
     sif_point_stress(tip, m, i, &point->state);
     if (m->body[0]) {
@@ -163,7 +164,7 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
         for (int d = 0; d < 2; d++) point->state.acceleration[d] = -given[d];
     }
     if (!m->velocity[0]) return;
-    gradient_evaluate(stencil, i, m->velocity, global);
+    gradient_stencil_apply(stencil, i, m->velocity, global);
     local_tensor(tip, global, local);
     for (int d = 0; d < 2; d++) point->state.velocity_along[d] = local[d][0];
     local_vector(tip, (real[2]){m->velocity[0][i], m->velocity[1][i]}, point->state.velocity);
@@ -196,7 +197,7 @@ static real core_share(const struct sif_tip *tip, real r)
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
     real q, slope;
     if (tip->speed == 0 || tip->core == 0) return 1;
-    sif_weight_function(SIF_QUINTIC, &edge, r, &q, &slope);
+    sif_contour_weight(SIF_QUINTIC, &edge, r, &q, &slope);
     return 1 - q;
 }
 
@@ -214,15 +215,17 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
         struct crack_field field;
         for (int mode = 0; mode < MODES; mode++) {
             crack_tip_field(&tip->medium, mode, tip->speed, point->x, &field);
-            sum[mode] += point->area * sif_integrand(tip, s->contour, point->x, &point->state, &field.state, inside);
+            sum[mode] +=
+                point->area * sif_interaction_integrand(tip, s->contour, point->x, &point->state, &field.state, inside);
         }
-        sum[MODES] += point->area * sif_integrand(tip, s->contour, point->x, &point->state, &point->state, inside);
+        sum[MODES] +=
+            point->area * sif_interaction_integrand(tip, s->contour, point->x, &point->state, &point->state, inside);
     }
 }
 
-void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int contours,
-                   const struct sif_motion *motion, const struct gradient_rule *rule, const struct particles *p,
-                   const struct cells *c, struct sif *result)
+void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct contour *contour, int contours,
+                                         const struct sif_motion *motion, const struct gradient_rule *rule,
+                                         const struct particles *p, const struct cells *c, struct sif *result)
 {
     struct sif_points s = {.tip = tip, .inner = motion->velocity[0] || motion->body[0]};
     points_find(&s, contour, contours, p);
@@ -244,7 +247,7 @@ void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int
 
 /* Returns the largest relative difference between the results of `contours` contours [1]: of K_I or K_II over |K|, or
  * of J over J, with means over the contours in the denominators; NAN if one of them is 0. result: `contours` results of
- * sif_integrate. */
+ * sif_compute_by_interaction_integral. */
 real sif_contour_spread(const struct sif *result, int contours)
 {
     real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];

@@ -26,7 +26,7 @@ struct crack_medium crack_medium_of(const struct material *m, enum space space)
                                  .rayleigh = m->rayleigh_speed};
 }
 
-void crack_hooke_stress(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
+void crack_stress_from_gradient(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
 {
     const real dilatation = gradient[0][0] + gradient[1][1];
     for (int i = 0; i < 2; i++)
@@ -62,7 +62,7 @@ void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode,
         f->state.gradient[i][0] = size / r * (0.5 * g[i] * c - slope[i] * s);
         f->state.gradient[i][1] = size / r * (0.5 * g[i] * s + slope[i] * c);
     }
-    crack_hooke_stress(m, f->state.gradient, f->state.stress);
+    crack_stress_from_gradient(m, f->state.gradient, f->state.stress);
 }
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
@@ -114,7 +114,7 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
             twice_along[i] += creal(unit * bend);
         }
     }
-    crack_hooke_stress(m, f->state.gradient, f->state.stress);
+    crack_stress_from_gradient(m, f->state.gradient, f->state.stress);
     for (int i = 0; i < 2; i++) { /* steady in the moving frame: d/dt = -speed d/dx1 */
         f->state.velocity[i] = -speed * f->state.gradient[i][0];
         f->state.velocity_along[i] = -speed * twice_along[i];
@@ -163,7 +163,7 @@ static real factor_exact(const struct crack_medium *m, real v)
     return (1 - v / m->rayleigh) / sqrt(1 - v / m->longitudinal) * exp(sum / pi);
 }
 
-real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real speed)
+real crack_speed_sif_factor(const struct crack_medium *m, enum speed_factor form, real speed)
 {
     const real c_d = m->longitudinal, c_s = m->shear_speed, falling = 1 - speed / m->rayleigh;
     if (form == SPEED_EXACT) return factor_exact(m, speed);
@@ -172,7 +172,7 @@ real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, re
     return falling / sqrt(1 - h * speed);
 }
 
-real crack_speed_from_factor(const struct crack_medium *m, real factor, real max_speed)
+real crack_speed_from_sif_factor(const struct crack_medium *m, real factor, real max_speed)
 {
     real low = 0, high = max_speed;
     if (factor >= 1) return 0;
@@ -184,7 +184,7 @@ real crack_speed_from_factor(const struct crack_medium *m, real factor, real max
     return 0.5 * (low + high);
 }
 
-real crack_sif_after_wave(const struct crack_medium *m, real stress, real time_since_arrival)
+real crack_sif_after_plane_wave(const struct crack_medium *m, real stress, real time_since_arrival)
 {
     const real nu = m->poisson;
     return time_since_arrival > 0
@@ -196,13 +196,13 @@ real crack_sif_after_wave(const struct crack_medium *m, real stress, real time_s
 
 /* Returns the angle between a crack and the direction of the largest circumferential stress ahead of its tip [rad]
  * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. */
-real crack_kink_angle(const real K[MODES])
+real crack_kink_angle_of_sif(const real K[MODES])
 {
     return 2 * atan2(-2 * K[MODE_II], K[MODE_I] + sqrt(square(K[MODE_I]) + 8 * square(K[MODE_II])));
 }
 
 real crack_equivalent_sif(const real K[MODES])
 {
-    const real theta = crack_kink_angle(K), c = cos(0.5 * theta);
+    const real theta = crack_kink_angle_of_sif(K), c = cos(0.5 * theta);
     return c * c * c * K[MODE_I] - 1.5 * c * sin(theta) * K[MODE_II];
 }

@@ -196,7 +196,8 @@ void gradient_stencil_free(struct gradient_stencil *s)
     *s = (struct gradient_stencil){0};
 }
 
-void gradient_evaluate(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2])
+void gradient_stencil_apply(const struct gradient_stencil *s, int64_t i, const real *const field[2],
+                            real gradient[2][2])
 {
     for (int a = 0; a < 2; a++) {
         gradient[a][0] = gradient[a][1] = 0;

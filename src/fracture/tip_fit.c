@@ -92,7 +92,7 @@ static bool seen(const struct tip_view *v, const real *X)
     real eye[DIM_MAX] = {0};
     for (int d = 0; d < 2; d++) eye[d] = v->place[d] + AHEAD * v->inner * v->last[d];
     for (int k = 0; k < v->cracks; k++)
-        if (crack_cuts(&v->crack[k], eye, X, 2)) return false;
+        if (crack_cuts_bond(&v->crack[k], eye, X, 2)) return false;
     return true;
 }
 

@@ -63,7 +63,7 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
         const int32_t *at = p->list[KIND_PD] + first;
-        const int64_t n = tip_piece_end(p, first) - first;
+        const int64_t n = tip_list_piece_end(p, first) - first;
         real most = 0;
         if (!any_damage(p, at, n)) continue;
         for (int64_t k = 0; k < n; k++) most = real_max(most, p->damage[at[k]]);
@@ -108,7 +108,7 @@ static void flood_run(struct flood *f)
     for (int64_t head = 0; head < f->queued; head++) {
         int32_t i = f->queue[head];
         particle_reference_position(p, i, X);
-        int tip = f->t->label[i] - 1, n = tip_search_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
+        int tip = f->t->label[i] - 1, n = tip_search_find_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
         for (int k = 0; k < n; k++) {
             int32_t j = f->search.found[k];
             if (j >= p->n || p->body[j] != p->body[i]) continue;
@@ -145,7 +145,7 @@ static int crack_touched(struct flood *f, int64_t i)
     const struct particles *p = f->search.p;
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
-    int lowest = -1, n = tip_search_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
+    int lowest = -1, n = tip_search_find_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
     for (int k = 0; k < n; k++) {
         int32_t j = f->search.found[k];
         if (j >= p->n || p->body[j] != p->body[i]) continue;
@@ -226,12 +226,12 @@ static void flood_make(struct flood *f, struct crack_tips *t, const struct parti
     const int64_t n = p->n_of[KIND_PD];
     *f = (struct flood){.t = t, .search = {.p = p, .c = c}};
     for (int64_t b = next_damaged(p, 0); b < n; b = next_damaged(p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_piece_end(p, b); k++) f->n_fresh += can_belong(t, p, list[k]);
+        for (int64_t k = b; k < tip_list_piece_end(p, b); k++) f->n_fresh += can_belong(t, p, list[k]);
     f->fresh = NEW("tips.fresh", f->n_fresh, int32_t);
     f->queue = NEW("tips.queue", f->n_fresh, int32_t);
     int64_t fresh = 0;
     for (int64_t b = next_damaged(p, 0); b < n && fresh < f->n_fresh; b = next_damaged(p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_piece_end(p, b); k++)
+        for (int64_t k = b; k < tip_list_piece_end(p, b); k++)
             if (can_belong(t, p, list[k])) f->fresh[fresh++] = list[k];
     for (int m = 0; m < t->n; m++) f->into[m] = m;
 }
@@ -384,7 +384,7 @@ const struct crack_tip *tips_longest(const struct crack_tips *t)
     return longest;
 }
 
-int64_t tips_count_longest(const struct crack_tips *t)
+int64_t tips_count_longest_ends(const struct crack_tips *t)
 {
     const struct crack_tip *longest = tips_longest(t);
     int64_t tied = 0;

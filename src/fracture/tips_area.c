@@ -85,8 +85,8 @@ static int64_t strip_length(const uint8_t *cell, int64_t deepest)
     return end;
 }
 
-bool tip_is_on_mirror(const struct crack_tips *t, const struct crack_tip *tip, const struct mirror_plane *mirror,
-                      int mirrors)
+bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_tip *tip,
+                               const struct mirror_plane *mirror, int mirrors)
 {
     bool on = false;
     for (int m = 0; m < mirrors; m++) {
@@ -109,7 +109,7 @@ real tips_crack_area(const struct crack_tips *t, const struct particles *p, cons
         const struct crack_tip *tip = &t->tip[k];
         const int64_t n = first[k + 1] - first[k];
         const real wide = t->dim == 3 ? front_width(tip, 3) / (real)n : s->section;
-        const real part = tip_is_on_mirror(t, tip, s->mirror, s->mirrors) ? 0.5 : 1;
+        const real part = tip_grows_on_mirror_plane(t, tip, s->mirror, s->mirrors) ? 0.5 : 1;
         for (int64_t b = first[k]; b < first[k + 1] && tip->from_crack; b++)
             area += part * wide * t->spacing * (real)strip_length(cell + b * deepest, deepest);
         if (!tip->from_crack) area += 0.5 * (real)tip->particles * pow(t->spacing, t->dim - 1) * s->section;

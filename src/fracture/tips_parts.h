@@ -16,7 +16,7 @@ enum { TIP_PIECE = 64 };
 
 /* Returns the end of a piece of the list of peridynamic particles of p: first + TIP_PIECE, or the length of the list if
  * that is smaller. first: index of the first element of the piece. */
-static inline int64_t tip_piece_end(const struct particles *p, int64_t first)
+static inline int64_t tip_list_piece_end(const struct particles *p, int64_t first)
 {
     return first + TIP_PIECE < p->n_of[KIND_PD] ? first + TIP_PIECE : p->n_of[KIND_PD];
 }
@@ -48,7 +48,7 @@ struct tip_search {
 /* Finds the particles, mirror images included, within `radius` [m] of the position X [m]. The indices are written to
  * s->found, which grows as needed and which the caller frees after the last search. Returns the number of particles
  * found. */
-int tip_search_near(struct tip_search *s, const real *X, real radius);
+int tip_search_find_near(struct tip_search *s, const real *X, real radius);
 
 /* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m]; half:
  * vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the vector [m]. */

@@ -16,7 +16,7 @@ static int64_t next_of_crack(const struct crack_tips *t, const struct particles 
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
         const int32_t *at = p->list[KIND_PD] + first;
-        const int64_t n = tip_piece_end(p, first) - first;
+        const int64_t n = tip_list_piece_end(p, first) - first;
         uint8_t any = 0;
         if (particles_are_consecutive(at, n))
             for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[0] + k]);
@@ -57,7 +57,7 @@ static void each_of_crack(struct ahead *a, of_crack_fn *visit)
     const int32_t *list = a->p->list[KIND_PD];
     const int64_t n = a->p->n_of[KIND_PD];
     for (int64_t b = next_of_crack(a->t, a->p, 0); b < n; b = next_of_crack(a->t, a->p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_piece_end(a->p, b); k++)
+        for (int64_t k = b; k < tip_list_piece_end(a->p, b); k++)
             if (is_of_crack(a->t->label[list[k]])) visit(a, list[k], a->t->label[list[k]] - 1);
 }
 

@@ -12,7 +12,7 @@
 /* Finds the particles, mirror images included, within `radius` [m] of the position X [m], but at most within an edge of
  * the search cells. The indices are written to s->found, which grows as needed and is freed by the caller. Returns
  * their number. */
-int tip_search_near(struct tip_search *s, const real *X, real radius)
+int tip_search_find_near(struct tip_search *s, const real *X, real radius)
 {
     radius = real_min(radius, s->c->edge);
     int n = cells_find_near(s->c, s->p, X, radius, -1, s->found, s->room);
@@ -60,7 +60,7 @@ static int body_ahead(const struct crack_tips *t, struct tip_search *s, const re
 {
     real ahead[DIM_MAX];
     for (int d = 0; d < t->dim; d++) ahead[d] = X[d] + t->spacing * along[d];
-    int n = tip_search_near(s, ahead, AHEAD_REACH * t->spacing), free_ones = 0, body = -1;
+    int n = tip_search_find_near(s, ahead, AHEAD_REACH * t->spacing), free_ones = 0, body = -1;
     for (int k = 0; k < n; k++) {
         int32_t i = s->found[k];
         if (i >= s->p->n || s->p->flag[i] & FLAG_DRIVEN) continue;
@@ -163,7 +163,7 @@ void tips_make(struct crack_tips *t, const struct particles *p, const struct cel
     memory_free(s.found);
 }
 
-void tips_exclude_precracks(struct crack_tips *t, const real *cut_fraction)
+void tips_exclude_precrack_damage(struct crack_tips *t, const real *cut_fraction)
 {
     for (int64_t i = 0; i < t->count; i++)
         if (cut_fraction[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;

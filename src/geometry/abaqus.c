@@ -85,7 +85,7 @@ static status deck_real(const struct source *s, const char *field, real *value)
     *value = strtod(text, &end);
     if (field[0] == '\0') *value = 0; /* the deck's default for an empty field */
     if (*end == '\0' && isfinite(*value) && !strpbrk(text, "xX")) return OK;
-    return source_fault(s, "%.40s is no number", field);
+    return source_report_fault(s, "%.40s is no number", field);
 }
 
 /* Returns true if a field is a label, not the name of a set. */
@@ -98,7 +98,7 @@ static status deck_label(const struct source *s, const char *field, int32_t *lab
     *label = 0;
     TRY(deck_real(s, field, &value));
     if (!(value >= 0 && value <= LABEL_MAX && value == floor(value)))
-        return source_fault(s, "%.40s is no number of a node or an element", field);
+        return source_report_fault(s, "%.40s is no number of a node or an element", field);
     *label = (int32_t)value;
     return OK;
 }
@@ -167,7 +167,7 @@ static status set_named(struct deck *d, const char *name, bool of_nodes, int *se
 {
     const char *given = parameter(d, name);
     *set = given ? element_mesh_find_set(d->m, given, of_nodes) : -1;
-    return given && *set < 0 ? source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
+    return given && *set < 0 ? source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
 }
 
 /* Reads the data lines of *NODE, each a label and coordinates. If the keyword has the parameter NSET, the nodes are
@@ -177,8 +177,8 @@ static status nodes_read(struct deck *d)
     int set;
     const char *system = parameter(d, "SYSTEM");
     if (system && strcasecmp(system, "R") != 0)
-        return source_fault(d->s, "coordinates in the system %.10s are not supported; Cartesian x, y, z are expected",
-                            system);
+        return source_report_fault(
+            d->s, "coordinates in the system %.10s are not supported; Cartesian x, y, z are expected", system);
     TRY(set_named(d, "NSET", true, &set));
     for (char field[FIELD]; data_line(d->s); source_next_line(d->s)) {
         int32_t label;
@@ -239,7 +239,7 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
         if (!deck_field(d->s, field)) {
             source_next_line(d->s);
             if (!data_line(d->s))
-                return source_fault(d->s, "an element of a type with %d nodes lists only %d", size->nodes, k);
+                return source_report_fault(d->s, "an element of a type with %d nodes lists only %d", size->nodes, k);
             continue;
         }
         TRY(deck_label(d->s, field, &label));
@@ -250,7 +250,8 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
         k++;
     }
     if (!deck_field(d->s, field) || field[0] == '\0') return OK;
-    return source_fault(d->s, "an element of a type with %d nodes lists more, such as %.20s", size->nodes, field);
+    return source_report_fault(d->s, "an element of a type with %d nodes lists more, such as %.20s", size->nodes,
+                               field);
 }
 
 /* Reads the data lines of *ELEMENT, each a label and nodes. If the keyword has the parameter ELSET, the elements are
@@ -288,10 +289,10 @@ static status generate_line(struct deck *d, int set)
     int32_t bound[3] = {0, 0, 1};
     char field[FIELD];
     for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_label(d->s, field, &bound[k]));
-    if (bound[2] < 1 || bound[1] < bound[0]) return source_fault(d->s, "first, last and step are expected");
+    if (bound[2] < 1 || bound[1] < bound[0]) return source_report_fault(d->s, "first, last and step are expected");
     d->generated += (bound[1] - bound[0]) / bound[2] + 1;
     if (d->generated > GENERATED_MOST * d->s->length)
-        return source_fault(d->s, "sets of more nodes or elements than the file holds");
+        return source_report_fault(d->s, "sets of more nodes or elements than the file holds");
     for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) element_mesh_add_to_set(d->m, set, label);
     return OK;
 }
@@ -301,10 +302,10 @@ static status generate_line(struct deck *d, int set)
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
     const int other = element_mesh_find_set(d->m, name, of_nodes);
-    if (other < 0) return source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
+    if (other < 0) return source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
     d->generated += d->m->set[other].n;
     if (d->generated > GENERATED_MOST * d->s->length)
-        return source_fault(d->s, "sets of more nodes or elements than the file holds");
+        return source_report_fault(d->s, "sets of more nodes or elements than the file holds");
     for (int64_t k = d->m->set[other].resolved; other != set && k < d->m->set[other].n; k++)
         element_mesh_add_to_set(d->m, set, d->m->set[other].member[k]);
     return OK;
@@ -319,7 +320,7 @@ static void sets_resolve(struct deck *d, const struct scope *scope)
         const struct label_map *map = set->of_nodes ? &scope->node_of : &scope->element_of;
         int64_t kept = set->resolved;
         for (int64_t i = set->resolved; i < set->n; i++) {
-            const int64_t index = label_find(map, set->member[i]);
+            const int64_t index = label_map_find(map, set->member[i]);
             if (index >= 0) set->member[kept++] = (int32_t)index;
         }
         set->n = set->resolved = kept;
@@ -343,7 +344,7 @@ static status set_read(struct deck *d, bool of_nodes)
     const char *instance = parameter(d, "INSTANCE");
     const bool generate = parameter(d, "GENERATE") != NULL;
     TRY(set_named(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
-    if (set < 0) return source_fault(d->s, "a set without a name");
+    if (set < 0) return source_report_fault(d->s, "a set without a name");
     for (char field[FIELD]; data_line(d->s); source_next_line(d->s)) {
         int32_t label;
         if (generate) {
@@ -362,7 +363,7 @@ static status set_read(struct deck *d, bool of_nodes)
     }
     if (!instance) return OK;
     const int scope = scope_find(d, instance, true);
-    if (scope < 0) return source_fault(d->s, "there is no instance %.40s", instance);
+    if (scope < 0) return source_report_fault(d->s, "there is no instance %.40s", instance);
     sets_resolve(d, &d->scope[scope]);
     return OK;
 }
@@ -373,10 +374,10 @@ static status set_read(struct deck *d, bool of_nodes)
  * Returns REFUSED if the part has no such node. */
 static status node_resolve(const struct deck *d, const struct scope *scope, int64_t k, int32_t *node)
 {
-    const int64_t index = label_find(&scope->node_of, *node);
+    const int64_t index = label_map_find(&scope->node_of, *node);
     if (index < 0)
-        return source_fault(d->s, "element %lld has node %d, which is not among the nodes",
-                            (long long)d->m->element_label[k], (int)*node);
+        return source_report_fault(d->s, "element %lld has node %d, which is not among the nodes",
+                                   (long long)d->m->element_label[k], (int)*node);
     *node = (int32_t)index;
     return OK;
 }
@@ -391,8 +392,8 @@ static status scope_end(struct deck *d)
     scope->node_end = m->nodes, scope->element_end = m->elements;
     label_map_make(&scope->node_of, m->node_label + scope->node, scope->node, m->nodes - scope->node);
     label_map_make(&scope->element_of, m->element_label + scope->element, scope->element, m->elements - scope->element);
-    if (label_find_duplicate(&scope->node_of, &twice))
-        return source_fault(d->s, "node %lld is given twice", (long long)twice);
+    if (label_map_find_duplicate(&scope->node_of, &twice))
+        return source_report_fault(d->s, "node %lld is given twice", (long long)twice);
     for (int64_t k = scope->element; k < m->elements; k++) {
         struct element *e = &m->element[k];
         for (int c = 0; c < element_corners[e->kind]; c++) TRY(node_resolve(d, scope, k, &e->node[c]));
@@ -423,7 +424,7 @@ static void scope_begin(struct deck *d, const char *name)
  * ended scope are invalid. */
 static status scope_change(struct deck *d, const char *name)
 {
-    if (d->scopes >= PARTS_MAX) return source_fault(d->s, "more than %d parts", PARTS_MAX);
+    if (d->scopes >= PARTS_MAX) return source_report_fault(d->s, "more than %d parts", PARTS_MAX);
     TRY(scope_end(d));
     scope_begin(d, name ? name : "");
     return OK;
@@ -452,10 +453,10 @@ static status instance_read(struct deck *d)
     real shift[DIM_MAX] = {0}, turn[7] = {0};
     char field[FIELD];
     if (scope < 0)
-        return source_fault(d->s, "an instance refers to part %.40s, which the file does not define",
-                            part ? part : "?");
+        return source_report_fault(d->s, "an instance refers to part %.40s, which the file does not define",
+                                   part ? part : "?");
     struct scope *p = &d->scope[scope];
-    if (p->placed) return source_fault(d->s, "part %.40s is in the assembly twice; once is expected", p->name);
+    if (p->placed) return source_report_fault(d->s, "part %.40s is in the assembly twice; once is expected", p->name);
     if (data_line(d->s)) {
         for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &shift[k]));
         source_next_line(d->s);
@@ -482,13 +483,13 @@ static status keyword_follow(struct deck *d)
     const char *name = d->key.name;
     for (size_t k = 0; k < COUNT_OF(makers); k++)
         if (strcmp(name, makers[k]) == 0)
-            return source_fault(
+            return source_report_fault(
                 d->s, "keyword *%s is not supported; a deck that lists all nodes and elements in x, y, z is expected",
                 name);
     const bool node = strcmp(name, "NODE") == 0, element = strcmp(name, "ELEMENT") == 0;
     const bool nset = strcmp(name, "NSET") == 0, elset = strcmp(name, "ELSET") == 0;
     if ((node || element || nset || elset) && parameter(d, "INPUT"))
-        return source_fault(d->s, "keyword *%s includes another file; a single file is expected", name);
+        return source_report_fault(d->s, "keyword *%s includes another file; a single file is expected", name);
     if (node) return nodes_read(d);
     if (element) return elements_read(d);
     if (nset || elset) return set_read(d, nset);
@@ -511,7 +512,7 @@ status abaqus_read(struct element_mesh *m, struct source *s)
         result = keyword_follow(&d);
     }
     if (result == OK) result = scope_end(&d);
-    if (result == OK && m->nodes == 0) result = source_fault(s, "no *NODE; a deck of Abaqus is expected");
+    if (result == OK && m->nodes == 0) result = source_report_fault(s, "no *NODE; a deck of Abaqus is expected");
     for (int k = 0; k < d.scopes; k++) {
         label_map_free(&d.scope[k].node_of);
         label_map_free(&d.scope[k].element_of);

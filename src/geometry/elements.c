@@ -40,7 +40,7 @@ int element_edge_between(enum element_kind kind, int i, int j)
     return -1;
 }
 
-int32_t element_mesh_append_node(struct element_mesh *m, const real *X, int64_t label)
+int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *X, int64_t label)
 {
     GROW("mesh.node", m->node, m->nodes + 1);
     GROW("mesh.label", m->node_label, m->nodes + 1);
@@ -51,15 +51,15 @@ int32_t element_mesh_append_node(struct element_mesh *m, const real *X, int64_t 
 
 status element_mesh_add_node(struct element_mesh *m, const struct source *s, const real *X, int64_t label)
 {
-    if (m->nodes >= HULL_CORNERS_MAX) return source_fault(s, "more than %d nodes", HULL_CORNERS_MAX);
-    element_mesh_append_node(m, X, label);
+    if (m->nodes >= HULL_CORNERS_MAX) return source_report_fault(s, "more than %d nodes", HULL_CORNERS_MAX);
+    element_mesh_add_node_unchecked(m, X, label);
     return OK;
 }
 
 status element_mesh_add_element(struct element_mesh *m, const struct source *s, enum element_kind kind,
                                 const int32_t *node, int64_t label)
 {
-    if (m->elements >= HULL_CORNERS_MAX) return source_fault(s, "more than %d elements", HULL_CORNERS_MAX);
+    if (m->elements >= HULL_CORNERS_MAX) return source_report_fault(s, "more than %d elements", HULL_CORNERS_MAX);
     GROW("mesh.element", m->element, m->elements + 1);
     GROW("mesh.label", m->element_label, m->elements + 1);
     struct element *e = &m->element[m->elements];
@@ -128,7 +128,7 @@ void label_map_make(struct label_map *map, const int64_t *label, int64_t first, 
     array_sort(map->entry, n, sizeof *map->entry, label_entry_order);
 }
 
-int64_t label_find(const struct label_map *map, int64_t label)
+int64_t label_map_find(const struct label_map *map, int64_t label)
 {
     int64_t low = 0, high = map->n;
     while (low < high) {
@@ -141,7 +141,7 @@ int64_t label_find(const struct label_map *map, int64_t label)
     return low < map->n && map->entry[low].label == label ? map->entry[low].index : -1;
 }
 
-bool label_find_duplicate(const struct label_map *map, int64_t *label)
+bool label_map_find_duplicate(const struct label_map *map, int64_t *label)
 {
     for (int64_t k = 1; k < map->n; k++)
         if (map->entry[k].label == map->entry[k - 1].label) {

@@ -84,7 +84,7 @@ status element_mesh_add_node(struct element_mesh *m, const struct source *file, 
 
 /* Appends a node at X (three components [unit of the file]) to the mesh m without a check of the number of nodes, and
  * returns its index. label: its number in the file, -1 for nodes that are not in the file. */
-int32_t element_mesh_append_node(struct element_mesh *m, const real *X, int64_t label);
+int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *X, int64_t label);
 
 /* Appends an element of the given kind to the mesh m. node: its corners, as indices or, in Abaqus files, still numbers
  * of the file; label: number of the element in the file; file: for the message. Returns REFUSED, with a message, if
@@ -127,10 +127,10 @@ void label_map_free(struct label_map *map);
 
 /* Returns the index of the number `label` of the file in `map`, the lowest index if the number occurs twice, -1 if it
  * does not occur. */
-int64_t label_find(const struct label_map *map, int64_t label);
+int64_t label_map_find(const struct label_map *map, int64_t label);
 
 /* Returns true if a number of the file occurs twice in `map`, and stores the smallest such number in *label. */
-bool label_find_duplicate(const struct label_map *map, int64_t *label);
+bool label_map_find_duplicate(const struct label_map *map, int64_t *label);
 
 /* Reads the Gmsh file into the empty mesh m. Returns REFUSED, with a message that contains the line, if the file is
  * malformed or contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a
@@ -175,7 +175,7 @@ struct surface_builder {
     int pieces;   /* pieces per curved edge in 3D */
     int64_t n;    /* number of faces; each face has `dim` node indices */
     int32_t (*face)[DIM_MAX];
-    int64_t patches; /* sides with middle nodes, until surface_builder_divide_curved turns them into faces */
+    int64_t patches; /* sides with middle nodes, until surface_builder_divide_sides turns them into faces */
     struct patch *patch;
     int64_t file_nodes;   /* nodes from the file; later ones are on curved sides between the corners `parent` */
     int32_t (*parent)[4]; /* [node - file_nodes] corner nodes of the side, -1: unused */
@@ -189,17 +189,17 @@ void surface_builder_add_face(struct surface_builder *b, int32_t i, int32_t j, i
  * as one or two triangles. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n);
 
-/* Appends a copy of *p, a side of an element with middle nodes, to surface b. surface_builder_divide_curved divides it
+/* Appends a copy of *p, a side of an element with middle nodes, to surface b. surface_builder_divide_sides divides it
  * into faces later. */
 void surface_builder_add_patch(struct surface_builder *b, const struct patch *p);
 
 /* Computes for surface b the sagitta below which edges count as straight, and in how many pieces each curved edge is
  * divided, such that chords are at most `max_chord_error` [m] from the curve (NAN: 1/256 of the largest sagitta). path:
  * file, for the message. Returns REFUSED, with a message, if too many pieces were needed. */
-status surface_builder_set_fineness(struct surface_builder *b, const char *path, real max_chord_error);
+status surface_builder_set_chord_tolerance(struct surface_builder *b, const char *path, real max_chord_error);
 
 /* Divides all sides with middle nodes stored in b into faces, curved ones into several, which adds nodes to the mesh.
  * remove_shared_sides: true first removes sides shared by two elements, as inside a body. */
-void surface_builder_divide_curved(struct surface_builder *b, bool remove_shared_sides);
+void surface_builder_divide_sides(struct surface_builder *b, bool remove_shared_sides);
 
 #endif

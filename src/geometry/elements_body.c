@@ -140,7 +140,7 @@ static void builder_close(struct surface_builder *b, struct hull *hull, bool clo
 {
     struct element_mesh *m = b->m;
     const int64_t nodes = m->nodes;
-    surface_builder_divide_curved(b, closed);
+    surface_builder_divide_sides(b, closed);
     int32_t *corner_of = NEW("mesh.corners", m->nodes, int32_t), *node = NEW("mesh.corners", m->nodes, int32_t), n = 0;
     for (int64_t k = 0; k < b->n; k++)
         for (int c = 0; c < b->dim; c++) corner_of[b->face[k][c]] = 1;
@@ -266,7 +266,7 @@ status geometry_from_elements(struct geometry *g, struct element_mesh *m, const 
     int32_t *node_of = NULL;
     TRY(body_dim_of(m, path, dim, &b.body_dim));
     if (dim == 2) TRY(check_plane(m, path));
-    TRY(surface_builder_set_fineness(&b, path, max_chord_error));
+    TRY(surface_builder_set_chord_tolerance(&b, path, max_chord_error));
     for (int64_t k = 0; k < m->elements; k++)
         if (element_dim[m->element[k].kind] == b.body_dim) builder_add_oriented(&b, &m->element[k]);
     builder_close(&b, &g->whole, true, &node_of);

@@ -36,7 +36,7 @@ static int pieces_for(real sagitta, real wanted, int most)
     return pieces > most ? most : pieces > 1 ? (int)pieces : 1;
 }
 
-status surface_builder_set_fineness(struct surface_builder *b, const char *path, real max_chord_error)
+status surface_builder_set_chord_tolerance(struct surface_builder *b, const char *path, real max_chord_error)
 {
     const struct element_mesh *m = b->m;
     const int most = b->dim == 3 ? PIECES_MOST_SPACE : PIECES_MOST_PLANE;
@@ -61,7 +61,7 @@ status surface_builder_set_fineness(struct surface_builder *b, const char *path,
  * Returns its index. */
 static int32_t node_between(struct surface_builder *b, const real *X, const int32_t *parent, int parents)
 {
-    const int32_t node = element_mesh_append_node(b->m, X, -1);
+    const int32_t node = element_mesh_add_node_unchecked(b->m, X, -1);
     const int64_t at = node - b->file_nodes;
     GROW("mesh.parent", b->parent, at + 1);
     for (int k = 0; k < 4; k++) b->parent[at][k] = k < parents ? parent[k] : -1;
@@ -108,8 +108,8 @@ static void line_add(struct surface_builder *b, const struct patch *p)
 
 /* ---- sides that two elements share ------------------------------------------------------------------------------- */
 
-/* Appends a copy of a side of an element with middle nodes; surface_builder_divide_curved divides it into faces later.
- */
+/* Appends a copy of a side of an element with middle nodes; surface_builder_divide_sides divides it into faces
+ * later. */
 void surface_builder_add_patch(struct surface_builder *b, const struct patch *p)
 {
     GROW("mesh.patch", b->patch, b->patches + 1);
@@ -381,7 +381,7 @@ static void patch_add(struct surface_builder *b, const struct curves *c, const s
         patch_star(b, c, p);
 }
 
-void surface_builder_divide_curved(struct surface_builder *b, bool remove_shared_sides)
+void surface_builder_divide_sides(struct surface_builder *b, bool remove_shared_sides)
 {
     struct curves c = {0};
     if (b->patches == 0) return;

@@ -54,7 +54,7 @@ struct exodus {
 static status nodes_add(struct exodus *x)
 {
     real *axis[DIM_MAX] = {NULL};
-    status s = exodus_coordinates(&x->file, axis);
+    status s = exodus_read_coordinates(&x->file, axis);
     for (int64_t k = 0; k < x->file.nodes && s == OK; k++) {
         real X[DIM_MAX] = {0};
         for (int d = 0; d < x->file.dim; d++) X[d] = axis[d][k];
@@ -79,10 +79,11 @@ static status kind_of(const struct exodus *x, const char *type, int64_t nodes, e
             if (nodes == sizes[*kind][order]) return OK;
         break;
     }
-    return exodus_fault(&x->file,
-                        "elements of type %s with %lld nodes are not read; triangles and quadrilaterals, tetrahedra, "
-                        "pyramids, wedges and hexahedra of first or second order are",
-                        type, (long long)nodes);
+    return exodus_report_fault(
+        &x->file,
+        "elements of type %s with %lld nodes are not read; triangles and quadrilaterals, tetrahedra, "
+        "pyramids, wedges and hexahedra of first or second order are",
+        type, (long long)nodes);
 }
 
 /* Appends an element to the mesh, with the nodes label[nodes], which count from 1. Returns REFUSED if there is no such
@@ -94,8 +95,8 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
     for (int k = 0; k < ELEMENT_MIDDLES_MAX; k++) middle[k] = -1;
     for (int k = 0; k < nodes; k++) {
         if (label[k] < 1 || label[k] > x->m->nodes)
-            return exodus_fault(&x->file, "element %lld has node %lld; nodes from 1 to %lld are expected",
-                                (long long)x->elements + 1, (long long)label[k], (long long)x->m->nodes);
+            return exodus_report_fault(&x->file, "element %lld has node %lld; nodes from 1 to %lld are expected",
+                                       (long long)x->elements + 1, (long long)label[k], (long long)x->m->nodes);
         const int slot = k < corners ? -1 : middle_at[kind][k - corners];
         if (k < corners) node[k] = (int32_t)(label[k] - 1);
         if (slot >= 0) middle[slot] = (int32_t)(label[k] - 1);
@@ -113,16 +114,16 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
 {
     char name[NAME_MAX_LENGTH];
     int64_t *number = NULL;
-    exodus_name(&x->file, names, 0, row, n, name);
+    exodus_read_name(&x->file, names, 0, row, n, name);
     bool taken = name[0] == '\0';
     for (int k = 0; k < x->m->sets; k++) taken = taken || strcasecmp(x->m->set[k].name, name) == 0;
     if (taken) {
-        if (exodus_has(&x->file, numbers, 0)) TRY(exodus_integers(&x->file, numbers, 0, n, &number));
+        if (exodus_has_array(&x->file, numbers, 0)) TRY(exodus_read_integers(&x->file, numbers, 0, n, &number));
         snprintf(name, sizeof name, "%s_%lld", word, (long long)(number ? number[row] : row + 1));
         memory_free(number);
     }
     *set = element_mesh_find_set(x->m, name, of_nodes);
-    return *set >= 0 ? OK : exodus_fault(&x->file, "more than %d blocks and sets", ELEMENT_SETS_MAX);
+    return *set >= 0 ? OK : exodus_report_fault(&x->file, "more than %d blocks and sets", ELEMENT_SETS_MAX);
 }
 
 /* Appends the elements of block `number` (from 1) to the mesh, and makes a set of them. Returns REFUSED for elements of
@@ -134,10 +135,11 @@ static status element_block_add(struct exodus *x, int64_t number)
     enum element_kind kind = ELEMENT_POINT;
     bool skip;
     int set = -1;
-    if (!exodus_has(&x->file, "connect", number) && exodus_dimension(&x->file, "num_el_in_blk", number) == 0) return OK;
-    TRY(exodus_block(&x->file, number, type, &elements, &nodes));
+    if (!exodus_has_array(&x->file, "connect", number) && exodus_read_dimension(&x->file, "num_el_in_blk", number) == 0)
+        return OK;
+    TRY(exodus_read_block_header(&x->file, number, type, &elements, &nodes));
     TRY(kind_of(x, type, nodes, &kind, &skip));
-    TRY(exodus_integers(&x->file, "connect", number, elements * nodes, &label));
+    TRY(exodus_read_integers(&x->file, "connect", number, elements * nodes, &label));
     GROW("exodus.elements", x->element, x->elements + elements);
     status s = skip ? OK : set_begin(x, "eb_names", "eb_prop1", "block", number - 1, x->file.blocks, false, &set);
     if (skip)
@@ -194,8 +196,8 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
     const bool solid = element_dim[e.kind] == 3, shell = !solid && x->file.dim == 3;
     const int sides = solid ? element_sides[e.kind].n : element_edges[e.kind].n + (shell ? 2 : 0);
     if (side < 1 || side > sides)
-        return exodus_fault(&x->file, "set %s has side %lld of an element that has %d sides", x->m->set[set].name,
-                            (long long)side, sides);
+        return exodus_report_fault(&x->file, "set %s has side %lld of an element that has %d sides",
+                                   x->m->set[set].name, (long long)side, sides);
     if (shell && side <= 2) {
         element_mesh_add_to_set(x->m, set, element);
         return OK;
@@ -210,8 +212,8 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
 {
     if (label < 1 || label > x->elements)
-        return exodus_fault(&x->file, "set %s has element %lld; elements from 1 to %lld are expected",
-                            x->m->set[set].name, (long long)label, (long long)x->elements);
+        return exodus_report_fault(&x->file, "set %s has element %lld; elements from 1 to %lld are expected",
+                                   x->m->set[set].name, (long long)label, (long long)x->elements);
     *element = x->element[label - 1];
     return OK;
 }
@@ -220,13 +222,13 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
  * set. Returns REFUSED for unknown elements or sides. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
-    const int64_t n = exodus_dimension(&x->file, "num_side_ss", number);
+    const int64_t n = exodus_read_dimension(&x->file, "num_side_ss", number);
     int64_t *element = NULL, *side = NULL, index;
     int set;
     if (n == 0) return OK;
     TRY(set_begin(x, "ss_names", "ss_prop1", "surface", number - 1, x->file.side_sets, false, &set));
-    status s = exodus_integers(&x->file, "elem_ss", number, n, &element);
-    if (s == OK) s = exodus_integers(&x->file, "side_ss", number, n, &side);
+    status s = exodus_read_integers(&x->file, "elem_ss", number, n, &element);
+    if (s == OK) s = exodus_read_integers(&x->file, "side_ss", number, n, &side);
     for (int64_t k = 0; k < n && s == OK; k++) {
         s = element_of(x, set, element[k], &index);
         if (s == OK && index >= 0) s = side_add(x, set, index, side[k]);
@@ -240,17 +242,17 @@ static status side_set_add(struct exodus *x, int64_t number)
  * nodes. */
 static status node_set_add(struct exodus *x, int64_t number)
 {
-    const int64_t n = exodus_dimension(&x->file, "num_nod_ns", number);
+    const int64_t n = exodus_read_dimension(&x->file, "num_nod_ns", number);
     int64_t *node = NULL;
     int set;
     if (n == 0) return OK;
     TRY(set_begin(x, "ns_names", "ns_prop1", "nodelist", number - 1, x->file.node_sets, true, &set));
-    TRY(exodus_integers(&x->file, "node_ns", number, n, &node));
+    TRY(exodus_read_integers(&x->file, "node_ns", number, n, &node));
     status s = OK;
     for (int64_t k = 0; k < n && s == OK; k++)
         if (node[k] < 1 || node[k] > x->m->nodes)
-            s = exodus_fault(&x->file, "set %s has node %lld; nodes from 1 to %lld are expected", x->m->set[set].name,
-                             (long long)node[k], (long long)x->m->nodes);
+            s = exodus_report_fault(&x->file, "set %s has node %lld; nodes from 1 to %lld are expected",
+                                    x->m->set[set].name, (long long)node[k], (long long)x->m->nodes);
         else
             element_mesh_add_to_set(x->m, set, node[k] - 1);
     memory_free(node);
@@ -261,12 +263,12 @@ static status node_set_add(struct exodus *x, int64_t number)
  * elements. */
 static status element_set_add(struct exodus *x, int64_t number)
 {
-    const int64_t n = exodus_dimension(&x->file, "num_ele_els", number);
+    const int64_t n = exodus_read_dimension(&x->file, "num_ele_els", number);
     int64_t *element = NULL, index;
     int set;
     if (n == 0) return OK;
     TRY(set_begin(x, "els_names", "els_prop1", "elementset", number - 1, x->file.element_sets, false, &set));
-    TRY(exodus_integers(&x->file, "elem_els", number, n, &element));
+    TRY(exodus_read_integers(&x->file, "elem_els", number, n, &element));
     status s = OK;
     for (int64_t k = 0; k < n && s == OK; k++) {
         s = element_of(x, set, element[k], &index);
@@ -283,7 +285,7 @@ static status mesh_read(struct exodus *x)
     const struct exodus_file *f = &x->file;
     if (f->blocks > ELEMENT_SETS_MAX || f->side_sets > ELEMENT_SETS_MAX || f->node_sets > ELEMENT_SETS_MAX ||
         f->element_sets > ELEMENT_SETS_MAX)
-        return exodus_fault(f, "more than %d blocks and sets", ELEMENT_SETS_MAX);
+        return exodus_report_fault(f, "more than %d blocks and sets", ELEMENT_SETS_MAX);
     TRY(nodes_add(x));
     for (int64_t k = 1; k <= f->blocks; k++) TRY(element_block_add(x, k));
     for (int64_t k = 1; k <= f->side_sets; k++) TRY(side_set_add(x, k));

@@ -16,7 +16,7 @@
  * factor. */
 enum { UNPACKED_MOST = 1024 };
 
-status exodus_fault(const struct exodus_file *f, const char *format, ...)
+status exodus_report_fault(const struct exodus_file *f, const char *format, ...)
 {
     char what[256];
     va_list more;
@@ -47,25 +47,26 @@ static status arrays_open(struct exodus_file *f)
     if (f->length >= 8 && memcmp(text, hdf5, 8) == 0) return exodus_hdf5_open(f);
     if (f->length >= 8 && memcmp(text, "CDF", 3) == 0 && (text[3] == 1 || text[3] == 2 || text[3] == 5))
         return exodus_classic_open(f);
-    return exodus_fault(f, "does not begin as a netCDF file; a file in the format Exodus II is expected");
+    return exodus_report_fault(f, "does not begin as a netCDF file; a file in the format Exodus II is expected");
 }
 
 /* Reads the dimension and the numbers of nodes, blocks and sets, which every mesh has, into f. Returns REFUSED if they
  * are not those of a mesh. */
 static status counts_read(struct exodus_file *f)
 {
-    const int64_t dim = exodus_dimension(f, "num_dim", 0);
-    f->nodes = exodus_dimension(f, "num_nodes", 0);
-    f->blocks = exodus_dimension(f, "num_el_blk", 0);
-    f->node_sets = exodus_dimension(f, "num_node_sets", 0);
-    f->side_sets = exodus_dimension(f, "num_side_sets", 0);
-    f->element_sets = exodus_dimension(f, "num_elem_sets", 0);
+    const int64_t dim = exodus_read_dimension(f, "num_dim", 0);
+    f->nodes = exodus_read_dimension(f, "num_nodes", 0);
+    f->blocks = exodus_read_dimension(f, "num_el_blk", 0);
+    f->node_sets = exodus_read_dimension(f, "num_node_sets", 0);
+    f->side_sets = exodus_read_dimension(f, "num_side_sets", 0);
+    f->element_sets = exodus_read_dimension(f, "num_elem_sets", 0);
     f->dim = (int)dim;
     if (dim >= 1 && dim <= DIM_MAX && f->nodes >= 1) return OK;
-    return exodus_fault(f,
-                        "a netCDF file with num_dim = %lld and num_nodes = %lld; a mesh in the format Exodus II is "
-                        "expected",
-                        (long long)dim, (long long)f->nodes);
+    return exodus_report_fault(
+        f,
+        "a netCDF file with num_dim = %lld and num_nodes = %lld; a mesh in the format Exodus II is "
+        "expected",
+        (long long)dim, (long long)f->nodes);
 }
 
 status exodus_open(struct exodus_file *f, const char *path, const char *content, int64_t length)
@@ -109,7 +110,7 @@ static void name_numbered(char *text, const char *name, int64_t number)
         snprintf(text, NAME_MAX_LENGTH, "%s", name);
 }
 
-int64_t exodus_dimension(const struct exodus_file *f, const char *name, int64_t number)
+int64_t exodus_read_dimension(const struct exodus_file *f, const char *name, int64_t number)
 {
     char called[NAME_MAX_LENGTH];
     name_numbered(called, name, number);
@@ -131,7 +132,7 @@ static bool array_find(const struct exodus_file *f, const char *name, struct exo
     return false;
 }
 
-bool exodus_has(const struct exodus_file *f, const char *name, int64_t number)
+bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t number)
 {
     char called[NAME_MAX_LENGTH];
     struct exodus_array a;
@@ -143,14 +144,15 @@ bool exodus_has(const struct exodus_file *f, const char *name, int64_t number)
  * letters, or is larger than its file can be. */
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
-    if (!array_find(f, name, a)) return exodus_fault(f, "array %s is missing", name);
-    if (a->type == EXODUS_CHAR) return exodus_fault(f, "array %s holds letters; numbers are expected", name);
+    if (!array_find(f, name, a)) return exodus_report_fault(f, "array %s is missing", name);
+    if (a->type == EXODUS_CHAR) return exodus_report_fault(f, "array %s holds letters; numbers are expected", name);
     if (a->extent[0] * a->extent[1] != n)
-        return exodus_fault(f, "array %s has %lld x %lld numbers; %lld are expected", name, (long long)a->extent[0],
-                            (long long)a->extent[1], (long long)n);
+        return exodus_report_fault(f, "array %s has %lld x %lld numbers; %lld are expected", name,
+                                   (long long)a->extent[0], (long long)a->extent[1], (long long)n);
     if (f->hdf5 < 0 || n <= f->length * UNPACKED_MOST) return OK;
-    return exodus_fault(f, "array %s claims %lld numbers, more than the file can contain: it is cut off or damaged",
-                        name, (long long)n);
+    return exodus_report_fault(f,
+                               "array %s claims %lld numbers, more than the file can contain: it is cut off or damaged",
+                               name, (long long)n);
 }
 
 /* Reads the array that is called `name` followed by `number`, of n numbers, into the new array *reals or *integers; one
@@ -171,10 +173,10 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
     if (f->hdf5 < 0)
         exodus_classic_read(f, &a, n, real_value, whole_value);
     else if (n > 0 && !exodus_hdf5_read(f, &a, real_value, whole_value, NULL))
-        s = exodus_fault(f, "array %s cannot be read: the file is damaged", called);
+        s = exodus_report_fault(f, "array %s cannot be read: the file is damaged", called);
     for (int64_t k = 0; k < n && s == OK && real_value; k++)
         if (!isfinite(real_value[k]))
-            s = exodus_fault(f, "array %s: number %lld is not finite", called, (long long)k + 1);
+            s = exodus_report_fault(f, "array %s: number %lld is not finite", called, (long long)k + 1);
     if (s != OK) {
         memory_free(real_value), memory_free(whole_value);
         return s;
@@ -184,25 +186,26 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
     return OK;
 }
 
-status exodus_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t count, real **value)
+status exodus_read_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t count, real **value)
 {
     return array_read(f, name, number, count, value, NULL);
 }
 
-status exodus_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t count, int64_t **value)
+status exodus_read_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t count,
+                            int64_t **value)
 {
     return array_read(f, name, number, count, NULL, value);
 }
 
-status exodus_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
+status exodus_read_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
 {
     static const char *const names[DIM_MAX] = {"coordx", "coordy", "coordz"};
     real *all;
-    if (!exodus_has(f, "coord", 0)) {
-        for (int d = 0; d < f->dim; d++) TRY(exodus_reals(f, names[d], 0, f->nodes, &axis[d]));
+    if (!exodus_has_array(f, "coord", 0)) {
+        for (int d = 0; d < f->dim; d++) TRY(exodus_read_reals(f, names[d], 0, f->nodes, &axis[d]));
         return OK;
     }
-    TRY(exodus_reals(f, "coord", 0, f->nodes * f->dim, &all)); /* as in files of the first versions */
+    TRY(exodus_read_reals(f, "coord", 0, f->nodes * f->dim, &all)); /* as in files of the first versions */
     for (int d = 0; d < f->dim; d++) {
         axis[d] = NEW("exodus.numbers", f->nodes, real);
         array_copy(axis[d], all + d * f->nodes, f->nodes, sizeof *all);
@@ -211,7 +214,8 @@ status exodus_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
     return OK;
 }
 
-void exodus_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t rows, char *text)
+void exodus_read_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t rows,
+                      char *text)
 {
     char called[NAME_MAX_LENGTH], *all = NULL;
     struct exodus_array a;
@@ -229,18 +233,18 @@ void exodus_name(const struct exodus_file *f, const char *name, int64_t number, 
     exodus_text_clean(text);
 }
 
-status exodus_block(const struct exodus_file *f, int64_t number, char *type, int64_t *elements,
-                    int64_t *nodes_per_element)
+status exodus_read_block_header(const struct exodus_file *f, int64_t number, char *type, int64_t *elements,
+                                int64_t *nodes_per_element)
 {
     char called[NAME_MAX_LENGTH];
     struct exodus_array a;
     name_numbered(called, "connect", number);
     if (!array_find(f, called, &a) || a.type == EXODUS_CHAR)
-        return exodus_fault(f, "block %lld has no list of nodes %s; blocks of elements with nodes are expected",
-                            (long long)number, called);
+        return exodus_report_fault(f, "block %lld has no list of nodes %s; blocks of elements with nodes are expected",
+                                   (long long)number, called);
     if (!a.elements[0])
-        return exodus_fault(f, "block %lld does not name the type of its elements (attribute elem_type of %s)",
-                            (long long)number, called);
+        return exodus_report_fault(f, "block %lld does not name the type of its elements (attribute elem_type of %s)",
+                                   (long long)number, called);
     *elements = a.extent[0], *nodes_per_element = a.extent[1];
     memcpy(type, a.elements, NAME_MAX_LENGTH);
     for (char *c = type; *c; c++) *c = (char)toupper((unsigned char)*c);

@@ -8,21 +8,21 @@
 
 status exodus_hdf5_open(struct exodus_file *f)
 {
-    crash_message_set_file(f->path);
+    crash_message_set_file_in_use(f->path);
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         f->hdf5 = H5Fopen(f->path, H5F_ACC_RDONLY, H5P_DEFAULT);
     }
     H5E_END_TRY;
     if (f->hdf5 >= 0) return OK;
-    crash_message_set_file(NULL);
+    crash_message_set_file_in_use(NULL);
     return status_set(REFUSED, "%s: HDF5 cannot read it: it is cut off or damaged", f->path);
 }
 
 void exodus_hdf5_close(struct exodus_file *f)
 {
     H5Fclose(f->hdf5);
-    crash_message_set_file(NULL);
+    crash_message_set_file_in_use(NULL);
 }
 
 /* Opens the dataset `name` and stores its lengths in extent[2]. Returns its handle, to be closed with H5Dclose; a
@@ -30,13 +30,13 @@ void exodus_hdf5_close(struct exodus_file *f)
 static hid_t dataset_open(const struct exodus_file *f, const char *name, int64_t extent[2])
 {
     hsize_t lengths[2] = {0, 1};
-    if (H5Lexists(f->hdf5, name, H5P_DEFAULT) <= 0 || hdf_is_linked(f->hdf5, name)) return -1;
+    if (H5Lexists(f->hdf5, name, H5P_DEFAULT) <= 0 || hdf_is_link(f->hdf5, name)) return -1;
     const hid_t set = H5Dopen2(f->hdf5, name, H5P_DEFAULT);
     if (set < 0) return -1;
     const hid_t space = H5Dget_space(set);
     const int ranks = H5Sget_simple_extent_ndims(space);
     const bool good = (ranks == 1 || ranks == 2) && H5Sget_simple_extent_dims(space, lengths, NULL) == ranks &&
-                      lengths[0] <= INT32_MAX && lengths[1] <= INT32_MAX && hdf_lies_inside(set);
+                      lengths[0] <= INT32_MAX && lengths[1] <= INT32_MAX && hdf_dataset_is_in_its_file(set);
     H5Sclose(space);
     extent[0] = (int64_t)lengths[0], extent[1] = (int64_t)lengths[1];
     if (good) return set;

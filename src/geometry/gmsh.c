@@ -68,10 +68,11 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
             *type = &types[k];
             return OK;
         }
-    return source_fault(s,
-                        "Gmsh's element type %lld is not supported; lines, triangles, quadrilaterals, tetrahedra, "
-                        "hexahedra, prisms and pyramids are",
-                        (long long)number);
+    return source_report_fault(
+        s,
+        "Gmsh's element type %lld is not supported; lines, triangles, quadrilaterals, tetrahedra, "
+        "hexahedra, prisms and pyramids are",
+        (long long)number);
 }
 
 /* Adds an element to the set of a physical group, which is created if it is new. dim, tag: dimension and number of the
@@ -85,7 +86,7 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
             if (g->name[k].dim == dim && g->name[k].tag == tag) memcpy(name, g->name[k].text, sizeof name);
         g->last_dim = dim, g->last_tag = tag, g->last_set = element_mesh_find_set(g->m, name, false);
     }
-    if (g->last_set < 0) return source_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
+    if (g->last_set < 0) return source_report_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
     element_mesh_add_to_set(g->m, g->last_set, element);
     return OK;
 }
@@ -96,9 +97,9 @@ static status node_next(struct gmsh *g, int32_t *index)
 {
     int64_t label;
     TRY((g->old ? source_read_int32 : source_read_int64)(g->s, "node of an element", &label));
-    const int64_t found = label_find(&g->node, label);
+    const int64_t found = label_map_find(&g->node, label);
     if (found < 0)
-        return source_fault(g->s, "an element has node %lld, which is not among the nodes", (long long)label);
+        return source_report_fault(g->s, "an element has node %lld, which is not among the nodes", (long long)label);
     *index = (int32_t)found;
     return OK;
 }
@@ -114,7 +115,7 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
     for (int d = 0; d < DIM_MAX; d++)
         along2 += square(b[d] - a[d]), arm2 += square(c[d] - a[d]), both += (b[d] - a[d]) * (c[d] - a[d]);
     if (arm2 * along2 - square(both) <= square(STRAIGHT * along2)) return OK;
-    return source_fault(
+    return source_report_fault(
         g->s,
         "curved elements of order %d are not supported; curved elements of order 2 are (gmsh -order 2 saves them)",
         type->order);
@@ -146,8 +147,8 @@ static status nodes_known(struct gmsh *g)
 {
     int64_t twice;
     label_map_make(&g->node, g->m->node_label, 0, g->m->nodes);
-    if (!label_find_duplicate(&g->node, &twice)) return OK;
-    return source_fault(g->s, "node %lld is given twice", (long long)twice);
+    if (!label_map_find_duplicate(&g->node, &twice)) return OK;
+    return source_report_fault(g->s, "node %lld is given twice", (long long)twice);
 }
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
@@ -157,11 +158,11 @@ static status nodes_known(struct gmsh *g)
 static status quoted_next(struct source *s, char *text, size_t capacity)
 {
     size_t n = 0;
-    if (!source_skip_blanks(s) || s->text[s->at] != '"') return source_fault(s, "a name in quotes is expected");
+    if (!source_skip_blanks(s) || s->text[s->at] != '"') return source_report_fault(s, "a name in quotes is expected");
     for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
         if (n + 1 < capacity) text[n++] = s->text[s->at];
     text[n] = '\0';
-    if (s->at >= s->length || s->text[s->at] != '"') return source_fault(s, "a name that does not end");
+    if (s->at >= s->length || s->text[s->at] != '"') return source_report_fault(s, "a name that does not end");
     s->at++;
     return OK;
 }
@@ -173,7 +174,7 @@ static status names_read(struct gmsh *g)
     int64_t n;
     TRY(source_read_integer(g->s, "number of names", &n));
     TRY(source_check_count(g->s, "names", n, 4));
-    if (n > ELEMENT_SETS_MAX) return source_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
+    if (n > ELEMENT_SETS_MAX) return source_report_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
     GROW("gmsh.names", g->name, n);
     for (g->names = 0; g->names < n; g->names++) {
         struct group_name *name = &g->name[g->names];
@@ -280,7 +281,7 @@ static status old_elements(struct gmsh *g)
         if (g->bytes) TRY(source_read_int32(g->s, "number of elements", &block));
         TRY(source_read_int32(g->s, "number of tags", &tags));
         TRY(type_of(g->s, number, &type));
-        if (block < 1) return source_fault(g->s, "a block of %lld elements", (long long)block);
+        if (block < 1) return source_report_fault(g->s, "a block of %lld elements", (long long)block);
         TRY(source_check_count(g->s, "elements", block, g->bytes ? 8 : 2));
         for (int64_t e = 0; e < block; e++) {
             if (g->bytes) TRY(source_read_int32(g->s, "number of an element", &label));
@@ -313,7 +314,8 @@ static status new_node_block(struct gmsh *g)
     TRY(source_read_int64(g->s, "number of nodes", &n));
     TRY(source_check_count(g->s, "nodes", n, 8));
     if (dim < 0 || dim > 3)
-        return source_fault(g->s, "a block of $Nodes has the dimension %lld; 0 to 3 is expected", (long long)dim);
+        return source_report_fault(g->s, "a block of $Nodes has the dimension %lld; 0 to 3 is expected",
+                                   (long long)dim);
     const int64_t first = g->m->nodes;
     for (int64_t k = 0; k < n; k++) {
         TRY(source_read_int64(g->s, "number of a node", &label));
@@ -349,7 +351,7 @@ static status new_element_block(struct gmsh *g)
     TRY(source_read_int64(g->s, "number of elements", &n));
     TRY(type_of(g->s, number, &type));
     TRY(source_check_count(g->s, "elements", n, 4));
-    const int64_t key = entity_key(dim, tag), link = label_find(&g->of_entity, key), first = g->m->elements;
+    const int64_t key = entity_key(dim, tag), link = label_map_find(&g->of_entity, key), first = g->m->elements;
     for (int64_t k = 0; k < n; k++) {
         TRY(source_read_int64(g->s, "number of an element", &label));
         TRY(element_next(g, type, label));
@@ -380,20 +382,21 @@ static status format_read(struct gmsh *g)
     source_read_word(g->s, version, sizeof version);
     g->old = strcmp(version, "2.2") == 0 || strcmp(version, "2") == 0;
     if (!g->old && strcmp(version, "4.1") != 0)
-        return source_fault(
+        return source_report_fault(
             g->s,
             "Gmsh's file format %s is not supported; 2.2 and 4.1 are (gmsh -save -format msh41 writes the latter)",
             version);
     TRY(source_read_integer(g->s, "kind of file", &bytes));
     TRY(source_read_integer(g->s, "size of numbers", &size));
-    if (size != 8) return source_fault(g->s, "numbers of %lld bytes; 8 are expected", (long long)size);
+    if (size != 8) return source_report_fault(g->s, "numbers of %lld bytes; 8 are expected", (long long)size);
     g->bytes = bytes != 0;
     if (!g->bytes) return OK;
     source_next_line(g->s);
     g->s->binary = true;
     TRY(source_read_int32(g->s, "the number 1", &one));
     g->s->binary = false;
-    return one == 1 ? OK : source_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
+    return one == 1 ? OK
+                    : source_report_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
 }
 
 /* Skips the rest of a section: advances behind the line $EndNAME, where `name` is $NAME, or to the end of the file. */
@@ -416,8 +419,8 @@ static status section_read(struct gmsh *g, const char *name)
                     {"$Elements", old_elements, new_elements},
                     {"$Entities", NULL, entities_read}};
     if (strcmp(name, "$PartitionedEntities") == 0)
-        return source_fault(g->s, "a mesh in partitions; one without is expected");
-    if (strcmp(name, "$Nodes") == 0 && g->node.entry) return source_fault(g->s, "nodes are given twice");
+        return source_report_fault(g->s, "a mesh in partitions; one without is expected");
+    if (strcmp(name, "$Nodes") == 0 && g->node.entry) return source_report_fault(g->s, "nodes are given twice");
     for (size_t k = 0; k < COUNT_OF(sections); k++) {
         if (strcmp(name, sections[k].name) != 0 || (g->old && !sections[k].old)) continue;
         if (!g->old && g->bytes && k > 0) source_next_line(g->s);
@@ -435,16 +438,17 @@ static status sections_read(struct gmsh *g)
 {
     char name[40];
     source_read_word(g->s, name, sizeof name);
-    if (strcmp(name, "$MeshFormat") != 0) return source_fault(g->s, "no mesh of Gmsh: $MeshFormat is expected first");
+    if (strcmp(name, "$MeshFormat") != 0)
+        return source_report_fault(g->s, "no mesh of Gmsh: $MeshFormat is expected first");
     TRY(format_read(g));
     section_skip(g->s, name);
     while (source_skip_blanks(g->s)) {
         source_read_word(g->s, name, sizeof name);
-        if (name[0] != '$') return source_fault(g->s, "a section such as $Nodes is expected, not %.30s", name);
+        if (name[0] != '$') return source_report_fault(g->s, "a section such as $Nodes is expected, not %.30s", name);
         TRY(section_read(g, name));
     }
-    if (!g->node.entry) return source_fault(g->s, "ends without $Nodes");
-    return g->m->elements > 0 ? OK : source_fault(g->s, "ends without $Elements");
+    if (!g->node.entry) return source_report_fault(g->s, "ends without $Nodes");
+    return g->m->elements > 0 ? OK : source_report_fault(g->s, "ends without $Elements");
 }
 
 status gmsh_read(struct element_mesh *m, struct source *s)

@@ -16,7 +16,7 @@ status source_open(struct source *s, const char *path)
 {
     FILE *file;
     *s = (struct source){.path = path};
-    TRY(input_open(&file, path, NULL));
+    TRY(input_file_open(&file, path, NULL));
     const bool sized = fseeko(file, 0, SEEK_END) == 0;
     const int64_t length = sized ? (int64_t)ftello(file) : -1, memory = machine_memory_size();
     const bool fits = memory <= 0 || length <= memory / FILE_SHARE;
@@ -40,7 +40,7 @@ void source_close(struct source *s)
     *s = (struct source){0};
 }
 
-status source_fault(const struct source *s, const char *format, ...)
+status source_report_fault(const struct source *s, const char *format, ...)
 {
     char what[256];
     int64_t line = 1;
@@ -76,20 +76,21 @@ void source_read_word(struct source *s, char *word, size_t capacity)
 static status text_real(struct source *s, const char *what, real *value)
 {
     char word[64], *end;
-    if (!source_skip_blanks(s)) return source_fault(s, "ends where %s is expected", what);
+    if (!source_skip_blanks(s)) return source_report_fault(s, "ends where %s is expected", what);
     const int64_t from = s->at;
     source_read_word(s, word, sizeof word);
     *value = strtod(word, &end);
     if (end != word && *end == '\0' && isfinite(*value)) return OK;
     s->at = from;
-    return source_fault(s, "%.40s is no %s; a number is expected", word, what);
+    return source_report_fault(s, "%.40s is no %s; a number is expected", word, what);
 }
 
 /* Copies the next `size` bytes of a binary file to `value`. what: name of the value, for messages. Returns REFUSED if
  * the file ends before. */
 static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
 {
-    if (s->length - s->at < size) return source_fault(s, "the file ends where %s is expected: it is cut off", what);
+    if (s->length - s->at < size)
+        return source_report_fault(s, "the file ends where %s is expected: it is cut off", what);
     array_copy(value, s->text + s->at, size, 1);
     s->at += size;
     return OK;
@@ -99,7 +100,7 @@ status source_read_real(struct source *s, const char *what, real *value)
 {
     if (!s->binary) return text_real(s, what, value);
     TRY(bytes_take(s, what, value, sizeof *value));
-    return isfinite(*value) ? OK : source_fault(s, "%s is not finite", what);
+    return isfinite(*value) ? OK : source_report_fault(s, "%s is not finite", what);
 }
 
 status source_read_integer(struct source *s, const char *what, int64_t *value)
@@ -107,7 +108,7 @@ status source_read_integer(struct source *s, const char *what, int64_t *value)
     real number = 0;
     TRY(text_real(s, what, &number));
     if (number != floor(number) || fabs(number) > 9e15)
-        return source_fault(s, "%s is %.17g; a whole number is expected", what, number);
+        return source_report_fault(s, "%s is %.17g; a whole number is expected", what, number);
     *value = (int64_t)number;
     return OK;
 }
@@ -129,9 +130,9 @@ status source_read_int64(struct source *s, const char *what, int64_t *value)
 status source_check_count(const struct source *s, const char *what, int64_t count, int64_t bytes)
 {
     if (count >= 0 && count <= (s->length - s->at) / bytes) return OK;
-    return source_fault(s,
-                        "%lld %s are announced, more than the rest of the file can contain: it is cut off or damaged",
-                        (long long)count, what);
+    return source_report_fault(
+        s, "%lld %s are announced, more than the rest of the file can contain: it is cut off or damaged",
+        (long long)count, what);
 }
 
 void source_next_line(struct source *s)

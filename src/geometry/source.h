@@ -19,7 +19,7 @@ status source_open(struct source *s, const char *path);
 
 /* Sets the message `path:line: text` for the reading position of s (`path: text` for binary files) and returns REFUSED.
  * format: text as in printf. */
-status source_fault(const struct source *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
+status source_report_fault(const struct source *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Moves the reading position of s over white space to the next word. Returns false at the end of the file. */
 bool source_skip_blanks(struct source *s);

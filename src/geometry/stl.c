@@ -48,7 +48,7 @@ static status binary_read(struct element_mesh *m, struct source *s)
                 X[d] = value;
                 /* infinite or NaN: all exponent bits are set */
                 if ((bits & 0x7F800000u) == 0x7F800000u)
-                    return source_fault(s, "triangle %lld: a coordinate is not finite", (long long)k);
+                    return source_report_fault(s, "triangle %lld: a coordinate is not finite", (long long)k);
             }
             TRY(corner_add(m, s, X));
         }
@@ -71,13 +71,14 @@ static status words_read(struct element_mesh *m, struct source *s)
             for (int d = 0; d < 3; d++) TRY(source_read_real(s, "coordinate", &X[d]));
             TRY(corner_add(m, s, X));
         } else if (strcasecmp(word, "endfacet") == 0 && m->nodes % 3 != 0) {
-            return source_fault(s, "a facet with %d corners is given; three corners are expected", (int)(m->nodes % 3));
+            return source_report_fault(s, "a facet with %d corners is given; three corners are expected",
+                                       (int)(m->nodes % 3));
         } else if (strcasecmp(word, "endsolid") == 0 || strcasecmp(word, "solid") == 0) {
             ended = strcasecmp(word, "endsolid") == 0;
             source_next_line(s);
         }
     }
-    if (m->nodes % 3 != 0 || !ended) return source_fault(s, "ends within a solid: it is cut off");
+    if (m->nodes % 3 != 0 || !ended) return source_report_fault(s, "ends within a solid: it is cut off");
     return OK;
 }
 
@@ -142,16 +143,17 @@ status stl_read(struct element_mesh *m, struct source *s)
         TRY(words_read(m, s));
     else if (s->length >= HEADER + COUNT) {
         s->binary = true;
-        return source_fault(s,
-                            "not a whole STL file: it has %lld bytes, but the %lld triangles that its header gives "
-                            "need %lld; it is cut off or not in the STL format",
-                            (long long)s->length, (long long)word_at(s, HEADER),
-                            HEADER + COUNT + FACET * (long long)word_at(s, HEADER));
+        return source_report_fault(
+            s,
+            "not a whole STL file: it has %lld bytes, but the %lld triangles that its header gives "
+            "need %lld; it is cut off or not in the STL format",
+            (long long)s->length, (long long)word_at(s, HEADER),
+            HEADER + COUNT + FACET * (long long)word_at(s, HEADER));
     } else {
-        return source_fault(s, "not an STL file: it neither begins with `solid` nor has a header of %d bytes",
-                            HEADER + COUNT);
+        return source_report_fault(s, "not an STL file: it neither begins with `solid` nor has a header of %d bytes",
+                                   HEADER + COUNT);
     }
-    if (m->elements == 0) return source_fault(s, "holds no triangle");
+    if (m->elements == 0) return source_report_fault(s, "holds no triangle");
     corners_weld(m);
     return OK;
 }

@@ -122,7 +122,7 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, k[DIM_MAX];
     for (int d = 0; d < g->dim; d++) {
-        const real at = grid_cell_coordinate(g, d, p->x[d][i]), reach = 1 + c->half_width / g->h;
+        const real at = grid_coordinate_in_cells(g, d, p->x[d][i]), reach = 1 + c->half_width / g->h;
         low[d] = (int64_t)ceil(at - reach) - s->first[d], high[d] = (int64_t)floor(at + reach) - s->first[d];
         if (low[d] < 0) low[d] = 0;
         if (high[d] >= s->count[d]) high[d] = s->count[d] - 1;
@@ -299,7 +299,7 @@ real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_co
     return lost;
 }
 
-real grid_contact_remap_loss(struct grid_contact *c, const struct grid_contact_side *side)
+real grid_contact_remap_energy_loss(struct grid_contact *c, const struct grid_contact_side *side)
 {
     real lost = 0;
     for (int64_t k = 0; k < c->nodes; k++) {
@@ -314,7 +314,7 @@ real grid_contact_remap_loss(struct grid_contact *c, const struct grid_contact_s
     return lost;
 }
 
-void grid_contact_update_times(struct grid_contact *c, real t)
+void grid_contact_record_first_and_last_time(struct grid_contact *c, real t)
 {
     if (c->touching == 0) return;
     c->ended = t;

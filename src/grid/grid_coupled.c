@@ -48,13 +48,14 @@ static bool grid_coupled_meets_points(const struct grid_coupled *c, const struct
     return false;
 }
 
-void grid_coupled_clear(struct grid_coupled *c, struct particles *p)
+void grid_coupled_release_particles(struct grid_coupled *c, struct particles *p)
 {
     for (int64_t k = 0; k < c->n; k++) p->flag[c->list[k]] &= (uint8_t)~FLAG_GRID_COUPLED;
     c->n = p->n_grid_coupled = 0;
 }
 
-void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g)
+void grid_coupled_select_particles(struct grid_coupled *c, enum coupling coupling, struct particles *p,
+                                   const struct grid *g)
 {
     const bool unified = coupling_has_one_grid(coupling);
     int64_t k[DIM_MAX] = {0};

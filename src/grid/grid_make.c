@@ -31,7 +31,7 @@ void grid_choose_anchor(const struct scene *s, const real *body_corner, const re
     }
 }
 
-int joined_group_first_body(const struct scene *s, int k)
+int joined_bodies_first_body(const struct scene *s, int k)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined == b && k-- == 0) return b;
@@ -45,7 +45,7 @@ static void make_fields(const struct scene *s, struct grid_method *grid)
     const bool meet = !scene_is_single_equilibrium(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
                       !coupling_moves_by_grid(s->coupling);
     grid->fields = 1;
-    while (meet && joined_group_first_body(s, grid->fields) >= 0) grid->fields++;
+    while (meet && joined_bodies_first_body(s, grid->fields) >= 0) grid->fields++;
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
@@ -69,7 +69,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
     struct grid *g = &mpm->field[0].grid;
     g->dim = s->dim;
     g->h = s->cell * s->spacing;
-    bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
+    bool bounded = s->body[0].shape.n > 0 && region_bounding_box(&s->body[0].shape, s->dim, from, to);
     for (int d = 0; d < s->dim; d++) {
         if (!bounded) {
             particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
@@ -78,7 +78,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
         site[d] = p->X[d][0];
     }
     grid_choose_anchor(s, from, site, meshed, g->anchor);
-    real section = scene_section_factor(s), lightest = INFINITY;
+    real section = scene_section_or_thickness(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real light = !scene_is_single_equilibrium(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
     const real full = lightest * pow(g->h, s->dim) * section;
@@ -86,7 +86,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
     g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
     for (int k = 0; k < mpm->fields && mpm->fields > 1; k++) {
         mpm->field[k].grid = *g;
-        mpm->field[k].grid.body = 1 + joined_group_first_body(s, k);
+        mpm->field[k].grid.body = 1 + joined_bodies_first_body(s, k);
     }
     grid_contact_free(&mpm->contact);
     mpm->contact = (struct grid_contact){.friction = s->contact_friction,
@@ -100,7 +100,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
     mpm->sort_needed = true;
 }
 
-bool grid_mirror_off_nodes(const struct grid *g, const struct scene *s)
+bool grid_has_mirror_off_nodes(const struct grid *g, const struct scene *s)
 {
     for (int b = 0; b < s->boundaries; b++) {
         const real nodes = (s->boundary[b].at - g->anchor[s->boundary[b].axis]) / g->h;

@@ -78,17 +78,17 @@ static void update_active_points(struct run *e)
                              &e->grid->field[0].grid, &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
 }
 
-status grid_sort_points(struct run *e, bool *not_finite)
+status grid_sort_points_into_cells(struct run *e, bool *not_finite)
 {
     *not_finite = false;
     if (e->part.n_free == 0 && !coupling_has_one_grid(e->coupling_kind)) {
-        grid_coupled_clear(&e->grid->coupled, &e->part);
+        grid_coupled_release_particles(&e->grid->coupled, &e->part);
         return OK;
     }
     if (!e->grid->sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
     TRY(points_sort(e->grid, &e->part, e->coupling_kind, not_finite));
     if (coupling_moves_by_grid(e->coupling_kind))
-        grid_coupled_select(&e->grid->coupled, e->coupling_kind, &e->part, &e->grid->field[0].grid);
+        grid_coupled_select_particles(&e->grid->coupled, e->coupling_kind, &e->part, &e->grid->field[0].grid);
     return OK;
 }
 
@@ -166,7 +166,7 @@ static void grids_remap(struct run *e, const struct grid_contact_side *side)
         else
             e->kernels.turn_gather(&e->grid->field[k].grid, &e->part, &own);
     }
-    if (e->grid->turning.groups > 0) rotation_groups_restore_spins(&e->grid->turning, &e->part);
+    if (e->grid->turning.groups > 0) rotation_groups_restore_angular_momentum(&e->grid->turning, &e->part);
     for (int k = 0; k < e->grid->fields && e->grid->turning.groups > 0; k++) {
         const struct transfer_data own = field_data(e->grid, k);
         e->kernels.turn_scatter(&e->grid->field[k].grid, &e->part, &own);
@@ -174,11 +174,12 @@ static void grids_remap(struct run *e, const struct grid_contact_side *side)
     if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->grid->field[0].grid, &e->part, &grid_coupled);
     timer_add_elapsed(&e->timers, TIMER_SCATTER);
     for (int k = 0; k < e->grid->fields; k++) grid_remapped(&e->grid->field[k].grid, e->grid->smallest_mass);
-    if (side) e->damped += grid_contact_remap_loss(&e->grid->contact, side);
+    if (side) e->damped += grid_contact_remap_energy_loss(&e->grid->contact, side);
     timer_add_elapsed(&e->timers, TIMER_GRID);
 }
 
-void grid_map_points(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct timers *timers)
+void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
+                              struct timers *timers)
 {
     if (!grid_holds(p)) {
         for (int k = 0; k < mpm->fields; k++) grid_clear_constraints(&mpm->field[k].grid);
@@ -188,7 +189,7 @@ void grid_map_points(struct grid_method *mpm, struct particles *p, const struct 
     timer_add_elapsed(timers, TIMER_SCATTER);
 }
 
-void grid_step(struct run *e, real t_middle)
+void grid_advance_points(struct run *e, real t_middle)
 {
     struct particles *p = &e->part;
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
@@ -198,7 +199,7 @@ void grid_step(struct run *e, real t_middle)
     grids_move(e, side, t_middle, e->grid->transfer.dt_velocity); /* 3: motion of nodes */
     timer_add_elapsed(&e->timers, TIMER_GRID);
     if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocities; momentum to the nodes */
-    if (side) grid_contact_update_times(&e->grid->contact, e->clock.t);
+    if (side) grid_contact_record_first_and_last_time(&e->grid->contact, e->clock.t);
     for (int k = 0; k < e->grid->fields; k++) { /* 4, 7: positions, strain, stress */
         const struct transfer_data own = field_data(e->grid, k);
         moved += e->kernels.g2p(&e->grid->field[k].grid, p, &own);
@@ -211,11 +212,11 @@ void grid_step(struct run *e, real t_middle)
 /* Returns the power of the forces on the grids at the start of a step [W]: the sum of P . f/m over the nodes before
  * they move, with the nodal momentum P, nodal mass m, and f the change of momentum per time by forces, contact and
  * walls. t_middle: time in the middle of the step [s]. Returns 0 if no particle is on a grid. */
-real grid_power(struct run *e, real t_middle)
+real grid_power_of_forces(struct run *e, real t_middle)
 {
     real power = 0;
     bool lost;
-    if (!grid_holds(&e->part) || grid_sort_points(e, &lost) != OK || lost) return 0;
+    if (!grid_holds(&e->part) || grid_sort_points_into_cells(e, &lost) != OK || lost) return 0;
     grid_receive(e->grid, &e->part, &e->kernels);
     real **momentum = NEW("engine.momenta", e->grid->fields, real *);
     for (int k = 0; k < e->grid->fields; k++) {

@@ -22,7 +22,7 @@ static void loads_list(struct loads *l, const struct particles *p)
     l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
     for (int b = 0; b < l->n; b++)
         for (int64_t k = 0; k < l->load[b].n; k++) l->loaded[l->load[b].particle[k]] = LOADED;
-    loads_flag_clamped_mirrors(l, p);
+    loads_flag_particles_at_clamped_mirrors(l, p);
     l->list = NEW("loads.list", most < p->n ? most : p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++)
         if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
@@ -42,10 +42,10 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
         TRY(status_prepend_location(boundary[b].place,
                                     load_find_pressure_faces(&l->load[b], boundary, boundaries, b, p, spacing)));
     for (int b = 0; b < boundaries; b++)
-        TRY(status_prepend_location(boundary[b].place, load_prepare_shares(&l->load[b], p)));
+        TRY(status_prepend_location(boundary[b].place, load_prepare_varying_shares(&l->load[b], p)));
     TRY(absorbing_boundaries_check(l, p));
-    loads_merge_equal_lists(l, p->dim);
-    TRY(loads_mirrors_make(l, p, mirror_reach, optional_arrays));
+    loads_merge_equal_particle_lists(l, p->dim);
+    TRY(loads_make_mirror_images(l, p, mirror_reach, optional_arrays));
     loads_list(l, p);
     return OK;
 }
@@ -75,7 +75,7 @@ void loads_free(struct loads *l)
 {
     loads_shares_free(l);
     absorbing_dashpots_free(l);
-    for (int b = 0; b < l->n; b++) load_time_shares_free(&l->load[b]), memory_free(l->load[b].particle);
+    for (int b = 0; b < l->n; b++) load_varying_shares_free(&l->load[b]), memory_free(l->load[b].particle);
     memory_free(l->load);
     memory_free(l->loaded);
     memory_free(l->list);
@@ -176,7 +176,7 @@ static void displacement_update(struct load *load, const struct particles *p, co
     }
 }
 
-void loads_finish_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
+void loads_complete_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {
@@ -250,7 +250,7 @@ static bool positions_set(const struct load *load, struct particles *p, const st
 void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
-    loads_add_absorbed(l, &g->absorbed);
+    loads_add_absorbed_energy(l, &g->absorbed);
     for (int64_t q = 0; q < g->walls;) { /* walls of one load and component are consecutive */
         const struct wall first = g->wall[q];
         real sum = 0;
@@ -263,7 +263,7 @@ void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_vel
             l->load[g->mirror_node[q].load].reaction[d] += g->mirror_node[q].reaction[d] / dt_velocity;
 }
 
-bool loads_impose_motion(struct loads *l, struct particles *p, real t, real dt)
+bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt)
 {
     bool moved = false;
     for (int c = 0; c < l->n; c++) {

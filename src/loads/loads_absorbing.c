@@ -182,10 +182,10 @@ void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velo
                 dashpot_add_impulse(&sum, d, dt_velocity * rate, p->mass[i], p->v[d][i], change) / dt_velocity;
         }
     }
-    loads_add_absorbed(l, &sum);
+    loads_add_absorbed_energy(l, &sum);
 }
 
-void loads_add_absorbed(struct loads *l, const struct absorbed *absorbed)
+void loads_add_absorbed_energy(struct loads *l, const struct absorbed *absorbed)
 {
     l->absorbing.energy += absorbed->energy;
     l->absorbing.kick += absorbed->kick;

@@ -55,7 +55,7 @@ static void load_join(struct loads *l, int b, int dim)
             l->load[load->leader].before[d] = NEW("loads.before", load->n, real);
 }
 
-void loads_merge_equal_lists(struct loads *l, int dim)
+void loads_merge_equal_particle_lists(struct loads *l, int dim)
 {
     for (int b = 0; b < l->n; b++) {
         l->load[b].leader = -1;
@@ -200,7 +200,7 @@ void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velo
 {
     real factor[BOUNDARIES_MAX], given;
     struct push a;
-    loads_update_shares_for_kick(l, p, t, dt_velocity);
+    loads_update_shares_for_velocity_update(l, p, t, dt_velocity);
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         factor[b] = load->moving ? 1 : kick_factor(&load->boundary->time, t, dt_velocity);

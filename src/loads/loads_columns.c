@@ -319,7 +319,7 @@ static void face_add(struct exposed_face *f, const struct columns *c, int64_t co
 static real column_area(const struct columns *c, const struct boundary *b, int dim)
 {
     if (!(b->section > 0)) return 0;
-    const real area = lattice_volume(b->section, c->width, dim) / c->width;
+    const real area = lattice_particle_volume(b->section, c->width, dim) / c->width;
     return c->step == c->width ? area : area * pow(c->step / c->width, dim - 1);
 }
 

@@ -2,7 +2,7 @@
  *
  * Rotating particles move on circles: their velocity in a step is the difference of their positions at both ends over
  * the step, so that no step leaves the circle, however long it is. Displaced particles likewise; their position at the
- * end is set exactly (loads_impose_motion, walls of the mesh), so that round-off does not accumulate. */
+ * end is set exactly (loads_impose_prescribed_motion, walls of the mesh), so that round-off does not accumulate. */
 #include <math.h>
 
 #include "loads/loads.h"
@@ -46,7 +46,8 @@ real prescribed_displacement_at(const struct prescribed_displacement *prescribed
     return sum;
 }
 
-void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *displacement)
+void load_displacement_of_particle(const struct load *l, const struct particles *p, int64_t k, real t,
+                                   real *displacement)
 {
     const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, t);
     real X[DIM_MAX];
@@ -55,9 +56,9 @@ void load_displacement_at(const struct load *l, const struct particles *p, int64
         displacement[d] = l->boundary->components >> d & 1 ? prescribed_displacement_at(&by, X, d) : 0;
 }
 
-status load_check_displacement_known(const struct boundary *b)
+status boundary_check_displacement_known(const struct boundary *b)
 {
-    if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_uses_time(b)) return OK;
+    if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_formula_uses_time(b)) return OK;
     return status_set(
         REFUSED,
         "boundary %s: with this solver or frame a velocity that is a formula of t cannot be integrated to a "
@@ -129,21 +130,21 @@ enum { MOMENTS = 1000, PLACES = 64 };
 static real formula_speed(const struct load *l, const struct particles *p, int64_t k, real t)
 {
     real before[DIM_MAX], u[DIM_MAX], most = 0;
-    load_displacement_at(l, p, k, 0, before);
+    load_displacement_of_particle(l, p, k, 0, before);
     for (int m = 1; m <= MOMENTS; m++) {
         real increment2 = 0;
-        load_displacement_at(l, p, k, t * m / MOMENTS, u);
+        load_displacement_of_particle(l, p, k, t * m / MOMENTS, u);
         for (int d = 0; d < p->dim; d++) increment2 += square(u[d] - before[d]), before[d] = u[d];
         most = real_max(most, sqrt(increment2) / (t / MOMENTS));
     }
     return most;
 }
 
-real load_displacement_speed(const struct load *l, const struct particles *p, real t_end)
+real load_largest_displacement_speed(const struct load *l, const struct particles *p, real t_end)
 {
     const struct boundary *b = l->boundary;
     const bool formula = b->formula[0].n + b->formula[1].n + b->formula[2].n > 0;
-    const real slope = time_function_largest_slope(&b->time, t_end), size = sqrt(dot(b->value, b->value, p->dim));
+    const real slope = time_function_largest_slope_until(&b->time, t_end), size = sqrt(dot(b->value, b->value, p->dim));
     real most = 0;
     if (!b->displaces || size == 0) return 0;
     if (!formula || isinf(slope)) return slope * size;
@@ -167,7 +168,7 @@ static real velocity_jump_at(const struct load *l, const struct particles *p, in
     return l->boundary->rotates ? fabs(sqrt(driven2) - sqrt(own2)) : sqrt(jump2);
 }
 
-real load_velocity_jump(const struct load *l, const struct particles *p, real t_end)
+real load_largest_velocity_jump(const struct load *l, const struct particles *p, real t_end)
 {
     const struct boundary *b = l->boundary;
     real most = 0;
@@ -181,9 +182,10 @@ real load_velocity_jump(const struct load *l, const struct particles *p, real t_
     return most;
 }
 
-real load_driven_speed(const struct load *l, const struct particles *p, real t_end)
+real load_largest_driven_speed(const struct load *l, const struct particles *p, real t_end)
 {
-    return l->boundary->displaces ? load_displacement_speed(l, p, t_end) : load_velocity_jump(l, p, t_end);
+    return l->boundary->displaces ? load_largest_displacement_speed(l, p, t_end)
+                                  : load_largest_velocity_jump(l, p, t_end);
 }
 
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
@@ -206,7 +208,7 @@ static real velocity_change_at(const struct load *l, const struct particles *p, 
     return l->boundary->rotates ? fabs(sqrt(now2) - sqrt(then2)) : sqrt(change2);
 }
 
-real load_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span)
+real load_largest_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span)
 {
     const struct boundary *b = l->boundary;
     const real step = t_end / (MOMENTS - 1), dt = 0.02 * real_max(time_span, step);
@@ -226,7 +228,8 @@ real load_velocity_change(const struct load *l, const struct particles *p, real 
     return most;
 }
 
-real loads_velocity_difference(const struct load *a, const struct load *b, const struct particles *p, real t_end)
+real loads_largest_velocity_difference(const struct load *a, const struct load *b, const struct particles *p,
+                                       real t_end)
 {
     const unsigned both = a->boundary->components & b->boundary->components;
     real most = 0;

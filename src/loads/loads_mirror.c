@@ -60,7 +60,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
     }
 }
 
-void loads_update_images(const struct loads *l, struct particles *p)
+void loads_update_mirror_images(const struct loads *l, struct particles *p)
 {
     for (int64_t k = 0; k < l->images; k++) { /* all sources first: corners have images of images */
         const int axis = l->load[l->image[k].load].boundary->axis;
@@ -132,7 +132,7 @@ static status mirrors_apart(const struct boundary *b, int n, real reach, real sp
     return OK;
 }
 
-status loads_mirrors_make(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays)
+status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays)
 {
     const struct boundary *boundary = l->n ? l->load[0].boundary : NULL;
     TRY(mirrors_apart(boundary, l->n, mirror_reach, l->spacing));
@@ -144,11 +144,11 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real mirror_reac
         mirror_make(l, b, p, mirror_reach, optional_arrays);
     }
     l->reach = mirror_reach;
-    loads_update_images(l, p);
+    loads_update_mirror_images(l, p);
     return OK;
 }
 
-void loads_flag_clamped_mirrors(struct loads *l, const struct particles *p)
+void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *clamp = l->load[b].boundary;

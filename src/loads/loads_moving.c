@@ -46,7 +46,8 @@ status loads_check_finite(const struct loads *l, const struct particles *p, real
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *by = l->load[b].boundary;
-        if (boundary_uses_time(by)) TRY(status_prepend_location(by->place, formula_finite(&l->load[b], p, t, FAILED)));
+        if (boundary_formula_uses_time(by))
+            TRY(status_prepend_location(by->place, formula_finite(&l->load[b], p, t, FAILED)));
     }
     return OK;
 }
@@ -64,14 +65,14 @@ static void shares_part(struct load *l, const struct particles *p, bool with, re
     }
 }
 
-status load_prepare_shares(struct load *l, const struct particles *p)
+status load_prepare_varying_shares(struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;
     bool any = false;
     for (int d = 0; d < p->dim; d++) any |= b->formula[d].n > 0;
     if (any) TRY(formula_finite(l, p, 0, REFUSED));
     if (!boundary_applies_force(b) || l->n == 0) return OK;
-    l->moving = l->surface || (boundary_uses_time(b) && !b->frozen);
+    l->moving = l->surface || (boundary_formula_uses_time(b) && !b->frozen);
     if (any) shares_part(l, p, !l->moving, b->frozen_at);
     for (int d = 0; d < p->dim && l->moving; d++) {
         l->base[d] = NEW("loads.base", l->n, real);
@@ -80,10 +81,10 @@ status load_prepare_shares(struct load *l, const struct particles *p)
     return OK;
 }
 
-void load_time_shares_free(struct load *l)
+void load_varying_shares_free(struct load *l)
 {
     for (int d = 0; d < DIM_MAX; d++) memory_free(l->base[d]);
-    load_surface_free(l->surface);
+    surface_free(l->surface);
 }
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
@@ -111,13 +112,13 @@ static void moving_update(struct loads *l, const struct particles *p, real t, re
     for (int b = 0; b < l->n; b++) {
         struct load *load = &l->load[b];
         if (!load->moving) continue;
-        if (load->surface) surface_compute_areas(load->surface, p, load->base);
+        if (load->surface) surface_compute_area_vectors(load->surface, p, load->base);
         for (int d = 0; d < p->dim; d++)
             if (load->boundary->value[d] != 0) moving_shares(load, p, d, t, dt, half);
     }
 }
 
-void loads_update_shares_for_kick(struct loads *l, const struct particles *p, real t, real dt_velocity)
+void loads_update_shares_for_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity)
 {
     moving_update(l, p, t, dt_velocity, 1);
 }
@@ -134,7 +135,7 @@ void loads_update_shares_for_work(struct loads *l, const struct particles *p, re
 
 /* Computes the force of load l on its k-th particle at time t [s], from the reference position of the particle. force:
  * dim components [N]. */
-void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
+void load_force_on_particle(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
 {
     const struct boundary *b = l->boundary;
     const real factor = b->frozen ? 1 : time_function_value(&b->time, t);
@@ -144,12 +145,12 @@ void load_force_at(const struct load *l, const struct particles *p, int64_t k, r
     }
 }
 
-void load_sum_force_and_motion(struct load *l, const struct particles *p, real t)
+void load_sum_force_and_mean_displacement(struct load *l, const struct particles *p, real t)
 {
     real force[DIM_MAX], *const *share = l->moving ? l->base : l->share;
     memset(l->reaction, 0, sizeof l->reaction);
     for (int64_t k = 0; k < l->n; k++) {
-        load_force_at(l, p, k, t, force);
+        load_force_on_particle(l, p, k, t, force);
         for (int d = 0; d < p->dim; d++) l->reaction[d] += force[d];
     }
     for (int d = 0; d < p->dim && l->n > 0; d++) {
@@ -162,7 +163,7 @@ void load_sum_force_and_motion(struct load *l, const struct particles *p, real t
     }
 }
 
-void load_value_at(const struct load *l, const struct particles *p, int64_t k, real t, real *value)
+void load_value_at_particle(const struct load *l, const struct particles *p, int64_t k, real t, real *value)
 {
     const struct boundary *b = l->boundary;
     const real factor = b->frozen ? 1 : time_function_value(&b->time, t);

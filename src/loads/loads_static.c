@@ -6,8 +6,8 @@
 
 #define ROUND_OFF 1e-12 /* share of the largest possible moment below which a moment counts as 0 */
 
-void loads_make_static_boundaries(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
-                                  real duration, real ramp_time)
+void static_boundaries_make(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
+                            real duration, real ramp_time)
 {
     for (int b = 0; b < boundaries; b++) {
         real factor = 1;
@@ -38,8 +38,8 @@ static real static_displacement(const struct prescribed_displacement *by, const 
     return prescribed_displacement_at(by, X, d);
 }
 
-void static_displacements_compute(struct loads *l, const struct particles *p, real ramp_time, real *const *displacement,
-                                  uint8_t *driven_components)
+void loads_compute_static_displacements(struct loads *l, const struct particles *p, real ramp_time,
+                                        real *const *displacement, uint8_t *driven_components)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];

@@ -43,7 +43,7 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
 {
     const struct boundary *b = load->boundary;
     if (b->kind != BOUNDARY_MIRROR) return true;
-    const real away = b->at - grid_position(g, b->axis, k[b->axis]);
+    const real away = b->at - grid_node_position(g, b->axis, k[b->axis]);
     if (-load->outside * away <= LOADS_TOLERANCE * spacing) return true;
     const int64_t whole = llround(2 * away / g->h);
     if (!mirror_fits_grid(b, g, spacing) || whole < -4 || whole > 4) return false;
@@ -90,7 +90,7 @@ static bool load_holds(const struct load *load, const struct grid *g, const stru
 static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, real *x)
 {
     const int64_t at = mesh ? mesh_regular_node_of(mesh, I) : I;
-    for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
+    for (int d = 0; d < g->dim; d++) x[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
 /* Returns true if the position of node I of the mesh must not decide whether `load` constrains it. Nodes doubled by
@@ -312,8 +312,8 @@ void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const stru
     loads_add_mesh_dashpots(l, mesh, p);
 }
 
-void loads_find_driven_level_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
-                                   const struct particles *p)
+void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
+                                    const struct particles *p)
 {
     if (!constrained_is_current(driven_nodes, g)) constrained_find(l, driven_nodes, g, NULL, p, true);
 }
@@ -329,8 +329,8 @@ static void reference_walls(const struct loads *l, const struct constrained_set 
     constrained_walls(held, g, mesh, by, true);
 }
 
-void loads_prescribe_level_velocities(const struct loads *l, const struct constrained_set *driven_nodes, struct grid *g,
-                                      real t, real dt)
+void loads_prescribe_coarse_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
+                                       struct grid *g, real t, real dt)
 {
     reference_walls(l, driven_nodes, g, NULL, t, dt);
 }

@@ -87,7 +87,7 @@ static bool wall_is_fixed(const struct loads *l, const struct wall *w)
     return b->kind == BOUNDARY_MIRROR || b->value[w->component] == 0;
 }
 
-void active_nodes_add_exposed(struct mesh *mesh)
+void active_nodes_add_exposed_points(struct mesh *mesh)
 {
     const int dim = mesh->grid.dim;
     for (int64_t k = 0; k < mesh->exposed && mesh->active.is_current; k++)
@@ -118,7 +118,7 @@ static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
     for (int64_t k = 0; k < mesh->grid.walls; k++)
         if (!wall_is_fixed(l, &mesh->grid.wall[k]))
             mesh_activate(mesh, mesh_block_of_node(mesh, mesh->grid.wall[k].node));
-    active_nodes_add_exposed(mesh); /* makes the list */
+    active_nodes_add_exposed_points(mesh); /* makes the list */
 }
 
 void active_nodes_update(struct mesh *mesh, const struct loads *l)

@@ -16,7 +16,7 @@
 static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm,
                                   const struct cells_without_particles *hollow)
 {
-    const int64_t pieces = mesh_count_parts(p, &mpm->field[0].grid, hollow);
+    const int64_t pieces = mesh_count_connected_parts(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
         return "mpm.origin or a mirror shifts the grid nodes, so that grid cells do not contain two particles in each "
                "direction";
@@ -47,7 +47,7 @@ status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, st
     r->choice = NEW("engine.frame", s->bodies, struct frame_choice);
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++) {
         const enum grid_frame said = s->body[b].frame;
-        const char *why = scene_why_frame_unsupported(s, b);
+        const char *why = scene_why_reference_frame_unsupported(s, b);
         if (why && said == FRAME_REFERENCE)
             return status_set(REFUSED, "mpm.frame: body %s cannot be in the reference frame: %s", s->body[b].name, why);
         take_frame(&r->choice[b], said != FRAME_CURRENT,
@@ -69,7 +69,7 @@ status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, st
 bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p,
                                  const struct grid_method *mpm)
 {
-    return mesh_count_parts(p, &mpm->field[0].grid, &r->hollow) == 1;
+    return mesh_count_connected_parts(p, &mpm->field[0].grid, &r->hollow) == 1;
 }
 
 bool reference_frame_in_use(const struct reference_frame *r)
@@ -99,7 +99,7 @@ static struct elastic *cell_constants(const struct scene *s, const struct elasti
 void frame_find_exposed_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                                struct loads *loads)
 {
-    mesh_find_exposed(&r->mesh, p, bonds, loads);
+    mesh_find_exposed_points(&r->mesh, p, bonds, loads);
     loads_find_driven_mesh_nodes(loads, &r->mesh, p);
 }
 
@@ -115,7 +115,7 @@ status reference_frame_make(struct run *e, const struct mesh_source *source, boo
                                      .hollow = &r->hollow,
                                      .slit = source->slit,
                                      .slits = source->slits,
-                                     .voids = grid_mirror_off_nodes(g, e->scene) ? NULL : e->source.voids,
+                                     .voids = grid_has_mirror_off_nodes(g, e->scene) ? NULL : e->source.voids,
                                      .mirror = e->source.mirror,
                                      .mirrors = e->source.mirrors,
                                      .still = motion_set_later};
@@ -130,18 +130,19 @@ status reference_frame_make(struct run *e, const struct mesh_source *source, boo
 /* Returns the critical time step of the mesh [s]; INFINITY if it has no points. Conversion to peridynamics may leave
  * any subset of points in a cell: with partial stress no such cell has a smaller critical step than the initial cells,
  * with hand-shake coupling a cell with a single point has. */
-real reference_frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
+real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
     if (r->mesh.points > 0)
-        step = mesh_critical_step(&r->mesh, &r->source, density, r->converts && coupling != COUPLING_PARTIAL_STRESS);
+        step =
+            mesh_critical_time_step(&r->mesh, &r->source, density, r->converts && coupling != COUPLING_PARTIAL_STRESS);
     return step;
 }
 
 /* ---- in a step --------------------------------------------------------------------------------------------------- */
 
-/* Updates the positions of the exposed points (mesh_find_exposed) from the nodes, and the strain at points with
+/* Updates the positions of the exposed points (mesh_find_exposed_points) from the nodes, and the strain at points with
  * state-based bonds to peridynamic particles. */
 void frame_update_exposed_points(struct reference_frame *r, struct particles *p)
 {
@@ -154,7 +155,7 @@ void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_
     mesh_clear(&r->mesh);
     mesh_exposed_force(&r->mesh, p);
     mesh_force(&r->mesh, p, r->elastic, r->finite);
-    levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_acting(&r->levels, step));
+    levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_due_in_step(&r->levels, step));
 }
 
 /* Sets the walls, the prescribed velocities of nodes, of the mesh and of the coarse levels 1 .. due, whose steps are
@@ -165,7 +166,7 @@ static void nodes_walls(struct reference_frame *r, const struct loads *loads, re
     for (int k = 1; k <= due; k++) {
         struct mesh_level *level = &r->levels.at[k];
         const real longer = (real)(1 << k) * dt;
-        loads_prescribe_level_velocities(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt), longer);
+        loads_prescribe_coarse_velocities(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt), longer);
     }
 }
 
@@ -181,12 +182,12 @@ static void nodes_react(struct loads *loads, struct reference_frame *frame, real
 void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
                       const struct run_clock *clock, real t_middle, real dt_velocity)
 {
-    const int due = levels_highest_acting(&r->levels, clock->step);
+    const int due = levels_highest_due_in_step(&r->levels, clock->step);
     if (r->mesh.points == 0) return;
     if (r->converts) mesh_points_mark(&r->mesh, p, r->elastic, r->finite);
     nodes_walls(r, loads, t_middle, clock->dt, due);
     r->speed = r->levels.n > 0
-                   ? levels_move(&r->levels, clock->dt, dt_velocity, due, loads->impulse, &loads->constraint_work)
+                   ? levels_move_nodes(&r->levels, clock->dt, dt_velocity, due, loads->impulse, &loads->constraint_work)
                    : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
     nodes_react(loads, r, dt_velocity, due);
     if (p->mesh_stress[0]) mesh_points_flow(&r->mesh, p, r->elastic, clock->dt, r->finite);
@@ -197,9 +198,9 @@ void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loa
 void frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
-    levels_prolong_motion_to_points(&r->levels);
+    levels_prolong_motion_near_points(&r->levels);
     mesh_points_move(&r->mesh, p);
-    loads_update_images(loads, p);
+    loads_update_mirror_images(loads, p);
 }
 
 void frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads)
@@ -214,7 +215,7 @@ void frame_update_listed_points(struct reference_frame *r, struct particles *p, 
 {
     if (r->mesh.points == 0) return;
     mesh_listed_move(&r->mesh, p, list, n);
-    loads_update_images(loads, p);
+    loads_update_mirror_images(loads, p);
 }
 
 bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,

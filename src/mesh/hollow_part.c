@@ -17,7 +17,7 @@ enum { AHEAD = 4 };     /* range of cells around level 0 that have particles, as
 
 /* Returns the reason in words why all particles of scene s must be created; NULL if those inside coarse cells may be
  * left out. */
-const char *why_all_particles_are_needed(const struct scene *s)
+const char *scene_why_all_particles_needed(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene says so";
     if (s->method == METHOD_PD || scene_is_single_equilibrium(s) || s->levels == 0) return "there are no coarse cells";
@@ -25,7 +25,7 @@ const char *why_all_particles_are_needed(const struct scene *s)
     if (s->body[0].file) return "they come from a list";
     if (scene_strength_scatters(s)) return "strength scatters from place to place";
     if (s->body[0].parts > 0) return "the body has parts of other materials";
-    if (s->body[0].frame == FRAME_CURRENT || scene_why_frame_not_default(s, 0))
+    if (s->body[0].frame == FRAME_CURRENT || scene_why_reference_frame_not_auto(s, 0))
         return "the body is in the current frame";
     if (s->initials > 0 || dot(s->body[0].velocity, s->body[0].velocity, s->dim) > 0) return "the body moves at first";
     if (s->growths > 0) return "cracks grow by growth";
@@ -51,10 +51,10 @@ static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
     TRY(fill_lattice_site(s, 0, site));
-    region_bounds(&s->body[0].shape, s->dim, from, to);
+    region_bounding_box(&s->body[0].shape, s->dim, from, to);
     box->dim = s->dim, box->h = s->cell * s->spacing;
     grid_choose_anchor(s, from, site, true, box->anchor);
-    return grid_compute_box(box, from, to, INT32_MAX)
+    return grid_set_box(box, from, to, INT32_MAX)
                ? OK
                : status_set(REFUSED, "body %s: too large for the spacing", s->body[0].name);
 }
@@ -68,7 +68,7 @@ static bool near_cracks(const struct scene *s, const struct bond_source *source,
         flank + source->family.cutoff + real_max(s->conversion.tips * source->family.horizon, NOTCH_ZONE * s->spacing);
     for (int k = 0; k < s->cracks; k++) {
         const struct crack *c = &s->crack[k];
-        if (crack_may_cut_near(c, X, flank, s->dim)) return true;
+        if (crack_may_cut_bonds_near(c, X, flank, s->dim)) return true;
         for (int a = 0; a < c->n; a++) {
             const real *from = c->corner[a], *to = s->dim == 3 ? c->corner[(a + 1) % c->n] : from;
             if (segment_distance(from, to, X, s->dim) <= end) return true;
@@ -151,7 +151,7 @@ status cells_without_particles_choose(struct cells_without_particles *h, const s
                                       const struct bond_source *source)
 {
     int64_t absent = 0;
-    if (h->whole || why_all_particles_are_needed(s)) return OK;
+    if (h->whole || scene_why_all_particles_needed(s)) return OK;
     TRY(box_find(&h->box, s));
     const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
     if (h->box.n <= least) return OK;
@@ -190,17 +190,17 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     const struct grid *g = &r->mesh.grid;
     uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
     for (int64_t I = 0; I < g->n; I++) { /* also where bonds have taken all points of a cell */
-        const int64_t J = grid_cell_in_other_grid(g, I, &h->box);
+        const int64_t J = grid_cell_index_in_other_grid(g, I, &h->box);
         keep[I] = level[I] == 0 && (mesh_cell_has_body(&r->mesh, I) || (J >= 0 && h->whole[J]));
     }
-    levels_dilate(&r->levels, keep, ahead);
+    levels_dilate_marks(&r->levels, keep, ahead);
     for (int64_t I = 0; I < g->n; I++) {
-        const int64_t J = grid_cell_in_other_grid(g, I, &h->box);
+        const int64_t J = grid_cell_index_in_other_grid(g, I, &h->box);
         keep[I] = keep[I] || J < 0 || !h->whole[J];
     }
-    levels_extend_marks_to_cells(&r->levels, level, keep);
+    levels_extend_marks_to_coarse_cells(&r->levels, level, keep);
     for (int64_t I = 0; I < g->n; I++)
-        if (!keep[I]) absent[grid_cell_in_other_grid(g, I, &h->box)] = 1;
+        if (!keep[I]) absent[grid_cell_index_in_other_grid(g, I, &h->box)] = 1;
     memory_free(keep);
     return absent;
 }

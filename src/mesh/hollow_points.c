@@ -63,14 +63,14 @@ bool coarse_cell_points_make(struct reference_frame *r, const struct particles *
     coarse_cell_points_free(&r->shown);
     if (!r->hollow.absent) return false;
     for (int level = 1; level <= l->n; level++)
-        points += (cells[level] = levels_list_hollow_cells(l, level, NULL)) << dim;
+        points += (cells[level] = levels_list_cells_without_particles(l, level, NULL)) << dim;
     particles_make(&r->shown.part, dim, points, 0);
     r->shown.part.plane_strain = body->plane_strain;
     r->shown.spacing = NEW("report.spacing", points, real);
     for (int k = 0; k < dim * dim && gradients; k++) r->shown.gradient[k] = NEW("report.gradient", points, real);
     for (int level = 1, first = 0; level <= l->n; first += (int)cells[level] << dim, level++) {
         int64_t *cell = BARE("report.cell", cells[level], int64_t);
-        levels_list_hollow_cells(l, level, cell);
+        levels_list_cells_without_particles(l, level, cell);
         level_points(r, body, m, level, cell, cells[level], first);
         memory_free(cell);
     }

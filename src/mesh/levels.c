@@ -30,8 +30,8 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
     struct grid like = {.dim = fine->dim, .h = fine->h * (real)(1 << level)};
     real to[DIM_MAX];
     for (int d = 0; d < fine->dim; d++) {
-        like.anchor[d] = grid_position(fine, d, l->offset[0][d]);
-        to[d] = grid_position(fine, d, fine->count[d]);
+        like.anchor[d] = grid_node_position(fine, d, l->offset[0][d]);
+        to[d] = grid_node_position(fine, d, fine->count[d]);
     }
     TRY(mesh_box_make(mesh, &like, like.anchor, to, NULL, NULL));
     for (int d = 0; d < fine->dim; d++) l->offset[level][d] = -mesh->grid.first[d];
@@ -50,13 +50,14 @@ status levels_make(struct mesh_levels *l, int coarse_levels, struct mesh *fine, 
     if (coarse_levels == 0 || fine->points == 0) return OK;
     l->n = coarse_levels, l->fine = fine;
     corner_find(l, p);
-    l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t); /* with room for marks: mesh_cells_update */
+    l->level =
+        NEW("levels.level", fine->grid.n + LANES, uint8_t); /* with room for marks: mesh_update_after_level_change */
     l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
     l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
     l->safe = NEW("levels.safe", fine->grid.n, uint8_t);
     fine->level = l->level;
     for (int level = 1; level <= coarse_levels; level++) TRY(level_make(l, level, source, density));
-    levels_classify_cells(l);
+    levels_classify_distances_to_coarse_cells(l);
     return OK;
 }
 
@@ -80,21 +81,21 @@ void levels_free(struct mesh_levels *l)
 
 /* Copies displacement and velocity of finer nodes to all ghosts, which are nodes of a coarser mesh at the positions of
  * these finer nodes. */
-void levels_copy_to_ghosts(struct mesh_levels *l)
+void levels_copy_motion_to_ghosts(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) levels_update_ghosts(l, level);
 }
 
-void levels_prolong_motion(struct mesh_levels *l)
+void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l)
 {
-    levels_copy_to_ghosts(l);
-    if (l->n > 0) levels_interpolate(l, true);
+    levels_copy_motion_to_ghosts(l);
+    if (l->n > 0) levels_interpolate_to_fine_nodes(l, true);
 }
 
-void levels_prolong_motion_to_points(struct mesh_levels *l)
+void levels_prolong_motion_near_points(struct mesh_levels *l)
 {
-    levels_copy_to_ghosts(l);
-    if (l->n > 0) levels_interpolate(l, false);
+    levels_copy_motion_to_ghosts(l);
+    if (l->n > 0) levels_interpolate_to_fine_nodes(l, false);
 }
 
 bool levels_find_inverted_cell(const struct mesh_levels *l, real *X)
@@ -110,7 +111,7 @@ bool levels_find_inverted_cell(const struct mesh_levels *l, real *X)
     return false;
 }
 
-int64_t levels_list_hollow_cells(const struct mesh_levels *l, int level, int64_t *cell)
+int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell)
 {
     const struct mesh *mesh = &l->at[level].mesh;
     int64_t n = 0, k[DIM_MAX] = {0};
@@ -146,7 +147,7 @@ real levels_kinetic_energy(const struct mesh_levels *l)
 real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite)
 {
     real sum = 0;
-    levels_copy_to_ghosts(l);
+    levels_copy_motion_to_ghosts(l);
     for (int level = 1; level <= l->n; level++) sum += mesh_strain(&l->at[level].mesh, p, m, finite);
     return sum;
 }
@@ -158,7 +159,7 @@ real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt)
     return sum;
 }
 
-real levels_power(const struct mesh_levels *l)
+real levels_power_of_forces(const struct mesh_levels *l)
 {
     real power = 0;
     for (int level = 1; level <= l->n; level++) {
@@ -201,15 +202,15 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
  * between levels, and distances to coarse cells. */
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
-    mesh_cells_update(l->fine, p, source, l->level);
+    mesh_update_after_level_change(l->fine, p, source, l->level);
     levels_cells_make(l, p);
     levels_find_interfaces(l);
-    levels_add_dependent_masses(l, false);
+    levels_add_masses_of_dependent_nodes(l, false);
     levels_make_cell_runs(l);
-    levels_classify_cells(l);
+    levels_classify_distances_to_coarse_cells(l);
 }
 
-void levels_reconnect_finest(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
+void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     uint8_t *stressed[LEVELS_MAX + 1];
     l->fine->level = l->level;

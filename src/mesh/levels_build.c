@@ -7,7 +7,7 @@
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
 /* Makes the coarse cells for the present levels, l->level, and the masses of their nodes, without the transfer of mass
- * between levels (levels_add_dependent_masses). */
+ * between levels (levels_add_masses_of_dependent_nodes). */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
@@ -25,7 +25,7 @@ void levels_cells_make(struct mesh_levels *l, const struct particles *p)
         struct mesh *mesh = &l->at[level].mesh;
         const int64_t J = levels_coarse_cell(l, level, k, NULL);
         mesh->kind[J] = CELL_WHOLE;
-        mesh->material[J] = cell_material(fine, p, I);
+        mesh->material[J] = mesh_whole_cell_material(fine, p, I);
         for (int c = 0; c < corners; c++)
             mesh->grid.mass[J + mesh->corner[c]] += mesh->cell_mass[mesh->material[J]] / corners;
         l->at[level].cells++;
@@ -156,7 +156,7 @@ static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
     g->momentum[d][h->node] = 0;
 }
 
-void levels_add_dependent_masses(struct mesh_levels *l, bool momenta)
+void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool momenta)
 {
     for (int level = 1; level <= l->n; level++) {
         struct mesh_level *m = &l->at[level];
@@ -186,9 +186,9 @@ void levels_add_dependent_masses(struct mesh_levels *l, bool momenta)
 
 void levels_make_cell_runs(struct mesh_levels *l)
 {
-    for (int level = 1; level <= l->n; level++) mesh_runs_make(&l->at[level].mesh);
-    mesh_spans_make(l->fine);
-    mesh_blocks_activate(l->fine);
+    for (int level = 1; level <= l->n; level++) mesh_cell_runs_make(&l->at[level].mesh);
+    mesh_node_spans_make(l->fine);
+    mesh_activate_blocks_at_cells(l->fine);
 }
 
 void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, real dt)

@@ -89,7 +89,7 @@ static void row_interpolate(struct mesh_levels *l, int64_t row)
     for (int64_t I = first; I < first + g->count[0]; I++, k[0]++) node_interpolate(l, I, k);
 }
 
-void levels_interpolate(struct mesh_levels *l, bool all)
+void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all)
 {
     struct mesh *fine = l->fine;
     if (all || !fine->absent) {
@@ -227,8 +227,8 @@ void levels_compute_momenta(struct mesh_levels *l)
     }
 }
 
-void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
-                             real dt)
+void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *m,
+                                       bool finite, real dt)
 {
     mesh_clear(l->fine);
     mesh_force(l->fine, p, m, finite);
@@ -244,7 +244,7 @@ void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, c
         if (level > 0) mesh_velocity(mesh, mesh->grid.momentum, mesh->grid.velocity);
     }
     for (int level = 1; level <= l->n; level++) levels_update_hanging(l, level);
-    levels_copy_to_ghosts(l);
+    levels_copy_motion_to_ghosts(l);
 }
 
 void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
@@ -252,22 +252,22 @@ void levels_change_refinement(struct mesh_levels *l, const struct particles *p, 
 {
     const int64_t cells = l->fine->grid.n;
     uint8_t *before = NEW("levels.before", 2 * cells + LANES, uint8_t), *dirty = before + cells;
-    levels_copy_to_ghosts(l);
-    levels_interpolate(l, true);
+    levels_copy_motion_to_ghosts(l);
+    levels_interpolate_to_fine_nodes(l, true);
     array_copy(before, l->level, cells, 1);
     for (int64_t I = 0; I < cells; I++) dirty[I] = before[I] != level[I];
     array_copy(l->level, level, cells, 1);
-    mesh_cells_update(l->fine, p, source, dirty);
+    mesh_update_after_level_change(l->fine, p, source, dirty);
     levels_cells_make(l, p);
     levels_find_interfaces(l);
     nodes_sample(l);
     merged_cells_correct(l, before);
-    levels_add_dependent_masses(l, true);
+    levels_add_masses_of_dependent_nodes(l, true);
     levels_make_cell_runs(l);
     velocities_make(l);
     for (int k = 1; k <= l->n; k++) levels_update_hanging(l, k);
-    levels_copy_to_ghosts(l);
-    levels_classify_cells(l);
+    levels_copy_motion_to_ghosts(l);
+    levels_classify_distances_to_coarse_cells(l);
     l->changes++;
     memory_free(before);
 }

@@ -92,7 +92,7 @@ static real spacings_across(const struct scene *s, const struct particles *p,
                             const struct cells_without_particles *hollow)
 {
     real extent[DIM_MAX] = {0}, low[DIM_MAX], high[DIM_MAX];
-    const bool made = !hollow->absent || !region_bounds(&s->body[0].shape, s->dim, low, high);
+    const bool made = !hollow->absent || !region_bounding_box(&s->body[0].shape, s->dim, low, high);
     for (int d = 0; d < s->dim; d++) {
         if (made) particles_coordinate_range(p, p->n, d, &low[d], &high[d]), high[d] += s->spacing;
         extent[d] = (high[d] - low[d]) / s->spacing;
@@ -112,11 +112,11 @@ void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, 
     if (!scene_is_dynamic(s) || r->mesh.points == 0 || s->levels == 0) return;
     if (s->levels == LEVELS_AUTO && particles < PAYS) return;
     r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
-    r->room_most = mesh_level_limits(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
+    r->room_most = mesh_compute_level_limits(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
 }
 
-struct levels_choice frame_levels_choice(const struct reference_frame *r, const struct particles *p,
-                                         const struct scene *s, real dt_critical)
+struct levels_choice frame_levels_choose_count(const struct reference_frame *r, const struct particles *p,
+                                               const struct scene *s, real dt_critical)
 {
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO,
                               .particles = p->n_body,
@@ -250,7 +250,7 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t capaci
     }
     if (thin == 0) return false;
     real at[DIM_MAX] = {0};
-    for (int d = 0; d < g->dim; d++) at[d] = grid_position(g, d, first / g->stride[d] % g->count[d]) + 0.5 * g->h;
+    for (int d = 0; d < g->dim; d++) at[d] = grid_node_position(g, d, first / g->stride[d] % g->count[d]) + 0.5 * g->h;
     snprintf(text, capacity,
              "mpm.levels: %d makes coarse cells of %d spacings in thin parts, as at (%.4g, %.4g, %.4g) m, with fewer "
              "than %d cells across the part (%.0f %% of all coarse cells): such parts bend too stiffly, and natural "

@@ -28,7 +28,7 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
         to->some[I] = fine->kind[I] != CELL_EMPTY;
         to->ok[I] = whole && !demand[I];
         to->limit[I] = limit ? limit[I] : (uint8_t)l->n;
-        to->material[I] = whole ? cell_material(fine, p, I) : 0;
+        to->material[I] = whole ? mesh_whole_cell_material(fine, p, I) : 0;
     }
 }
 
@@ -125,8 +125,9 @@ static void level_map_find(struct level_map *map, const struct mesh_levels *l, i
     memory_free(inside);
 }
 
-void levels_coarsest_admissible(const struct mesh_levels *l, const struct particles *p, const uint8_t *finest_required,
-                                const uint8_t *highest_level, uint8_t *admissible)
+void levels_compute_coarsest_admissible(const struct mesh_levels *l, const struct particles *p,
+                                        const uint8_t *finest_required, const uint8_t *highest_level,
+                                        uint8_t *admissible)
 {
     struct level_map map[LEVELS_MAX + 1];
     int64_t k[DIM_MAX] = {0};
@@ -187,12 +188,12 @@ void grid_dilate_marks(const struct grid *g, uint8_t *mark, int reach)
     }
 }
 
-void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
+void levels_dilate_marks(const struct mesh_levels *l, uint8_t *mark, int reach)
 {
     grid_dilate_marks(&l->fine->grid, mark, reach);
 }
 
-void levels_extend_marks_to_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
+void levels_extend_marks_to_coarse_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0};
@@ -206,19 +207,19 @@ void levels_extend_marks_to_cells(const struct mesh_levels *l, const uint8_t *le
     }
 }
 
-void levels_set_distances(struct mesh_levels *l, int postpone_distance, int refine_distance)
+void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distance, int refine_distance)
 {
     l->safe_cells = postpone_distance, l->roomy_cells = refine_distance;
-    levels_classify_cells(l);
+    levels_classify_distances_to_coarse_cells(l);
 }
 
-void levels_classify_cells(struct mesh_levels *l)
+void levels_classify_distances_to_coarse_cells(struct mesh_levels *l)
 {
     const int64_t n = l->fine->grid.n;
     uint8_t *near = NEW("levels.near", n, uint8_t);
     for (int64_t I = 0; I < n; I++) l->safe[I] = near[I] = l->level[I] > 0;
-    levels_dilate(l, l->safe, l->safe_cells);
-    levels_dilate(l, near, l->roomy_cells);
+    levels_dilate_marks(l, l->safe, l->safe_cells);
+    levels_dilate_marks(l, near, l->roomy_cells);
     for (int64_t I = 0; I < n; I++)
         l->safe[I] = l->safe[I] ? DISTANCE_UNSAFE : near[I] ? DISTANCE_SAFE : DISTANCE_ROOMY;
     memory_free(near);

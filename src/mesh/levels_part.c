@@ -62,10 +62,11 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
         const struct boundary *mirror = loads->load[b].boundary;
         const int a = mirror->axis;
         if (mirror->kind != BOUNDARY_MIRROR) continue;
-        const real at = (mirror->at - grid_position(g, a, l->offset[0][a])) / (g->h * (real)levels_steps_per_cycle(l));
+        const real at =
+            (mirror->at - grid_node_position(g, a, l->offset[0][a])) / (g->h * (real)levels_steps_per_cycle(l));
         if (fabs(at - nearbyint(at)) < 1e-6) continue;
         for (int64_t I = 0; I < g->n; I++) {
-            const real x = grid_position(g, a, I / g->stride[a] % g->count[a]);
+            const real x = grid_node_position(g, a, I / g->stride[a] % g->count[a]);
             if (fabs(x + 0.5 * g->h - mirror->at) < 1.6 * g->h) demand[I] = 1;
         }
     }
@@ -95,7 +96,7 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     }
     for (int64_t j = from[1]; j <= to[1]; j++)
         for (int64_t i = from[0]; i <= to[0]; i++) {
-            const real x = grid_position(g, 0, i) + 0.5 * g->h, y = grid_position(g, 1, j) + 0.5 * g->h;
+            const real x = grid_node_position(g, 0, i) + 0.5 * g->h, y = grid_node_position(g, 1, j) + 0.5 * g->h;
             const int64_t I = i * g->stride[0] + j * g->stride[1];
             if (square(x - ring->place[0]) + square(y - ring->place[1]) > square(radius)) continue;
             coarse |= l->level[I] > 0;
@@ -133,16 +134,16 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
     uint8_t *flank = NEW("levels.flank", n, uint8_t);
     for (int64_t I = 0; I < n; I++) demand[I] = l->wanted[I] != WANTED_NOT;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
-    levels_dilate(l, demand, l->roomy_cells + more);
+    levels_dilate_marks(l, demand, l->roomy_cells + more);
     demand_slits(l->fine, flank);
-    levels_dilate(l, flank, r->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
+    levels_dilate_marks(l, flank, r->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
     marks_add(l, flank, demand);
     memory_free(flank);
     for (int b = 0; b < loads->n; b++)
         for (int64_t k = 0; k < loads->load[b].n; k++) fixed[cell_of(l->fine, p, loads->load[b].particle[k])] = 1;
     demand_mirrors(r, loads, fixed);
     rings_cells(r, fixed);
-    levels_dilate(l, fixed, 1);
+    levels_dilate_marks(l, fixed, 1);
     marks_add(l, fixed, demand);
     memory_free(fixed);
     return demand;
@@ -162,7 +163,7 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
                  g->stride[d];
         own[I] = mark[J];
     }
-    levels_dilate(l, own, AROUND_STRESS);
+    levels_dilate_marks(l, own, AROUND_STRESS);
     for (int64_t I = 0; I < fine->n; I++) demand[I] |= own[I];
     memory_free(own);
 }
@@ -211,18 +212,19 @@ static void next_levels(struct reference_frame *r, const struct particles *p, re
                         uint8_t *limit, uint8_t *level)
 {
     struct mesh_levels *l = &r->levels;
-    levels_coarsest_admissible(l, p, demand, limit, level);
+    levels_compute_coarsest_admissible(l, p, demand, limit, level);
     if (!any_merges(l, level)) return;
     const real most = ROUGH * (frame_kinetic_energy(r) + frame_strain_energy(r, p)) / mass;
-    levels_prolong_motion(l);
-    while (levels_limit_rough_motion(l, level, most, limit)) levels_coarsest_admissible(l, p, demand, limit, level);
+    levels_prolong_motion_to_fine_nodes(l);
+    while (levels_forbid_lossy_coarsening(l, level, most, limit))
+        levels_compute_coarsest_admissible(l, p, demand, limit, level);
 }
 
 void frame_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                                     struct loads *loads)
 {
     struct mesh_levels *l = &r->levels;
-    for (int k = 1; k <= l->n; k++) loads_find_driven_level_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
+    for (int k = 1; k <= l->n; k++) loads_find_driven_coarse_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
     frame_find_exposed_points(r, p, bonds, loads);
 }
 
@@ -233,12 +235,12 @@ static void change(struct run *e, const uint8_t *level)
     struct reference_frame *r = e->frame;
     /* before the first step velocities and displacements are at the same time */
     const real dt = e->clock.step > 0 ? e->clock.dt : 0;
-    levels_shift_velocities(&r->levels, &e->part, r->elastic, r->finite, dt);
+    levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, dt);
     const real before = frame_kinetic_energy(r) + frame_strain_energy(r, &e->part);
     levels_change_refinement(&r->levels, &e->part, &r->source, level);
     frame_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
     e->damped += before - frame_kinetic_energy(r) - frame_strain_energy(r, &e->part);
-    levels_shift_velocities(&r->levels, &e->part, r->elastic, r->finite, -dt);
+    levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, -dt);
 }
 
 status frame_levels_make(struct run *e, bool restored)
@@ -247,7 +249,7 @@ status frame_levels_make(struct run *e, bool restored)
     const struct scene *s = e->scene;
     real density[UINT8_MAX], fastest = 0;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    const struct levels_choice choice = frame_levels_choice(r, &e->part, s, e->clock.dt_critical);
+    const struct levels_choice choice = frame_levels_choose_count(r, &e->part, s, e->clock.dt_critical);
     TRY(levels_make(&r->levels, choice.levels, &r->mesh, &e->part, &r->source, density));
     memory_free(r->coarse);
     r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
@@ -265,9 +267,9 @@ status frame_levels_make(struct run *e, bool restored)
      * more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
     const int safe = (int)ceil(reach) + 1;
-    levels_set_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
+    levels_set_conversion_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
     for (int k = 1; k <= r->levels.n; k++)
-        loads_find_driven_level_nodes(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
+        loads_find_driven_coarse_nodes(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
     if (restored) return OK;
     uint8_t *demand = demand_make(r, &e->part, &e->loads, ZONE_MORE);
     uint8_t *stressed = stressed_cells(r, SPLITS, true), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
@@ -341,7 +343,7 @@ uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct partic
 {
     struct mesh_levels *l = &r->levels;
     const bool checks = step % CHECK_STEPS == 0;
-    levels_copy_to_ghosts(l);
+    levels_copy_motion_to_ghosts(l);
     uint8_t *stressed = any_stressed(l) ? stressed_cells(r, SPLITS, false) : NULL;
     if (!checks && !stressed && !l->any_wanted && !rings_cells(r, NULL)) return NULL;
     const int64_t n = l->fine->grid.n;
@@ -381,9 +383,9 @@ static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
 void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p)
 {
     l->returned = false;
-    if (l->n == 0 || !conversion_is_due(p)) return;
+    if (l->n == 0 || !particles_are_flagged_for_conversion(p)) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(load_eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
+        if (!(eight_bytes_as_word(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(l, p, i);
     }
 }

@@ -85,7 +85,7 @@ static inline bool levels_any_part_is_finer(const struct mesh_levels *l, int lev
 
 /* Returns the material number of cell `cell` of level 0 (the finest), which must be completely filled. If the particles
  * of the cell are not made, the body has only one material, and that one is returned. */
-static inline uint8_t cell_material(const struct mesh *fine, const struct particles *p, int64_t cell)
+static inline uint8_t mesh_whole_cell_material(const struct mesh *fine, const struct particles *p, int64_t cell)
 {
     const int32_t i = fine->point[cell << fine->grid.dim];
     return p->material[i >= 0 ? i : 0];
@@ -107,7 +107,7 @@ void levels_update_hanging(struct mesh_levels *l, int level);
 
 /* Sets the cells of all coarse levels from the refinement level l->level of each cell of level 0 (the finest): kind,
  * material, number, and the masses of their nodes, a cell's mass in equal shares at its corners. The transfer of mass
- * between levels follows in levels_add_dependent_masses. */
+ * between levels follows in levels_add_masses_of_dependent_nodes. */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p);
 
 /* Finds the nodes at interfaces of refinement levels: ghosts, at the position of a node of the next finer level, and
@@ -118,15 +118,15 @@ void levels_find_interfaces(struct mesh_levels *l);
 /* Adds the masses of ghosts (nodes at the position of a node of the next finer level) and hanging nodes (in the middle
  * of an edge or face of a coarser cell) to the nodes that determine their motion. momenta: true to transfer their
  * momentum in grid.momentum [kg m/s], too. */
-void levels_add_dependent_masses(struct mesh_levels *l, bool momenta);
+void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool momenta);
 
 /* Groups coarse cells of equal material into runs (cells with consecutive indices) and finds the active blocks of
- * nodes, for all refinement levels. To be called after levels_add_dependent_masses. */
+ * nodes, for all refinement levels. To be called after levels_add_masses_of_dependent_nodes. */
 void levels_make_cell_runs(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to nodes of level 0 (the finest) inside them that belong to no
  * cell of level 0. all: true for all such nodes, false for those with particles in an adjacent cell. */
-void levels_interpolate(struct mesh_levels *l, bool all);
+void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all);
 
 /* Computes grid.momentum of the nodes of coarse cells, their momentum divided by their mass [m/s], from their
  * velocities: inverts mesh_velocity iteratively up to round-off, then sets the velocities to the result of
@@ -139,6 +139,6 @@ bool levels_are_consistent(const struct mesh_levels *l);
 
 /* Stores in l->safe for each cell of level 0 (the finest) how far it is from coarse cells: less than l->safe_cells,
  * less than l->roomy_cells, or more (enum levels_distance). */
-void levels_classify_cells(struct mesh_levels *l);
+void levels_classify_distances_to_coarse_cells(struct mesh_levels *l);
 
 #endif

@@ -41,8 +41,8 @@ static real departure(const struct mesh_levels *l, int level, const int64_t *q)
     return real_max(sum / nodes, 0.5 * fabs(squares));
 }
 
-bool levels_limit_rough_motion(const struct mesh_levels *l, const uint8_t *level, real max_energy,
-                               uint8_t *highest_level)
+bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *level, real max_energy,
+                                    uint8_t *highest_level)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX];

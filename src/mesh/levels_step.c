@@ -3,7 +3,7 @@
 
 #include "levels_parts.h"
 
-int levels_highest_acting(const struct mesh_levels *l, int64_t step)
+int levels_highest_due_in_step(const struct mesh_levels *l, int64_t step)
 {
     int due = 0;
     while (due < l->n && step % ((int64_t)2 << due) == 0) due++;
@@ -96,7 +96,8 @@ void levels_compute_forces(struct mesh_levels *l, const struct particles *p, con
     for (int level = 1; level <= highest_level; level++) ghosts_fold(l, level);
 }
 
-real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX], real *work)
+real levels_move_nodes(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX],
+                       real *work)
 {
     real most = 0;
     for (int level = 0; level <= highest_level; level++) {

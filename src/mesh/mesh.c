@@ -26,7 +26,7 @@ static status meshed_body(const struct particles *p, int64_t i, const char *what
                       p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
-int64_t mesh_point_slot(const struct mesh *mesh, const struct particles *p, int64_t i)
+int64_t mesh_slot_of_particle(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     const struct grid *g = &mesh->grid;
     int64_t cell = 0;
@@ -51,7 +51,7 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     for (int64_t i = 0; i < p->n; i++) {
         mesh->place[i] = -1;
         if (!(p->flag[i] & FLAG_MESHED)) continue;
-        const int64_t place = mesh_point_slot(mesh, p, i);
+        const int64_t place = mesh_slot_of_particle(mesh, p, i);
         if (place < 0)
             return meshed_body(p, i,
                                "is not one of two particles per grid cell and direction, which require a lattice, "
@@ -75,7 +75,8 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
     const int dim = p->dim;
     real mass = 0;
     for (int c = (1 << dim) - 1; c >= 0; c--)
-        for (int64_t cell = mesh_cell_at_node(mesh, I, c); cell >= 0; cell = mesh_cell_next_part(mesh, cell))
+        for (int64_t cell = mesh_cell_with_corner_at_node(mesh, I, c); cell >= 0;
+             cell = mesh_cell_next_slit_part(mesh, cell))
             for (int q = 0; q < 1 << dim && mesh_cell_corner_node(mesh, cell, c) == I && !cell_is_coarse(mesh, cell);
                  q++) {
                 const int32_t i = mesh->point[(cell << dim) + q];
@@ -115,7 +116,7 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
 {
     const int dim = p->dim;
     int there = 0;
-    bool alike = !mesh_cell_slit_corners(mesh, I);
+    bool alike = !mesh_cell_corner_nodes_at_slit(mesh, I);
     if (cell_is_coarse(mesh, I)) return CELL_COARSE;
     const int32_t *point = &mesh->point[I << dim];
     for (int q = 0; q < 1 << dim; q++) {
@@ -146,7 +147,7 @@ static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4
 
 /* Stores in mesh->span for each row of nodes the range from the first to behind the last node with mass. The range may
  * contain nodes without mass. */
-void mesh_spans_make(struct mesh *mesh)
+void mesh_node_spans_make(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
 #pragma omp parallel for schedule(static)
@@ -179,7 +180,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
         mesh->band[mesh->bands] = mesh->runs;
         for (int64_t I = from; I < to; I++) {
             if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, material_of(mesh, p, I));
-            if (mesh->kind[I] == CELL_PARTIAL) mesh_partial_add(mesh, I);
+            if (mesh->kind[I] == CELL_PARTIAL) mesh_partial_add_cell(mesh, I);
         }
         mesh->bands++;
     }
@@ -192,7 +193,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
-    struct mesh_partial old = mesh_partial_detach(mesh);
+    struct mesh_partial old = mesh_partial_detach_all(mesh);
     if (!dirty) {
 #pragma omp parallel for schedule(static)
         for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
@@ -200,12 +201,12 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
         for (int64_t I = next_marked_index(dirty, 0, mesh->grid.n); I < mesh->grid.n;
              I = next_marked_index(dirty, I + 1, mesh->grid.n))
             mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
-    mesh_spans_make(mesh);
+    mesh_node_spans_make(mesh);
     cells_list(mesh, p);
     mesh_partial_make(mesh, p, s, dirty, &old);
 }
 
-void mesh_blocks_activate(struct mesh *mesh)
+void mesh_activate_blocks_at_cells(struct mesh *mesh)
 {
     struct active_set *r = &mesh->active;
     array_fill_bytes(r->level, 0, r->blocks, 1);
@@ -216,14 +217,15 @@ void mesh_blocks_activate(struct mesh *mesh)
     r->empty = r->blocks - r->active;
 }
 
-void mesh_runs_make(struct mesh *mesh)
+void mesh_cell_runs_make(struct mesh *mesh)
 {
-    mesh_spans_make(mesh);
+    mesh_node_spans_make(mesh);
     cells_list(mesh, NULL);
-    mesh_blocks_activate(mesh);
+    mesh_activate_blocks_at_cells(mesh);
 }
 
-void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                                    const uint8_t *dirty)
 {
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_update_mass(mesh, p, I);
@@ -277,7 +279,7 @@ static void mesh_absent_make(struct mesh *mesh, const struct cells_without_parti
 {
     mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);
     for (int64_t I = 0; I < h->box.n; I++)
-        if (h->absent[I]) mesh->absent[grid_cell_in_other_grid(&h->box, I, &mesh->grid)] = 1;
+        if (h->absent[I]) mesh->absent[grid_cell_index_in_other_grid(&h->box, I, &mesh->grid)] = 1;
     for (int64_t I = 0; I < mesh->grid.n; I++)
         mesh->filled_cells += !mesh->absent[I], mesh->filled_nodes += node_filled(mesh, I);
     mesh->filled_cell = NEW("mesh.filled_cell", mesh->filled_cells, int32_t);
@@ -327,7 +329,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node
         if (p->flag[i] & FLAG_MESHED && p->kind[i] != KIND_MPM) p->flag[i] &= (uint8_t)~FLAG_MESHED;
         meshed += (p->flag[i] & FLAG_MESHED) != 0;
     }
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
     if (meshed == 0) return OK;
     TRY(nodes_make(mesh, p, node_grid, source));
     TRY(points_place(mesh, p));
@@ -409,7 +411,7 @@ real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct 
             *dirty = changed ? mesh_cell_marks_new("mesh.dirty", mesh) : NULL;
     for (int64_t k = 0; k < n && changed; k++)
         if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
         if (mesh->place[i] < 0) continue;

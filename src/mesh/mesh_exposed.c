@@ -33,7 +33,7 @@ static void images_expose(struct exposure *e, const struct mesh *mesh, const str
 /* Returns true if a bond in column k of row block g may have an image as its neighbour. */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
-    const int64_t first = column_first_if_consecutive(b, g, k);
+    const int64_t first = column_first_consecutive_neighbour(b, g, k);
     return first < 0 || first + LANES > p->n;
 }
 
@@ -56,7 +56,7 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {
-    const unsigned intact = row_block_is_complete(b, g) ? 0 : row_block_intact_lanes(b, g);
+    const unsigned intact = row_block_is_complete(b, g) ? 0 : row_block_lanes_with_intact_bonds(b, g);
     struct column_copy column;
     for (int lane = 0; lane < LANES; lane++)
         if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);
@@ -67,7 +67,8 @@ static void row_block_expose(struct exposure *e, const struct mesh *mesh, const 
     }
 }
 
-void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
+void mesh_find_exposed_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
+                              const struct loads *l)
 {
     if (!mesh->place) return;
     struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t), mesh_cell_marks_new("mesh.exposed_cells", mesh)};
@@ -84,5 +85,5 @@ void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struc
         cell_expose(mesh, e.point, I);
     memory_free(e.point);
     memory_free(e.cell);
-    active_nodes_add_exposed(mesh);
+    active_nodes_add_exposed_points(mesh);
 }

@@ -10,7 +10,7 @@ static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
     real F[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int c = 0; c < 1 << dim; c++)
         for (int b = 0; b < dim; b++) {
-            const real slope = mesh_shape_function_slope(dim, c, place & ((1 << dim) - 1), b) / mesh->grid.h;
+            const real slope = mesh_shape_function_derivative(dim, c, place & ((1 << dim) - 1), b) / mesh->grid.h;
             for (int a = 0; a < dim; a++)
                 F[a][b] += mesh->displacement[a][mesh_cell_corner_node(mesh, cell, c)] * slope;
         }

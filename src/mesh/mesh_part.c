@@ -18,9 +18,9 @@ static void put_levels(const struct run *e, struct json *j)
     if (l->n == 0) return;
     json_open(j, "levels", '{');
     json_open(j, "cells", '[');
-    for (int level = 0; level <= l->n; level++) json_count(j, NULL, levels_count_cells(l, level));
+    for (int level = 0; level <= l->n; level++) json_write_integer(j, NULL, levels_count_cells(l, level));
     json_close(j, ']');
-    json_count(j, "changes", l->changes);
+    json_write_integer(j, "changes", l->changes);
     json_close(j, '}');
 }
 

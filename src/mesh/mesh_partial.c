@@ -148,7 +148,7 @@ static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strain
 {
     const int32_t *point = &c->mesh->point[I << c->dim];
     const struct elastic *m = c->source->elastic;
-    if (!cell_averages(m, c->p->material, point, c->dim)) return false;
+    if (!cell_uses_mean_dilatation(m, c->p->material, point, c->dim)) return false;
     memset(B, 0, sizeof(point_strains));
     for (int k = 0; k < c->modes; k++) {
         real trace[CORNERS_MAX] = {0};
@@ -160,7 +160,7 @@ static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strain
             }
         for (int q = 0; q < 1 << c->dim; q++)
             for (int d = 0; d < c->dim; d++) trace[q] += B[q][d][k];
-        cell_differences(m, c->p->material, point, trace, c->dim);
+        cell_subtract_from_mean(m, c->p->material, point, trace, c->dim);
         for (int q = 0; q < 1 << c->dim; q++)
             for (int d = 0; d < c->dim; d++) B[q][d][k] += trace[q] / c->dim;
     }
@@ -274,7 +274,7 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
     const struct partial_stress *partial = c->source->partial;
     int32_t n = 0;
     if (!partial || !partial->index || !partial->local) return;
-    mesh->ends = NEW("mesh.ends", mesh_partial_group_count(mesh) + 1, int32_t);
+    mesh->ends = NEW("mesh.ends", mesh_partial_cell_group_count(mesh) + 1, int32_t);
     for (int64_t k = 0; k < mesh->partial_cells; k++)
         for (int q = 0; q < 1 << c->dim; q++)
             n += end_entry(c, mesh->point[((int64_t)mesh->partial_cell[k] << c->dim) + q]) >= 0;
@@ -291,13 +291,13 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
 
 /* Appends cell I to the list of partial cells of the mesh: cells with missing points, partial stresses, several
  * materials or doubled nodes. Their stiffness is computed later (mesh_partial_make). */
-void mesh_partial_add(struct mesh *mesh, int64_t I)
+void mesh_partial_add_cell(struct mesh *mesh, int64_t I)
 {
     GROW("mesh.partial_cell", mesh->partial_cell, mesh->partial_cells + 1);
     mesh->partial_cell[mesh->partial_cells++] = (int32_t)I;
 }
 
-struct mesh_partial mesh_partial_detach(struct mesh *mesh)
+struct mesh_partial mesh_partial_detach_all(struct mesh *mesh)
 {
     const struct mesh_partial old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
     mesh->partial_cell = NULL, mesh->stiffness = NULL;
@@ -373,8 +373,8 @@ static void group_copy(real *to, real *old, const int64_t *from, int64_t group, 
  * stiffness and are not counted. */
 static void groups_fill(struct mesh *mesh)
 {
-    const int64_t whole = mesh_partial_group_count(mesh) * LANES, partial_cells = mesh->partial_cells;
-    while (mesh->partial_cells < whole) mesh_partial_add(mesh, mesh->partial_cell[whole - LANES]);
+    const int64_t whole = mesh_partial_cell_group_count(mesh) * LANES, partial_cells = mesh->partial_cells;
+    while (mesh->partial_cells < whole) mesh_partial_add_cell(mesh, mesh->partial_cell[whole - LANES]);
     mesh->partial_cells = partial_cells;
 }
 
@@ -383,8 +383,8 @@ static void groups_fill(struct mesh *mesh)
  * memory_free. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
-    int64_t *from = BARE("mesh.from", mesh_partial_group_count(mesh) * LANES, int64_t);
-    for (int64_t k = mesh->partial_cells; k < mesh_partial_group_count(mesh) * LANES; k++) from[k] = -1;
+    int64_t *from = BARE("mesh.from", mesh_partial_cell_group_count(mesh) * LANES, int64_t);
+    for (int64_t k = mesh->partial_cells; k < mesh_partial_cell_group_count(mesh) * LANES; k++) from[k] = -1;
     for (int64_t k = 0, q = 0; k < mesh->partial_cells; k++) {
         while (q < old->partial_cells && old->partial_cell[q] < mesh->partial_cell[k]) q++;
         from[k] = dirty && q < old->partial_cells && old->partial_cell[q] == mesh->partial_cell[k] &&
@@ -399,7 +399,7 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
  * which is 0. Release it with memory_free. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
-    const int64_t groups = mesh_partial_group_count(mesh), size = each * LANES;
+    const int64_t groups = mesh_partial_cell_group_count(mesh), size = each * LANES;
     real *numbers = memory_new_uninitialised(label, groups * size, sizeof *numbers);
     if (groups > 0) array_fill_bytes(numbers + (groups - 1) * size, 0, size, sizeof *numbers);
     return numbers;
@@ -418,7 +418,7 @@ static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
  * consecutive. modes: number of modes of a cell. */
 static void alike_find(struct mesh *mesh, int modes)
 {
-    const int64_t groups = mesh_partial_group_count(mesh);
+    const int64_t groups = mesh_partial_cell_group_count(mesh);
     const int half = modes * (modes + 1) / 2;
     mesh->alike = NEW("mesh.alike", groups, int32_t);
     for (int64_t g = 0; g < groups; g++) {
@@ -432,7 +432,7 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
-    const int64_t groups = mesh_partial_group_count(mesh);
+    const int64_t groups = mesh_partial_cell_group_count(mesh);
     groups_fill(mesh);
     mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
     mesh->partial_force = NEW("mesh.partial_force", groups * unknowns * LANES, real);
@@ -460,7 +460,7 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
  * their own stiffness again (mesh->alike), since it may differ now. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
-    for (int64_t g = mesh_partial_group_count(mesh) - 1; g >= 0; g--)
+    for (int64_t g = mesh_partial_cell_group_count(mesh) - 1; g >= 0; g--)
         if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
 }
 
@@ -469,7 +469,7 @@ void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const 
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2;
-    uint8_t *changed = NEW("mesh.changed", mesh_partial_group_count(mesh), uint8_t);
+    uint8_t *changed = NEW("mesh.changed", mesh_partial_cell_group_count(mesh), uint8_t);
     for (int64_t k = 0; k < mesh->partial_cells; k++) changed[k / LANES] |= dirty[mesh->partial_cell[k]];
     alike_part(mesh, changed);
     memory_free(changed);

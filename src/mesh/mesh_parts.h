@@ -9,8 +9,8 @@
  * materials or doubled nodes); replaced by a coarse cell. */
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
-/* Partial cells and their stiffness, moved out of a mesh by mesh_partial_detach before its cells are classified again.
- * mesh_partial_make copies the stiffness of unchanged cells from here and frees the arrays. */
+/* Partial cells and their stiffness, moved out of a mesh by mesh_partial_detach_all before its cells are classified
+ * again. mesh_partial_make copies the stiffness of unchanged cells from here and frees the arrays. */
 struct mesh_partial {
     int64_t partial_cells;
     int32_t *partial_cell;
@@ -19,15 +19,15 @@ struct mesh_partial {
 
 /* Moves the list of partial cells (cells with missing points, partial stresses, several materials or doubled nodes)
  * with their stiffness out of the mesh into the result. The mesh has no partial cells afterwards. */
-struct mesh_partial mesh_partial_detach(struct mesh *mesh);
+struct mesh_partial mesh_partial_detach_all(struct mesh *mesh);
 
 /* Appends the cell to the list of partial cells of the mesh, cells with missing points, partial stresses, several
  * materials or doubled nodes; the stiffness is computed later (mesh_partial_make). */
-void mesh_partial_add(struct mesh *mesh, int64_t cell);
+void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
 
 /* Computes the stiffness of all partial cells of the mesh (cells with missing points, partial stresses, several
  * materials or doubled nodes). source: material constants and partial stresses; dirty: a byte for each cell, not 0
- * where the stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_detach, from which the
+ * where the stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_detach_all, from which the
  * stiffness of all other cells is copied, and which is freed. */
 void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                        const uint8_t *dirty, struct mesh_partial *old);
@@ -72,7 +72,7 @@ void mesh_fit_listed_nodes(const struct mesh *mesh, const struct particles *p, r
 
 /* Returns the cell of particle i and its number in this cell as (cell << dim) + number, from its reference position,
  * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
-int64_t mesh_point_slot(const struct mesh *mesh, const struct particles *p, int64_t i);
+int64_t mesh_slot_of_particle(const struct mesh *mesh, const struct particles *p, int64_t i);
 
 /* Recomputes mass and inverse mass of the node from the points around it; points in coarse cells are left out. */
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
@@ -80,20 +80,20 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
 /* Recomputes kinds of cells, runs, partial cells and nodal masses after the refinement level mesh->level has changed in
  * some cells. source: material constants and partial stresses; dirty: mesh->grid.n + LANES bytes, not 0 for these
  * cells. */
-void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                       const uint8_t *dirty);
+void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                                    const uint8_t *dirty);
 
 /* Groups the cells of a mesh without points (a coarse level) into rows of consecutive cells of equal material, the runs
  * of the mesh. Finds the span of nodes with mass in each row of nodes, and the active blocks of nodes. Input: kinds and
  * materials of the cells and masses of the nodes. */
-void mesh_runs_make(struct mesh *mesh);
+void mesh_cell_runs_make(struct mesh *mesh);
 
 /* Finds in each row of nodes along the first axis the span of nodes with mass (first node, and the one after the
  * last), to which loops over nodes are limited. */
-void mesh_spans_make(struct mesh *mesh);
+void mesh_node_spans_make(struct mesh *mesh);
 
 /* Makes the blocks of nodes next to cells active, i.e. included in computations, and all others inactive. */
-void mesh_blocks_activate(struct mesh *mesh);
+void mesh_activate_blocks_at_cells(struct mesh *mesh);
 
 /* Returns true if the deformation has turned a cell of the mesh inside out: the determinant of the deformation
  * gradient is 0 or negative at one of its quarter points. */

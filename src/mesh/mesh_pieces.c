@@ -19,7 +19,7 @@ static bool box_make(struct mesh *box, const struct particles *p, const struct g
         particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
         g->anchor[d] = like->anchor[d];
     }
-    if (!grid_compute_box(g, from, to, INT32_MAX >> p->dim)) return false;
+    if (!grid_set_box(g, from, to, INT32_MAX >> p->dim)) return false;
     for (int c = 0; c < 1 << p->dim; c++)
         for (int d = 0; d < p->dim; d++) box->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
     return true;
@@ -51,13 +51,13 @@ static void hollow_join(int32_t *above, const struct mesh *box, const struct cel
 {
     for (int64_t I = 0; h && h->absent && I < h->box.n; I++) {
         if (!h->absent[I]) continue;
-        const int64_t cell = grid_cell_in_other_grid(&h->box, I, &box->grid);
+        const int64_t cell = grid_cell_index_in_other_grid(&h->box, I, &box->grid);
         for (int c = 0; c < 1 << h->box.dim; c++) join(above, (int32_t)cell, (int32_t)cell + box->corner[c]);
     }
 }
 
-int64_t mesh_count_parts(const struct particles *p, const struct grid *node_grid,
-                         const struct cells_without_particles *hollow)
+int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
+                                   const struct cells_without_particles *hollow)
 {
     struct mesh box;
     int64_t pieces = 0, last = -1;
@@ -65,7 +65,7 @@ int64_t mesh_count_parts(const struct particles *p, const struct grid *node_grid
     if (!fits) return 0;
     int32_t *above = NEW("mesh.above", box.grid.n, int32_t);
     for (int64_t i = 0; i < p->n && fits; i++) {
-        const int64_t place = mesh_point_slot(&box, p, i), cell = place >> p->dim;
+        const int64_t place = mesh_slot_of_particle(&box, p, i), cell = place >> p->dim;
         fits = place >= 0;
         for (int c = 0; c < 1 << p->dim && fits && cell != last; c++)
             join(above, (int32_t)cell, (int32_t)cell + box.corner[c]);

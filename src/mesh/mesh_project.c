@@ -100,7 +100,8 @@ static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const
 {
     real sum = 0;
     for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
-        for (int64_t cell = mesh_cell_at_node(m->mesh, I, c); cell >= 0; cell = mesh_cell_next_part(m->mesh, cell))
+        for (int64_t cell = mesh_cell_with_corner_at_node(m->mesh, I, c); cell >= 0;
+             cell = mesh_cell_next_slit_part(m->mesh, cell))
             if (mesh_cell_corner_node(m->mesh, cell, c) == I) sum += cell_sum(m, cell, c, value, dim);
     return sum;
 }
@@ -110,7 +111,7 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
 {
     bool beside = false;
     for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.cell && !beside; c++) {
-        const int64_t cell = mesh_cell_at_node(mesh, I, c);
+        const int64_t cell = mesh_cell_with_corner_at_node(mesh, I, c);
         beside = cell >= 0 && (mesh->slits.cell[cell] >= 0 || mesh->slits.cut[cell] >= 0);
     }
     return beside;
@@ -122,7 +123,8 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
 {
     real sum = 0;
     for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
-        for (int64_t cell = mesh_cell_at_node(m->mesh, I, c); cell >= 0; cell = mesh_cell_next_part(m->mesh, cell))
+        for (int64_t cell = mesh_cell_with_corner_at_node(m->mesh, I, c); cell >= 0;
+             cell = mesh_cell_next_slit_part(m->mesh, cell))
             for (int q = 0; q < 1 << dim && mesh_cell_corner_node(m->mesh, cell, c) == I; q++) {
                 const int32_t i = m->mesh->point[(cell << dim) + q];
                 real value = 0;

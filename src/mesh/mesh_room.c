@@ -13,7 +13,7 @@ static bool beyond_mirror(const struct grid *g, int64_t I, const struct mirror_p
     bool beyond = false;
     for (int k = 0; k < mirrors; k++) {
         const int d = mirror[k].axis;
-        const real x = grid_position(g, d, I / g->stride[d] % g->count[d]) + 0.5 * g->h;
+        const real x = grid_node_position(g, d, I / g->stride[d] % g->count[d]) + 0.5 * g->h;
         beyond |= (x - mirror[k].at) * mirror[k].outside > 0;
     }
     return beyond;
@@ -32,7 +32,7 @@ static void outside_mark(const struct mesh *mesh, const struct mirror_plane *mir
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) mark[I - mesh->corner[c]] = 1;
 }
 
-int mesh_level_limits(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *highest)
+int mesh_compute_level_limits(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *highest)
 {
     const int64_t n = mesh->grid.n;
     uint8_t *outside = NEW("mesh.outside", 2 * n, uint8_t), *inside = outside + n;

@@ -54,7 +54,7 @@ static bool positions_parted(const struct slit_maker *m, int32_t i, const real *
     const struct voids *v = m->source->voids;
     if (particle_is_beside_void(v, i) && void_separates_points(v, m->p->body[i], a, b, NULL)) return true;
     for (int k = 0; k < m->source->slits; k++)
-        if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
+        if (crack_cuts_bond(&m->source->slit[k], a, b, m->p->dim)) return true;
     return false;
 }
 
@@ -86,9 +86,9 @@ static bool slit_near(const struct slit_maker *m, int64_t I)
     const struct grid *g = &m->mesh->grid;
     real X[DIM_MAX];
     if (m->voids[I]) return true;
-    for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+    for (int d = 0; d < g->dim; d++) X[d] = grid_node_position(g, d, I / g->stride[d] % g->count[d]);
     for (int k = 0; k < m->source->slits; k++)
-        if (crack_may_cut_near(&m->source->slit[k], X, 2 * sqrt(g->dim) * g->h, g->dim)) return true;
+        if (crack_may_cut_bonds_near(&m->source->slit[k], X, 2 * sqrt(g->dim) * g->h, g->dim)) return true;
     return false;
 }
 
@@ -213,7 +213,7 @@ static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
     uint8_t open = 0;
     for (int k = 0; k < m->source->mirrors; k++) {
         const struct mirror_plane *plane = &m->source->mirror[k];
-        const real x = grid_position(g, plane->axis, I / g->stride[plane->axis] % g->count[plane->axis]);
+        const real x = grid_node_position(g, plane->axis, I / g->stride[plane->axis] % g->count[plane->axis]);
         if (fabs(x - plane->at) < 1e-6 * g->h && !image_joined(m, I, group, plane)) open |= (uint8_t)(1 << plane->axis);
     }
     return open;
@@ -248,7 +248,7 @@ static void slits_divide(struct slit_maker *m)
     const int dim = m->p->dim;
     for (int64_t k = 0; k < n << dim; k++) m->point[k] = -1;
     for (int64_t i = 0; i < m->p->n; i++) {
-        const int64_t place = mesh_point_slot(m->mesh, m->p, i);
+        const int64_t place = mesh_slot_of_particle(m->mesh, m->p, i);
         if (place < 0) continue;
         m->point[place] = (int32_t)i;
         if (particle_is_beside_void(m->source->voids, i)) void_mark(&m->mesh->grid, place >> dim, m->voids);
@@ -439,7 +439,7 @@ void mesh_slits_store_corners(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     const int corners = 1 << mesh->grid.dim;
-    const int64_t groups = mesh_partial_group_count(mesh);
+    const int64_t groups = mesh_partial_cell_group_count(mesh);
     int32_t n = 0;
     if (!s->cell) return;
     memory_free(s->group);

@@ -16,7 +16,7 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     for (int column = 0; column < n; column++) {
         real g[DIM_MAX * DIM_MAX] = {0}, s[SYM_MAX], P[DIM_MAX * DIM_MAX];
         for (int d = 0; d < dim; d++)
-            g[column % dim * dim + d] = mesh_shape_function_slope(dim, column / dim, q, d) / h;
+            g[column % dim * dim + d] = mesh_shape_function_derivative(dim, column / dim, q, d) / h;
         point_hooke_stress(m, g, s, dim);
         for (int k = 0; k < symmetric_component_count(dim); k++) {
             int a, b;
@@ -26,18 +26,19 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
         for (int c = 0; c < corners; c++)
             for (int a = 0; a < dim; a++)
                 for (int b = 0; b < dim; b++)
-                    K[column * n + c * dim + a] += V * mesh_shape_function_slope(dim, c, q, b) / h * P[a * dim + b];
+                    K[column * n + c * dim + a] +=
+                        V * mesh_shape_function_derivative(dim, c, q, b) / h * P[a * dim + b];
     }
 }
 
 /* Replaces in the stiffness K[n][n] of cell I for displacements of its corners [N/m] the dilatation of each point of
  * `material` by the mean over these points (mesh_law.h): K - sum V k t (x) t + N V k T (x) T. t: trace of the strain at
- * a point by the displacements; T: mean of t over the N points; k: averaged_stiffness. */
+ * a point by the displacements; T: mean of t over the N points; k: mean_dilatation_stiffness. */
 static void average_dilatation(const struct mesh *mesh, const struct elastic *m, const struct particles *p, int64_t I,
                                uint8_t material, real *K)
 {
     const int dim = mesh->grid.dim, n = dim << dim;
-    const real by = averaged_stiffness(m, dim) * mesh->volume;
+    const real by = mean_dilatation_stiffness(m, dim) * mesh->volume;
     real sum[CELL_UNKNOWNS_MAX] = {0};
     int points = 0;
     for (int q = 0; q < 1 << dim; q++) {
@@ -45,7 +46,8 @@ static void average_dilatation(const struct mesh *mesh, const struct elastic *m,
         real t[CELL_UNKNOWNS_MAX];
         if (i < 0 || p->material[i] != material) continue;
         points++;
-        for (int a = 0; a < n; a++) sum[a] += t[a] = mesh_shape_function_slope(dim, a / dim, q, a % dim) / mesh->grid.h;
+        for (int a = 0; a < n; a++)
+            sum[a] += t[a] = mesh_shape_function_derivative(dim, a / dim, q, a % dim) / mesh->grid.h;
         for (int b = 0; b < n; b++)
             for (int a = 0; a < n; a++) K[b * n + a] -= by * t[a] * t[b];
     }
@@ -139,8 +141,8 @@ static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *
     return false;
 }
 
-real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
-                        bool after_any_conversion)
+real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
+                             bool after_any_conversion)
 {
     const int dim = mesh->grid.dim, sets = 1 << (1 << dim);
     bool *there = NEW("mesh.there", sets, bool);

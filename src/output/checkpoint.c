@@ -91,7 +91,7 @@ static status state_write(struct output *o, const char *path, const char *scene_
     if (!f.failed) hdf_close(&f);
     if (!f.failed && s == OK) return OK;
     o->broken = f.failed;
-    file_discard(path);
+    file_discard_temporary(path);
     return f.failed ? file_report_write_failure(path, f.cause) : s;
 }
 
@@ -116,10 +116,10 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
     TRY(file_append_footer(newest.text));
     if (path_exists(newest.text) && rename(newest.text, previous.text) != 0) {
         int cause = errno;
-        file_discard(newest.text);
+        file_discard_temporary(newest.text);
         return file_report_write_failure(previous.text, cause);
     }
-    return file_publish(newest.text);
+    return file_replace_by_temporary(newest.text);
 }
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
@@ -142,7 +142,7 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
 {
     struct hdf f;
     int32_t version = 0;
-    crash_message_set_file(path);
+    crash_message_set_file_in_use(path);
     hdf_open(&f, path);
     if (!f.failed) hdf_read_attribute(&f, "/Cleave", "version", HDF_I32, &version);
     struct archive a = archive_of(&f, false);
@@ -157,7 +157,7 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
     else
         s = archive_all(context, &a);
     hdf_close(&f);
-    crash_message_set_file(NULL);
+    crash_message_set_file_in_use(NULL);
     if (f.failed && f.cause) return status_set(FAILED, "cannot resume: cannot read %s: %s", path, strerror(f.cause));
     return s;
 }

@@ -171,7 +171,7 @@ status file_append_footer(const char *path)
     if (!fault) fault = hash_file(fd, end.length = (uint64_t)s.st_size, &end.hash);
     if (fd >= 0) close(fd);
     if (!fault) return file_append_and_sync(path, &end, sizeof end);
-    file_discard(path);
+    file_discard_temporary(path);
     return file_report_write_failure(path, fault);
 }
 

@@ -125,6 +125,6 @@ static int column_called(const struct history *h, const char *name)
 int history_find_column(const struct history *h, const char *name)
 {
     const int column = column_called(h, name);
-    const char *other = column < 0 ? result_other_name(name) : NULL;
+    const char *other = column < 0 ? result_name_in_other_version(name) : NULL;
     return other ? column_called(h, other) : column;
 }

@@ -44,32 +44,32 @@ void json_close(struct json *j, char bracket)
     j->filled = true;
 }
 
-void json_text(struct json *j, const char *key, const char *text)
+void json_write_text(struct json *j, const char *key, const char *text)
 {
     json_key(j, key);
     json_string(j, text);
 }
 
-void json_count(struct json *j, const char *key, int64_t value)
+void json_write_integer(struct json *j, const char *key, int64_t value)
 {
     json_key(j, key);
     fprintf(j->file, "%lld", (long long)value);
 }
 
-void json_number(struct json *j, const char *key, real value, int digits)
+void json_write_rounded(struct json *j, const char *key, real value, int digits)
 {
     if (!isfinite(value)) return;
     json_key(j, key);
     fprintf(j->file, "%.*g", digits, value);
 }
 
-void json_real(struct json *j, const char *key, real value) { json_number(j, key, value, JSON_EXACT); }
+void json_write_real(struct json *j, const char *key, real value) { json_write_rounded(j, key, value, JSON_EXACT); }
 
-void json_point(struct json *j, const char *prefix, const real *x, int dim)
+void json_write_point(struct json *j, const char *prefix, const real *x, int dim)
 {
     for (int d = 0; d < dim; d++) {
         char key[NAME_MAX_LENGTH];
         snprintf(key, sizeof key, "%s%c", prefix, "xyz"[d]);
-        json_real(j, key, x[d]);
+        json_write_real(j, key, x[d]);
     }
 }

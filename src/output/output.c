@@ -113,7 +113,7 @@ static int scene_difference(const char **a, const char **b)
 
 bool scene_texts_are_equal(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
 
-bool scene_text_is_echo(const char *text) { return strncmp(text, "name: \"", 7) == 0; }
+bool scene_text_is_from_cleave(const char *text) { return strncmp(text, "name: \"", 7) == 0; }
 
 bool scene_file_has_text(const char *path, const char *scene_text)
 {
@@ -153,7 +153,7 @@ static bool is_scene_of_run(const char *path, const char *scene_text)
     snprintf(frames.text, sizeof frames.text, "%.*s/frames", (int)(strrchr(path, '/') - path), path);
     if (scene_file_has_text(path, scene_text)) return true;
     if (!path_is_folder(frames.text) || file_read_whole(path, &text, &length) != OK) return false;
-    const bool is = scene_text_is_echo(text);
+    const bool is = scene_text_is_from_cleave(text);
     memory_free(text);
     return is;
 }
@@ -225,7 +225,7 @@ static status mode_check(const char *folder, enum output_mode mode)
     char ended[NAME_MAX_LENGTH] = "interrupted";
     const bool there = has_run(folder), resumes = checkpoint_exists(folder) || !has_advanced(folder);
     if (path_is_file(path_join(folder, "summary.json").text))
-        (void)summary_string(folder, "status", ended, sizeof ended);
+        (void)summary_read_string(folder, "status", ended, sizeof ended);
     if (mode == OUTPUT_FIRST && there)
         return status_set(REFUSED, "%s holds %s run of this scene; %sreplace it with --overwrite, or choose another -o",
                           folder,
@@ -420,7 +420,7 @@ status output_check_series_folder(const char *folder, const char *name)
     return OK;
 }
 
-status output_add_series(struct output *o, const char *name, const struct region *region)
+status output_add_frame_series(struct output *o, const char *name, const struct region *region)
 {
     INVARIANT(o->n_series < SERIES_MOST);
     TRY(output_check_series_folder(o->folder, name));

@@ -61,7 +61,7 @@ static void stress_row(const struct particles *p, int64_t i, real *row)
 {
     for (int k = 0; k < SYM_MAX; k++) row[k] = 0;
     for (int k = 0; k < symmetric_component_count(p->dim); k++) row[tensor_place[p->dim][k]] = p->stress[k][i];
-    if (p->plane_strain) row[2] = particle_plane_strain_stress(p, i);
+    if (p->plane_strain) row[2] = particle_out_of_plane_stress(p, i);
 }
 
 static void copy_stress(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
@@ -72,7 +72,7 @@ static void copy_stress(const struct frame_source *s, const int32_t *row, int64_
         copy_column(rows, stored, tensor_place[p->dim][k], row, first, end, p->stress[k], NULL);
     if (p->dim != 2) return;
     for (int64_t r = first; r < end; r++)
-        ((float *)rows)[stored * r + 2] = (float)particle_plane_strain_stress(p, row[r]);
+        ((float *)rows)[stored * r + 2] = (float)particle_out_of_plane_stress(p, row[r]);
 }
 
 /* Fills the rows first .. end - 1 of a field that is derived from the stress or velocity of the particles. row[r]:
@@ -355,8 +355,8 @@ void frame_field_copy_rows(const struct frame_field *field, const struct frame_s
 
 void frame_field_write(struct hdf *h, const struct frame_field *field, int64_t n, int dim, const char *rows)
 {
-    hdf_write_table(h, field->path, field->type, n, field->columns ? field->columns : dim, field_stored(field, dim),
-                    rows);
+    hdf_write_rows_zero_padded(h, field->path, field->type, n, field->columns ? field->columns : dim,
+                               field_stored(field, dim), rows);
     hdf_write_text_attribute(h, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
 

@@ -138,7 +138,7 @@ status file_report_write_failure(const char *path, int cause)
                       file_remedy(cause));
 }
 
-void file_discard(const char *path)
+void file_discard_temporary(const char *path)
 {
     struct path aside = path_temporary(path);
     /* After a failed write HDF5 keeps the file open: only truncation frees the disk. */
@@ -157,7 +157,7 @@ status file_check_replaceable(const char *path)
     if (lstat(path, &s) != 0) return OK;
     if (!S_ISREG(s.st_mode) && !S_ISLNK(s.st_mode) && !S_ISDIR(s.st_mode))
         return status_set(REFUSED, "%s is no regular file and is not replaced; choose another -o", path);
-    if (!input_was_read(path)) return OK;
+    if (!input_file_was_read(path)) return OK;
     return status_set(REFUSED, "%s is read by this command and never written over; choose another -o", path);
 }
 
@@ -236,7 +236,7 @@ static int sync_folder_of(const char *path)
 static status outcome(const char *path, int fault)
 {
     if (!fault) return OK;
-    file_discard(path);
+    file_discard_temporary(path);
     return file_report_write_failure(path, fault);
 }
 
@@ -248,7 +248,7 @@ status file_append_and_sync(const char *path, const void *tail, size_t length)
 static status file_rename(const char *path)
 {
     status s = file_check_replaceable(path);
-    if (s != OK) file_discard(path);
+    if (s != OK) file_discard_temporary(path);
     TRY(s);
     s = outcome(path, rename(path_temporary(path).text, path) != 0 ? errno : 0);
     file_end(path);
@@ -262,7 +262,7 @@ status file_sync_folder(const char *path)
                                     : OK; /* EACCES: the folder may be written but not read */
 }
 
-status file_publish(const char *path)
+status file_replace_by_temporary(const char *path)
 {
     TRY(file_rename(path));
     return file_sync_folder(path);
@@ -270,7 +270,7 @@ status file_publish(const char *path)
 
 status file_write_whole_unsynced(const char *path, const void *bytes, size_t length)
 {
-    if (input_was_read(path) && file_has_contents(path, bytes, length)) return OK;
+    if (input_file_was_read(path) && file_has_contents(path, bytes, length)) return OK;
     TRY(outcome(path, write_synced(file_begin_temporary(path).text, O_CREAT | O_EXCL, bytes, length)));
     return file_rename(path);
 }

@@ -231,7 +231,7 @@ static status frame_write(struct frame_job *job)
         if (has_rows(job, k)) frame_field_write(&f, &frame_fields[k], job->n, job->dim, job->field[k]);
     TRY(hdf_close_written(&f, job->path.text, &job->broken));
     TRY(file_append_footer(job->path.text));
-    return file_publish(job->path.text);
+    return file_replace_by_temporary(job->path.text);
 }
 
 /* Writes the frame of a job and then the indices of its series, which thus never list a missing frame. The folder of

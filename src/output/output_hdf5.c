@@ -104,7 +104,7 @@ status hdf_close_written(struct hdf *f, const char *path, bool *broken)
     if (!f->failed) hdf_close(f);
     if (!f->failed) return OK;
     *broken = true;
-    file_discard(path);
+    file_discard_temporary(path);
     return file_report_write_failure(path, f->cause);
 }
 
@@ -194,8 +194,8 @@ static hid_t table_list(struct hdf *f, const struct table *t)
     return good(f, H5Pset_shuffle(list)) && good(f, H5Pset_deflate(list, GZIP_LEVEL)) ? list : -1;
 }
 
-void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, int stored_columns,
-                     const void *data)
+void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns,
+                                int stored_columns, const void *data)
 {
     const hsize_t shape[2] = {(hsize_t)rows, (hsize_t)columns};
     const int64_t chunks = (rows + CHUNK_ROWS - 1) / CHUNK_ROWS;
@@ -385,7 +385,7 @@ void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum
 
 /* ---- files of other programs ------------------------------------------------------------------------------------- */
 
-bool hdf_lies_inside(hid_t dataset)
+bool hdf_dataset_is_in_its_file(hid_t dataset)
 {
     hid_t made = H5Dget_create_plist(dataset);
     const bool inside = H5Pget_layout(made) != H5D_VIRTUAL && H5Pget_external_count(made) == 0;
@@ -393,7 +393,7 @@ bool hdf_lies_inside(hid_t dataset)
     return inside;
 }
 
-bool hdf_is_linked(hid_t file, const char *name)
+bool hdf_is_link(hid_t file, const char *name)
 {
     H5L_info_t link;
     return H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 && link.type != H5L_TYPE_HARD;

@@ -85,14 +85,14 @@ status frame_read(struct output_frame *f, const char *path)
         return status_set(FAILED, "cannot read %s: there is no such file", path);
     const char *fault = file_describe_damage(path);
     if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
-    crash_message_set_file(path);
+    crash_message_set_file_in_use(path);
     hdf_open(&h, path);
     const status linked = h.failed ? OK : particles_file_check(&h, path);
     if (linked == OK && !h.failed) read_size(f, &h, s.st_size);
     if (linked == OK && !h.failed) read_fields(f, &h);
     bool whole = !h.failed;
     hdf_close(&h);
-    crash_message_set_file(NULL);
+    crash_message_set_file_in_use(NULL);
     if (whole && linked == OK) return OK;
     frame_free(f);
     return linked == OK ? status_set(FAILED, "cannot read %s: it is no whole frame of this program", path) : linked;
@@ -158,7 +158,7 @@ status frame_field_read(const struct output_frame *f, const char *path, const ch
         return OK;
     }
     snprintf(place, sizeof place, "/VTKHDF/PointData/%s", name);
-    crash_message_set_file(path);
+    crash_message_set_file_in_use(path);
     hdf_open(&h, path);
     const bool zero = strcmp(name, "contact_force") == 0 && hdf_has_attribute(&h, "/Cleave", "zero");
     const int64_t count = strchr(name, '/') ? -1 : hdf_dataset_size(&h, place), most = f->n * COLUMNS_MOST;
@@ -169,7 +169,7 @@ status frame_field_read(const struct output_frame *f, const char *path, const ch
     }
     const bool whole = !h.failed && *value;
     hdf_close(&h);
-    crash_message_set_file(NULL);
+    crash_message_set_file_in_use(NULL);
     if (whole) return OK;
     memory_free(*value);
     *value = NULL;

@@ -150,7 +150,7 @@ static status temporal_write(const struct temporal *a, const char *path, const c
     memory_free(number);
     TRY(hdf_close_written(&f, path, broken));
     TRY(file_append_and_sync(path, NULL, 0));
-    return file_publish(path);
+    return file_replace_by_temporary(path);
 }
 
 static status series_temporal(struct output *o, const struct frame_series *series, const char *scene_text)
@@ -173,7 +173,7 @@ static status series_temporal(struct output *o, const struct frame_series *serie
     return s;
 }
 
-void output_temporal_remove(const struct output *o)
+void output_remove_temporal_file(const struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) {
         char name[PATH_NAME_ROOM];
@@ -182,7 +182,7 @@ void output_temporal_remove(const struct output *o)
     }
 }
 
-status output_write_temporal(struct output *o, const char *scene_text)
+status output_write_temporal_file(struct output *o, const char *scene_text)
 {
     TRY(output_wait_for_frame(o));
     if (o->broken) return FAILED;

@@ -8,7 +8,7 @@
 
 #include "output/output_files.h"
 
-bool page_file_is_own(const char *path)
+bool page_file_is_from_cleave(const char *path)
 {
     char begin[sizeof PAGE_BEGINNING - 1];
     struct stat s;
@@ -22,5 +22,5 @@ bool page_file_is_own(const char *path)
 void page_file_remove(const char *folder)
 {
     const struct path page = path_join(folder, PAGE_NAME);
-    if (page_file_is_own(page.text)) unlink(page.text);
+    if (page_file_is_from_cleave(page.text)) unlink(page.text);
 }

@@ -62,7 +62,7 @@ void particles_file_free(struct particles_file *f)
  * the list. */
 static void particles_write_list(struct hdf *h, int list, int64_t entries, const void *of)
 {
-    hdf_write_table(h, frame_cells[list].path, frame_cells[list].type, entries, 1, 1, of);
+    hdf_write_rows_zero_padded(h, frame_cells[list].path, frame_cells[list].type, entries, 1, 1, of);
 }
 
 /* Writes the cells of a particles file for VTK, one vertex per particle: cell k consists of point k and starts at entry
@@ -108,7 +108,7 @@ status particles_file_write(const struct particles_file *f, bool *broken)
     particles_write_contents(&h, f);
     TRY(hdf_close_written(&h, f->path.text, broken));
     TRY(file_append_footer(f->path.text));
-    return file_publish(f->path.text);
+    return file_replace_by_temporary(f->path.text);
 }
 
 void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned fields)

@@ -93,13 +93,13 @@ static int mark_and_sync(int fd, const struct picture_end *e)
     return fsync(fd) != 0 ? errno : 0;
 }
 
-status picture_publish(const char *path, enum picture_format format)
+status picture_replace_by_temporary(const char *path, enum picture_format format)
 {
     const int fd = open(path_temporary(path).text, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
     int fault = fd < 0 ? errno : mark_and_sync(fd, &ends[format]);
     if (fd >= 0 && close(fd) != 0 && !fault) fault = errno;
-    if (!fault) return file_publish(path);
-    file_discard(path);
+    if (!fault) return file_replace_by_temporary(path);
+    file_discard_temporary(path);
     if (fault > 0) return file_report_write_failure(path, fault);
     return status_set(FAILED,
                       "cannot write %s: the picture is cut short, as on a full disk; free space or choose "

@@ -26,7 +26,7 @@ const char *result_current_name(const char *name)
     return NULL;
 }
 
-const char *result_other_name(const char *name)
+const char *result_name_in_other_version(const char *name)
 {
     for (size_t k = 0; k < COUNT_OF(renamed); k++)
         if (strcmp(name, renamed[k].now) == 0) return renamed[k].old;

@@ -232,7 +232,7 @@ static status summary_read_find(const char *folder, const char *key, char **text
 {
     struct reader r = {0};
     status s = summary_read_document(&r, folder, key, text);
-    const char *other = s == OK && r.found == NULL ? result_other_name(key) : NULL;
+    const char *other = s == OK && r.found == NULL ? result_name_in_other_version(key) : NULL;
     if (other) { /* the document is sound, as read above */
         r = (struct reader){.at = *text};
         (void)value(&r, other, 0);
@@ -243,7 +243,7 @@ static status summary_read_find(const char *folder, const char *key, char **text
     return s;
 }
 
-status summary_numbers(const char *folder, summary_visit *visit, void *context)
+status summary_visit_numbers(const char *folder, summary_visit *visit, void *context)
 {
     char *text;
     struct reader r = {.visit = visit, .context = context};
@@ -252,7 +252,7 @@ status summary_numbers(const char *folder, summary_visit *visit, void *context)
     return s;
 }
 
-status summary_number(const char *folder, const char *dotted_key, double *value_out)
+status summary_read_number(const char *folder, const char *dotted_key, double *value_out)
 {
     char *text;
     const char *found;
@@ -264,7 +264,7 @@ status summary_number(const char *folder, const char *dotted_key, double *value_
     return is_number ? OK : status_set(FAILED, "%s/summary.json: %s is not a number", folder, dotted_key);
 }
 
-status summary_string(const char *folder, const char *dotted_key, char *out, size_t size)
+status summary_read_string(const char *folder, const char *dotted_key, char *out, size_t size)
 {
     char *text;
     const char *found, *from, *to;

@@ -91,7 +91,7 @@ static struct colour along_stops(const struct stop *stop, int stops, double at)
 struct colour colour_sequential(double position) { return along_stops(sequential, COUNT_OF(sequential), position); }
 struct colour colour_diverging(double position) { return along_stops(diverging, COUNT_OF(diverging), position); }
 
-struct colour colour_of_table(enum colour_table table, double position)
+struct colour colour_from_table(enum colour_table table, double position)
 {
     switch (table) {
     case COLOURS_CIVIDIS:
@@ -110,8 +110,11 @@ struct colour colour_of_table(enum colour_table table, double position)
 }
 
 struct colour colour_damage(double position) { return along_stops(damage_stops, COUNT_OF(damage_stops), position); }
-struct colour colour_bonds(double position) { return along_stops(bond_stops, COUNT_OF(bond_stops), position); }
-struct colour colour_points(void) { return (struct colour){236, 233, 226, 255}; }
+struct colour colour_of_peridynamic_particle(double position)
+{
+    return along_stops(bond_stops, COUNT_OF(bond_stops), position);
+}
+struct colour colour_of_material_points(void) { return (struct colour){236, 233, 226, 255}; }
 
 /* Returns the colour of a fragment: light grey for fragment 0, the heaviest one; nine colours in turn for others;
  * nearly black for particles without bonds (-1). */

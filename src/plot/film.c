@@ -29,7 +29,7 @@ struct ffmpeg {
 static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
-    interrupt_cleanup_in_child();
+    interrupt_cleanup_prepare_child();
     signal(SIGPIPE, SIG_DFL);
     dup2(from < 0 ? nothing : from, STDIN_FILENO);
     dup2(complaints < 0 ? nothing : complaints, STDOUT_FILENO);
@@ -80,12 +80,12 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
     if (!gif) memcpy(word + 16, h264, sizeof h264);
     *f = (struct ffmpeg){.to = -1, .complaints = tmpfile()};
     if (!pipe_make(ends)) return status_set(FAILED, "%s: no pipe to ffmpeg: %s", sheet.path, strerror(errno));
-    interrupt_cleanup_block(true);
+    interrupt_signals_block(true);
     f->process = (int)fork();
     if (f->process == 0) become_ffmpeg(word, ends[0], f->complaints ? fileno(f->complaints) : -1);
     const int cause = errno;
     if (f->process > 0) interrupt_cleanup_register(LEAVING_FILM, aside.text, f->process);
-    interrupt_cleanup_block(false);
+    interrupt_signals_block(false);
     close(ends[0]);
     f->to = ends[1];
     if (f->process < 0) return status_set(FAILED, "%s: ffmpeg cannot be started: %s", sheet.path, strerror(cause));
@@ -119,12 +119,12 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
     if (f->process > 0) waitpid((pid_t)f->process, &ended, 0);
     const bool made = f->process > 0 && WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
     if (fed == OK && made)
-        fed = picture_publish(sheet.path, sheet.format);
+        fed = picture_replace_by_temporary(sheet.path, sheet.format);
     else if (f->process > 0 && f->complaints && (fed == OK || !status_message()[0])) {
-        error_message_read(f->complaints, reason, sizeof reason);
+        error_message_last_line(f->complaints, reason, sizeof reason);
         fed = status_set(FAILED, "%s: ffmpeg made no film: %s", sheet.path, reason);
     }
-    if (fed != OK) file_discard(sheet.path);
+    if (fed != OK) file_discard_temporary(sheet.path);
     interrupt_cleanup_register(LEAVING_FILM, NULL, 0);
     if (f->complaints) fclose(f->complaints);
     return fed;

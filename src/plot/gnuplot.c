@@ -38,7 +38,7 @@ void gnuplot_quote(FILE *to, const char *text)
  * the file for its output and errors. Does not return. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
-    interrupt_cleanup_in_child();
+    interrupt_cleanup_prepare_child();
     signal(SIGPIPE, SIG_DFL);
     dup2(pipe_ends[0], STDIN_FILENO);
     dup2(complaints, STDOUT_FILENO);
@@ -152,11 +152,11 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
         return status_set(FAILED, "%s: out of memory", path);
     }
     g->format = format;
-    interrupt_cleanup_block(true);
+    interrupt_signals_block(true);
     status s = file_check_replaceable(path);
     if (s == OK) s = gnuplot_start(g);
     if (s == OK) interrupt_cleanup_register(LEAVING_PICTURE, g->aside, g->process);
-    interrupt_cleanup_block(false);
+    interrupt_signals_block(false);
     if (s != OK) {
         gnuplot_release(g);
         return s;
@@ -166,7 +166,7 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     return OK;
 }
 
-void error_message_read(FILE *file, char *text, size_t size)
+void error_message_last_line(FILE *file, char *text, size_t size)
 {
     char line[256];
     snprintf(text, size, "it gave no reason");
@@ -191,10 +191,10 @@ status gnuplot_close(struct gnuplot *g)
                                "(Fedora, macOS)");
     } else if (!sent || !WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char reason[256];
-        error_message_read(g->complaints, reason, sizeof reason);
+        error_message_last_line(g->complaints, reason, sizeof reason);
         s = status_set(FAILED, "%s: gnuplot drew nothing: %s", g->path, reason);
     } else {
-        s = picture_publish(g->path, g->format);
+        s = picture_replace_by_temporary(g->path, g->format);
     }
     if (s != OK) remove(g->aside);
     interrupt_cleanup_register(LEAVING_PICTURE, NULL, 0);

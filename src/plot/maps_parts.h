@@ -25,8 +25,8 @@ void panel_write_axes(FILE *to, const struct layout *layout, const struct view *
 /* Writes the gnuplot commands that draw the coordinate axes of an outside view as arrows below a panel, and a bar of
  * known length. metre: unit of the axes of the panel; left, above: position of its upper left corner, from the left and
  * upper edge of the picture [pixel]. */
-void panel_write_directions(FILE *to, const struct layout *layout, const struct view *view,
-                            const struct plotted_particles *c, const struct unit *metre, double left, double above);
+void panel_write_axis_arrows(FILE *to, const struct layout *layout, const struct view *view,
+                             const struct plotted_particles *c, const struct unit *metre, double left, double above);
 
 /* Writes the gnuplot commands and data that plot the image pixel[height][width], row 0 at the bottom. from: its lower
  * left corner; step: width and height of a pixel, both in units of the axes. more: further elements of the plot

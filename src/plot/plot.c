@@ -160,7 +160,7 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
-    if (exact_probe_find(r->folder, probe)) return plot_draw_bar(r, frames, probe);
+    if (run_find_exact_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
     struct output_frame *f = NULL;
     TRY(frames_read(&f, r->folder, frames));
     picture_compose_title(title, r, "profiles", NULL);

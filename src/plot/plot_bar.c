@@ -53,7 +53,7 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
 
 /* Stores in name[] the name of the first EXACT probe, in alphabetical order, of which a profile is in the folder of a
  * run. Returns false if there is none. */
-bool exact_probe_find(const char *folder, char name[NAME_MAX_LENGTH])
+bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
     bool found = false;
@@ -82,7 +82,7 @@ static void extend(struct scale *s, const struct history *h, const char *column)
 {
     int at = column ? history_find_column(h, column) : -1;
     for (int64_t i = 0; i < h->rows; i++) {
-        double a = history_at(h, i, at);
+        double a = history_value_at(h, i, at);
         if (isfinite(a)) s->low = fmin(s->low, a), s->high = fmax(s->high, a);
     }
 }
@@ -141,11 +141,11 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
 {
     fprintf(to, "$f%d << EOD\n", k);
     for (int64_t i = 0; i < h->rows; i++) {
-        fprintf(to, "%.9g", history_at(h, i, history_find_column(h, "x")) / metre);
+        fprintf(to, "%.9g", history_value_at(h, i, history_find_column(h, "x")) / metre);
         for (int q = 0; q < QUANTITIES; q++) {
-            send_number(to, history_at(h, i, history_find_column(h, quantity[q].computed)) / scale[q].factor);
+            send_number(to, history_value_at(h, i, history_find_column(h, quantity[q].computed)) / scale[q].factor);
             int exact = quantity[q].exact ? history_find_column(h, quantity[q].exact) : -1;
-            send_number(to, history_at(h, i, exact) / scale[q].factor);
+            send_number(to, history_value_at(h, i, exact) / scale[q].factor);
         }
         putc('\n', to);
     }
@@ -158,16 +158,16 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
 {
     int x = history_find_column(h, "x"), kind = history_find_column(h, "kind"), parts = 0;
     int64_t from = 0, n = 0;
-    for (int64_t i = 0; i < h->rows; i++) n += history_at(h, i, kind) == KIND_PD;
+    for (int64_t i = 0; i < h->rows; i++) n += history_value_at(h, i, kind) == KIND_PD;
     if (n == 0 || n == h->rows) return false;
     for (int64_t i = 0; i < h->rows; i++) {
-        bool here = history_at(h, i, kind) == KIND_PD;
-        if (!here || i == 0 || history_at(h, i - 1, kind) != KIND_PD) from = i;
-        if (here && (i + 1 == h->rows || history_at(h, i + 1, kind) != KIND_PD))
+        bool here = history_value_at(h, i, kind) == KIND_PD;
+        if (!here || i == 0 || history_value_at(h, i - 1, kind) != KIND_PD) from = i;
+        if (here && (i + 1 == h->rows || history_value_at(h, i + 1, kind) != KIND_PD))
             fprintf(to,
                     "set object %d rectangle from %.9g,graph 0 to %.9g,graph 1 behind fs solid noborder "
                     "fc rgb '" TINT "'\n",
-                    ++parts, (history_at(h, from, x) - half) / metre, (history_at(h, i, x) + half) / metre);
+                    ++parts, (history_value_at(h, from, x) - half) / metre, (history_value_at(h, i, x) + half) / metre);
     }
     return true;
 }
@@ -199,7 +199,7 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
                                                            * everywhere */
     for (int k = 0; k < frames; k++) extend(&x, &h[k], "x");
     int at = history_find_column(&h[0], "x");
-    double half = h[0].rows > 1 ? 0.5 * fabs(history_at(&h[0], 1, at) - history_at(&h[0], 0, at)) : 0;
+    double half = h[0].rows > 1 ? 0.5 * fabs(history_value_at(&h[0], 1, at) - history_value_at(&h[0], 0, at)) : 0;
     struct unit metre = unit_for_length(fmax(-x.low, x.high));
     int height = 110 + 250 * panels;
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));

@@ -10,7 +10,8 @@
 
 struct colour category_colour(const struct plot_field *field, float value)
 {
-    if (strcmp(field->name, "kind") == 0) return value == KIND_MPM ? colour_points() : colour_bonds(0.25);
+    if (strcmp(field->name, "kind") == 0)
+        return value == KIND_MPM ? colour_of_material_points() : colour_of_peridynamic_particle(0.25);
     return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)value) : part_colour((int)value);
 }
 

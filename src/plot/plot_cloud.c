@@ -59,7 +59,7 @@ double frame_spacing(const struct output_frame *f)
         if (isfinite(r)) distance[known++] = r;
     }
     if (known == 0) return 0;
-    return median_of(distance, known);
+    return median_by_sorting(distance, known);
 }
 
 /* Returns true if the direction from particle i to its nearest neighbour is within 8 degrees of an axis of the map.
@@ -180,7 +180,7 @@ status projection_complete_slice(struct projection *projection, const struct out
 const struct camera camera_isometric = {
     {0.86602540378, 0.5, 0}, {-0.25, 0.43301270189, 0.86602540378}, {0.43301270189, -0.75, 0.5}};
 
-struct camera camera_along(int axis, int side)
+struct camera camera_along_axis(int axis, int side)
 {
     struct camera c = {{0}, {0}, {0}};
     const int right = axis == 0 ? 1 : 0, up = axis == 2 ? 1 : 2;
@@ -234,12 +234,12 @@ static void cloud_allocate(struct plotted_particles *c, const struct output_fram
 /* Sets the axes of the map in c: x and y in 2D, the axes in the plane of a slice, or the directions of a camera. */
 static void cloud_axes(struct plotted_particles *c, const struct output_frame *f, const struct projection *projection)
 {
-    c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along(2, 1);
+    c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along_axis(2, 1);
     if (f->dim < 3 || projection->outside) return;
     c->normal = projection->normal, c->layer = projection->layer;
     c->axis[0] = c->normal == 0 ? 1 : 0;
     c->axis[1] = c->normal == 2 ? 1 : 2;
-    c->camera = camera_along(c->normal, c->normal == 1 ? -1 : 1);
+    c->camera = camera_along_axis(c->normal, c->normal == 1 ? -1 : 1);
 }
 
 void plotted_particles_make(struct plotted_particles *c, const struct output_frame *f,
@@ -262,7 +262,7 @@ void plotted_particles_make(struct plotted_particles *c, const struct output_fra
     cloud_axes(c, f, projection);
     cloud_allocate(c, f, projection);
     for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, float);
-    c->gradient = particle_gradients_make(f, c->spacing, c->magnify, projection->scene);
+    c->gradient = deformation_gradients_make(f, c->spacing, c->magnify, projection->scene);
     for (int64_t i = 0; i < f->n; i++) {
         const double size = f->spacing ? f->spacing[i] : c->spacing;
         if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;
@@ -289,7 +289,7 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
     if (own.field) s = plot_field_read(&value, own.field, &f, run_frame_path(folder, frame->number).text);
     own.value = value;
     if (s == OK) plotted_particles_make(c, &f, &own);
-    if (s == OK) rigids_shown_make(c, &f, own.scene, folder, frame->number);
+    if (s == OK) plotted_particles_add_rigids(c, &f, own.scene, folder, frame->number);
     memory_free(value);
     frame_free(&f);
     return s;

@@ -12,11 +12,11 @@
 /* Largest number of points of a curve, and of curves in a picture. */
 enum { POINTS_MAX = 4000, CURVES_MAX = 8 };
 
-double curves_largest_value(const struct history *h, int column)
+double history_largest_magnitude(const struct history *h, int column)
 {
     double largest = 0;
     for (int64_t i = 0; i < h->rows; i++) {
-        double a = fabs(history_at(h, i, column));
+        double a = fabs(history_value_at(h, i, column));
         if (a > largest && isfinite(a)) largest = a;
     }
     return largest;
@@ -28,9 +28,9 @@ void curves_write_data(FILE *to, const struct series *s, const int *column, cons
     fputs("$data << EOD\n", to);
     for (int64_t i = 0; i < s->h->rows; i++) {
         if (i % stride != 0 && i != s->h->rows - 1) continue;
-        fprintf(to, "%.9g", history_at(s->h, i, s->time) / s->second.factor);
+        fprintf(to, "%.9g", history_value_at(s->h, i, s->time) / s->second.factor);
         for (int k = 0; k < columns; k++) {
-            double a = history_at(s->h, i, column[k]) / factor[k];
+            double a = history_value_at(s->h, i, column[k]) / factor[k];
             if (isfinite(a))
                 fprintf(to, " %.9g", a);
             else
@@ -53,7 +53,7 @@ void curves_write_title(FILE *to, const char *title, const char *what)
 
 void curves_write_time_axis(FILE *to, const struct series *s)
 {
-    double end = history_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
+    double end = history_value_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
     const bool in_time = s->second.name[0] != 0;
     fprintf(to, "set xrange [0:%.9g]\nset xlabel '%s%s%s' textcolor rgb '#333333'\n", end > 0 ? end : 1,
             in_time ? "time [" : "load step", s->second.name, in_time ? "]" : "");
@@ -75,7 +75,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
 static bool column_varies(const struct history *h, int column)
 {
     for (int64_t i = 1; i < h->rows; i++)
-        if (history_at(h, i, column) != history_at(h, 0, column)) return true;
+        if (history_value_at(h, i, column) != history_value_at(h, 0, column)) return true;
     return false;
 }
 
@@ -84,7 +84,7 @@ static bool column_varies(const struct history *h, int column)
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
-    const double largest[2] = {curves_largest_value(s->h, column[0]), curves_largest_value(s->h, column[1])};
+    const double largest[2] = {history_largest_magnitude(s->h, column[0]), history_largest_magnitude(s->h, column[1])};
     const bool shown[2] = {largest[0] > 0 && !s->bar, column_varies(s->h, column[1])};
     const struct unit metre = unit_for_length(largest[0]);
     const double factor[2] = {metre.factor, 0.01}; /* the share in percent */
@@ -133,10 +133,10 @@ static void choose_energies(struct energies *e, const struct history *h)
     double largest = 0;
     *e = (struct energies){0};
     for (int k = 0; k < LEDGER_ROWS; k++)
-        largest = fmax(largest, curves_largest_value(h, history_find_column(h, ledger[k].name)));
+        largest = fmax(largest, history_largest_magnitude(h, history_find_column(h, ledger[k].name)));
     for (int k = 0; k < LEDGER_ROWS; k++) {
         const int column = history_find_column(h, ledger[k].name);
-        if (column < 0 || !(curves_largest_value(h, column) > ENERGY_SHOWN * largest)) continue;
+        if (column < 0 || !(history_largest_magnitude(h, column) > ENERGY_SHOWN * largest)) continue;
         e->column[e->n] = column;
         e->row[e->n++] = &ledger[k];
     }
@@ -200,7 +200,7 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     if (balance >= 0) {
         fputs("undefine $data\n", g.to);
         curves_write_data(g.to, s, &balance, &percent, 1);
-        plot_balance(g.to, s, curves_largest_value(s->h, balance));
+        plot_balance(g.to, s, history_largest_magnitude(s->h, balance));
         fputs("unset multiplot\n", g.to);
     }
     return gnuplot_close(&g);
@@ -216,7 +216,8 @@ status history_curves_draw(const char *folder, const char *title, enum picture_f
     const char *ending = picture_ending[format];
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
-        s.second = in_steps ? (struct unit){1, ""} : unit_for_largest_value(history_at(&h, h.rows - 1, s.time), "s");
+        s.second =
+            in_steps ? (struct unit){1, ""} : unit_for_largest_value(history_value_at(&h, h.rows - 1, s.time), "s");
         result = draw_crack((struct sheet){picture_path(folder, DRAWN_CRACK, ending).text, format}, title, &s);
         if (result == OK)
             result = draw_energy((struct sheet){picture_path(folder, DRAWN_ENERGY, ending).text, format}, title, &s);

@@ -67,7 +67,7 @@ static double jump_of(const struct pairs *p, const struct neighbour_list *near, 
     int n = 0;
     for (int k = 0; k < near->n && n < NEAR_MOST; k++)
         if (same_side(p, i, near->at[k])) all[n++] = elongation(p->f, i, near->at[k]);
-    return n > 0 ? JUMP + JUMP_TIMES * fmax(median_of(all, n), 0) : JUMP;
+    return n > 0 ? JUMP + JUMP_TIMES * fmax(median_by_sorting(all, n), 0) : JUMP;
 }
 
 /* Returns true if the neighbours i and j are drawn as connected. jump: largest elongation for which a pair of particle
@@ -92,7 +92,7 @@ static double parted_limit(const struct pairs *p)
         for (int k = 0; k < near.n && n < SURE_MOST; k++)
             if (surely_connected(p, i, near.at[k])) sure[n++] = elongation(p->f, i, near.at[k]);
     }
-    array_sort(sure, n, sizeof *sure, double_order);
+    array_sort(sure, n, sizeof *sure, compare_doubles);
     const double least = PARTED / p->magnify;
     const double limit = n > 0 ? fmax(least, PARTED_MORE * sure[(int64_t)(0.99 * (double)(n - 1))]) : least;
     memory_free(sure);
@@ -141,8 +141,8 @@ static bool may_be_deformed(const struct output_frame *f, double spacing)
     return most > STRAIN_SEEN * spacing;
 }
 
-float *particle_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
-                               const struct scene *scene)
+float *deformation_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
+                                  const struct scene *scene)
 {
     if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing / displacement_factor)) return NULL;
     struct pairs p = {.f = f,

@@ -22,7 +22,7 @@ static status field_path(struct path *path, const struct plot_request *r, const 
         *path = usual;
         return pictures_folder_make(pictures_folder(r->folder).text);
     }
-    return picture_destination(path, r->out, strrchr(usual.text, '/') + 1, r->overwrite);
+    return picture_choose_path(path, r->out, strrchr(usual.text, '/') + 1, r->overwrite);
 }
 
 enum map map_of_field(const struct plot_field *field)

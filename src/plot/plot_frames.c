@@ -39,7 +39,7 @@ struct unit unit_for_length(double largest)
     return largest > 5e-4 && largest < 0.9995 ? (struct unit){1e-3, "mm"} : unit_for_largest_value(largest, "m");
 }
 
-struct unit unit_of_figure(const char *name, double largest)
+struct unit unit_with_allowed_prefix(const char *name, double largest)
 {
     static const char *const prefixed[] = {"s", "m/s", "N", "J", "Pa", "W"};
     struct unit u = {1, ""};
@@ -152,7 +152,7 @@ status pictures_folder_make(const char *path)
     return files_visit(path, is_picture_name, "", picture_check_replaceable);
 }
 
-status picture_destination(struct path *path, const char *option_argument, const char *name, bool overwrite)
+status picture_choose_path(struct path *path, const char *option_argument, const char *name, bool overwrite)
 {
     const char *end = strrchr(option_argument, '/');
     struct path above = {{0}};
@@ -194,8 +194,8 @@ void picture_compose_title(char *title, const struct plot_request *r, const char
 {
     const char *folder = r->folder;
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
-    if (summary_string(folder, "name", name, sizeof name) != OK) path_last_name(name, sizeof name, folder);
-    bool known = summary_string(folder, "method", method, sizeof method) == OK;
+    if (summary_read_string(folder, "name", name, sizeof name) != OK) path_last_name(name, sizeof name, folder);
+    bool known = summary_read_string(folder, "method", method, sizeof method) == OK;
     if (c != NULL && c->normal >= 0) {
         struct unit metre = unit_for_length(fmax(fabs(c->layer), c->spacing));
         snprintf(layer, sizeof layer, ", %c = %.4g %s", 'x' + c->normal, c->layer / metre.factor, metre.name);

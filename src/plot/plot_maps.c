@@ -110,8 +110,8 @@ void panel_write_axes(FILE *to, const struct layout *l, const struct view *view,
     }
 }
 
-void panel_write_directions(FILE *to, const struct layout *l, const struct view *view,
-                            const struct plotted_particles *c, const struct unit *metre, double left, double above)
+void panel_write_axis_arrows(FILE *to, const struct layout *l, const struct view *view,
+                             const struct plotted_particles *c, const struct unit *metre, double left, double above)
 {
     const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width, x = left + 34;
     const double y = l->height - (above + l->panel_height + 46); /* above the lower edge of the picture [pixel] */
@@ -164,7 +164,7 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     else
         panel_write_axes(to, l, view, c, &metre, column, lowest);
     if (c->position[2] && row == l->rows - 1 && column == 0)
-        panel_write_directions(to, l, view, c, &metre, LEFT, ABOVE + row * (l->panel_height + GAP_Y));
+        panel_write_axis_arrows(to, l, view, c, &metre, LEFT, ABOVE + row * (l->panel_height + GAP_Y));
     const double fine = picture_size_get().dpi / PICTURE_DPI;
     const int fines[2] = {(int)fmax(lround(fine * size[0]), 1), (int)fmax(lround(fine * size[1]), 1)};
     for (int k = 0; k < 2; k++) step[k] *= (double)size[k] / fines[k];
@@ -267,8 +267,9 @@ static void key_entry(FILE *to, const struct layout *l, double x, double y, stru
  * without bonds. */
 static void draw_key(FILE *to, const struct layout *l, enum map map)
 {
-    const struct category entry[2][2] = {{{colour_points(), "material points"}, {colour_bonds(0.25), "peridynamics"}},
-                                         {{fragment_colour(0), "the heaviest"}, {fragment_colour(-1), "no bond left"}}};
+    const struct category entry[2][2] = {
+        {{colour_of_material_points(), "material points"}, {colour_of_peridynamic_particle(0.25), "peridynamics"}},
+        {{fragment_colour(0), "the heaviest"}, {fragment_colour(-1), "no bond left"}}};
     for (int k = 0; k < 2; k++) {
         const struct category *e = &entry[map == MAP_FRAGMENT][k];
         key_entry(to, l, l->width - l->right - 320 + 160 * k, l->width < KEY_BELOW ? 50 : 26, e->colour, e->name);

@@ -16,8 +16,8 @@ enum { MARCH_MOST = 300 };
 
 struct colour rigid_colour(void) { return RIGID; }
 
-void rigids_shown_make(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
-                       const char *folder, int number)
+void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
+                                  const char *folder, int number)
 {
     if (!s || s->rigids == 0 || s->dim != f->dim || f->dim < 2) return;
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);

@@ -54,7 +54,7 @@ static void find_factors(struct factors *f, const struct history *h)
         f->column[2 * k + 1] = plot_sif_column_of(h, f->name[k], "K_II");
         f->spread[k] = plot_sif_column_of(h, f->name[k], "contour_spread");
         f->percent[k] = 0.01;
-        for (int m = 0; m < 2; m++) largest = fmax(largest, curves_largest_value(h, f->column[2 * k + m]));
+        for (int m = 0; m < 2; m++) largest = fmax(largest, history_largest_magnitude(h, f->column[2 * k + m]));
     }
     f->unit = unit_for_largest_value(largest, "Pa√m");
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
@@ -98,7 +98,7 @@ status sif_curves_draw(const char *folder, const char *title, const struct serie
     if (s->h->rows < LEAST_ROWS)
         return report_nothing_to_draw(path.text, "the run has one equilibrium; summary.json has its K_I and K_II");
     double spread = 0;
-    for (int k = 0; k < f.n; k++) spread = fmax(spread, curves_largest_value(s->h, f.spread[k]));
+    for (int k = 0; k < f.n; k++) spread = fmax(spread, history_largest_magnitude(s->h, f.spread[k]));
     TRY(gnuplot_open(&g, path.text, s->format, 1000, spread > 0 ? 760 : 600));
     curves_write_data(g.to, s, f.column, f.factor, 2 * f.n);
     curves_write_title(g.to, title, "stress-intensity factors");
@@ -134,7 +134,7 @@ static double plot_sif_figure_of(const char *folder, const char *probe, const ch
     char key[3 * NAME_MAX_LENGTH];
     double value = NAN;
     snprintf(key, sizeof key, "probes.%.63s.%.63s", probe, quantity);
-    return summary_number(folder, key, &value) == OK ? value : NAN;
+    return summary_read_number(folder, key, &value) == OK ? value : NAN;
 }
 
 /* Finds the paths of the crack tips that have grown and stores them in w[PATHS_SHOWN]. Returns their number. folder:
@@ -150,11 +150,11 @@ static int find_tip_paths(struct tip_path *w, const char *folder, const struct h
                                .y = plot_sif_column_of(h, name[k], "y"),
                                .length = plot_sif_column_of(h, name[k], "length")};
         strcpy(a->name, name[k]);
-        a->grown = history_at(h, h->rows - 1, a->length);
+        a->grown = history_value_at(h, h->rows - 1, a->length);
         if (!(a->grown > 0)) continue;
         for (int e = 0; e < 2; e++) {
             double *at = e == 0 ? a->from : a->to;
-            at[0] = history_at(h, e * (h->rows - 1), a->x), at[1] = history_at(h, e * (h->rows - 1), a->y);
+            at[0] = history_value_at(h, e * (h->rows - 1), a->x), at[1] = history_value_at(h, e * (h->rows - 1), a->y);
         }
         a->angle = plot_sif_figure_of(folder, name[k], "angle_deg");
         a->experiment = plot_sif_figure_of(folder, name[k], "experiment_deg");
@@ -171,8 +171,9 @@ static void send_tip_path(FILE *to, const struct history *h, const struct tip_pa
     double last = -1;
     fprintf(to, "$w%d << EOD\n", k);
     for (int64_t i = 0; i < h->rows; i++) {
-        const double length = history_at(h, i, w->length);
-        if (length > last) fprintf(to, "%.7g %.7g\n", history_at(h, i, w->x) / factor, history_at(h, i, w->y) / factor);
+        const double length = history_value_at(h, i, w->length);
+        if (length > last)
+            fprintf(to, "%.7g %.7g\n", history_value_at(h, i, w->x) / factor, history_value_at(h, i, w->y) / factor);
         last = fmax(last, length);
     }
     fputs("EOD\n", to);

@@ -49,7 +49,7 @@ static double length_at(const struct history *h, int64_t row, const struct compo
 {
     double sum = 0;
     for (int d = 0; d < c->n; d++)
-        sum += square(history_at(h, row, c->column[d]) - (c->since ? history_at(h, 0, c->column[d]) : 0));
+        sum += square(history_value_at(h, row, c->column[d]) - (c->since ? history_value_at(h, 0, c->column[d]) : 0));
     return sqrt(sum);
 }
 
@@ -251,9 +251,9 @@ static void release_send(FILE *to, const struct history *h, int area, int rate, 
     double before = 0;
     fputs("$data << EOD\n", to);
     for (int64_t i = 0; i < h->rows; i++) {
-        const double now = history_at(h, i, area);
-        if (now > before && isfinite(history_at(h, i, rate)))
-            fprintf(to, "%.9g %.9g\n", now / square.factor, history_at(h, i, rate) / factor);
+        const double now = history_value_at(h, i, area);
+        if (now > before && isfinite(history_value_at(h, i, rate)))
+            fprintf(to, "%.9g %.9g\n", now / square.factor, history_value_at(h, i, rate) / factor);
         before = fmax(before, now);
     }
     fputs("EOD\n", to);
@@ -277,14 +277,14 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
 {
     const int area = history_find_column(h, "crack_area"), rate = history_find_column(h, "release_rate"),
               released = history_find_column(h, "released");
-    const double grown = curves_largest_value(h, area);
-    double toughness[TOUGHNESSES_SHOWN] = {0}, top = curves_largest_value(h, rate);
+    const double grown = history_largest_magnitude(h, area);
+    double toughness[TOUGHNESSES_SHOWN] = {0}, top = history_largest_magnitude(h, rate);
     struct gnuplot g;
     if (!(grown > 0)) return report_nothing_to_draw(sheet.path, "no crack has grown");
     const int n = toughnesses_of(folder, toughness);
     for (int k = 0; k < n; k++) top = fmax(top, toughness[k]);
     const struct unit square = unit_for_area(grown), joule = unit_for_largest_value(top, "J/m²");
-    const double mean = history_at(h, h->rows - 1, released) / history_at(h, h->rows - 1, area);
+    const double mean = history_value_at(h, h->rows - 1, released) / history_value_at(h, h->rows - 1, area);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     release_send(g.to, h, area, rate, square, joule.factor);
     curves_write_title(g.to, title, "energy released by the growing crack");

@@ -201,12 +201,12 @@ bool matrix_invert(const double matrix[3][3], double inverse[3][3])
 
 struct colour map_colour(const struct view *v, enum map map, double a)
 {
-    if (map == MAP_KIND) return colour_bonds(a);
+    if (map == MAP_KIND) return colour_of_peridynamic_particle(a);
     if (map == MAP_FIELD && v->field)
-        return colour_of_table(v->table                        ? v->table
-                               : v->field->scale == BOTH_SIGNS ? COLOURS_DIVERGING
-                                                               : COLOURS_VIRIDIS,
-                               a);
+        return colour_from_table(v->table                        ? v->table
+                                 : v->field->scale == BOTH_SIGNS ? COLOURS_DIVERGING
+                                                                 : COLOURS_VIRIDIS,
+                                 a);
     return colour_damage(a);
 }
 
@@ -215,7 +215,7 @@ struct colour particle_colour(const struct view *v, const struct plotted_particl
     if (c->colour) return c->colour[i];
     if (map == MAP_FRAGMENT && c->fragment) return fragment_colour(c->fragment[i]);
     if (map == MAP_CATEGORY && c->value) return category_colour(v->field, c->value[i]);
-    if (map == MAP_KIND && c->kind[i] == KIND_MPM) return colour_points();
+    if (map == MAP_KIND && c->kind[i] == KIND_MPM) return colour_of_material_points();
     if (map == MAP_FIELD && c->value) return map_colour(v, map, (c->value[i] - v->low) / (v->high - v->low));
     return map_colour(v, map, c->damage[i] / v->top);
 }

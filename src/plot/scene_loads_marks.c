@@ -75,7 +75,7 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     const struct boundary *b = boundary_of(e, l);
     const int32_t i = l->particle[k];
     if (b->displaces) {
-        load_displacement_at(&(struct load){.boundary = b, .particle = l->particle}, p, k, t, vector);
+        load_displacement_of_particle(&(struct load){.boundary = b, .particle = l->particle}, p, k, t, vector);
     } else if (b->kind == BOUNDARY_VELOCITY) {
         real X[DIM_MAX];
         particle_reference_position(p, i, X);
@@ -83,14 +83,14 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
         for (int d = 0; d < p->dim; d++)
             vector[d] = b->components >> d & 1 ? prescribed_velocity_at(&driving, X, d, true) : 0;
     } else if (b->kind == BOUNDARY_BODY_FORCE) {
-        load_force_at(l, p, k, t, vector);
+        load_force_on_particle(l, p, k, t, vector);
         for (int d = 0; d < p->dim; d++) vector[d] /= b->by_mass ? p->mass[i] : p->volume0[i];
     } else {
-        load_value_at(l, p, k, t, vector);
+        load_value_at_particle(l, p, k, t, vector);
     }
     if (b->kind != BOUNDARY_PRESSURE) return value_size(vector, p->dim);
     const double pressure = fabs(vector[0]);
-    load_force_at(l, p, k, t, vector); /* average of corner normals */
+    load_force_on_particle(l, p, k, t, vector); /* average of corner normals */
     const double force = value_size(vector, p->dim);
     for (int d = 0; d < p->dim && force > 0; d++) vector[d] *= pressure / force;
     return force > 0 ? pressure : 0;

@@ -134,7 +134,7 @@ static void probe_mark(struct marks *m, int k, const char *text)
     static const char point[] = "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'";
     static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";
     marks_begin_block(m);
-    if (probes_sif_contour(&m->engine->probing->probes, k, &seen, from, &radius)) {
+    if (probes_get_sif_contour(&m->engine->probing->probes, k, &seen, from, &radius)) {
         circle_line(m, from, radius);
         marks_end_block(m, line, text);
     } else if (p->kind == PROBE_LINE) {
@@ -147,7 +147,7 @@ static void probe_mark(struct marks *m, int k, const char *text)
     } else if (p->kind == PROBE_TIP && m->engine->fracture->tips.n > 0) {
         tip_marks(m);
         marks_end_block(m, point, text);
-    } else if (p->region.n > 0 && region_bounds(&p->region, s->dim, from, to)) {
+    } else if (p->region.n > 0 && region_bounding_box(&p->region, s->dim, from, to)) {
         box_lines(m, from, to, s->dim);
         marks_end_block(m, line, text);
     } else {
@@ -185,7 +185,7 @@ void marks_draw_regions(struct marks *m)
     for (int k = 0; k < s->regions; k++) {
         real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
         char text[NAME_MAX_LENGTH + 16], how[96];
-        if (!region_bounds(&s->named[k].region, s->dim, from, to)) continue;
+        if (!region_bounding_box(&s->named[k].region, s->dim, from, to)) continue;
         snprintf(text, sizeof text, "region %.60s", s->named[k].name);
         marks_begin_block(m);
         box_lines(m, from, to, s->dim);
@@ -224,7 +224,7 @@ static int64_t level_cells_draw(struct marks *m, int level)
         if (l->level[I] != level || !is_corner_cell(l, I, k)) continue;
         n++;
         for (int d = 0; d < g->dim; d++)
-            from[d] = grid_position(g, d, k[d]), to[d] = grid_position(g, d, k[d] + ((int64_t)1 << level));
+            from[d] = grid_node_position(g, d, k[d]), to[d] = grid_node_position(g, d, k[d] + ((int64_t)1 << level));
         box_lines(m, from, to, g->dim);
     }
     return n;

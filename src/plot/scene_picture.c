@@ -75,9 +75,9 @@ static int64_t rigid_sites(const struct scene *s, const struct particles *part, 
 {
     real to[DIM_MAX];
     double sites = 1, thinnest = INFINITY;
-    if (!region_bounds(shape, s->dim, from, to))
+    if (!region_bounding_box(shape, s->dim, from, to))
         for (int d = 0; d < s->dim; d++) {
-            const real beside = 0.08 * particles_longest_edge(part);
+            const real beside = 0.08 * particles_bounding_box_longest_edge(part);
             particles_coordinate_range(part, part->n, d, &from[d], &to[d]);
             from[d] -= beside, to[d] += beside;
         }
@@ -122,7 +122,7 @@ static void scene_cloud(struct plotted_particles *c, struct run *e, const struct
                                     .normal = -1,
                                     .spacing = s->spacing,
                                     .aligned = true,
-                                    .camera = s->dim == 3 ? *camera : camera_along(2, 1),
+                                    .camera = s->dim == 3 ? *camera : camera_along_axis(2, 1),
                                     .from = {INFINITY, INFINITY},
                                     .to = {-INFINITY, -INFINITY}};
     for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->position[a] = NEW("plot.position", room, float);
@@ -240,7 +240,7 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + a, v->from[a] / metre->factor, v->to[a] / metre->factor);
     if (c->position[2]) {
         fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\n", to);
-        panel_write_directions(to, l, v, c, metre, PICTURE_LEFT, PICTURE_ABOVE);
+        panel_write_axis_arrows(to, l, v, c, metre, PICTURE_LEFT, PICTURE_ABOVE);
     } else
         panel_write_axes(to, l, v, c, metre, 0, true);
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
@@ -304,7 +304,7 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
 {
     char name[sizeof s->name + 16];
     snprintf(name, sizeof name, "%s_scene.%s", s->name, picture_ending[r->format]);
-    return picture_destination(path, r->out ? r->out : "results/", name, r->overwrite);
+    return picture_choose_path(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
 /* Creates the run e of the scene, draws it and prints what was drawn. REFUSED for an outside view of a scene that is

@@ -21,8 +21,8 @@ void diagnostics_make(struct diagnostics *w)
 /* Computes the momentum of all particles and of the nodes of the `grids` grids nodes[], and the momentum error:
  * |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]: impulse supplied by loads
  * and supports since the start [N s]. */
-void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
-                          const real *impulse)
+void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
+                                 int grids, const real *impulse)
 {
     real size, missing2 = 0;
     particles_linear_momentum(p, nodes, grids, w->now.momentum, &size);
@@ -48,12 +48,12 @@ static void balance_of(struct diagnostics *w)
     struct energy_balance *l = &w->now;
     real energy = energy_sum(&l->energy);
     if (!w->started) w->energy_start = energy - l->external_work;
-    const real size = energy_magnitude(&l->energy);
+    const real size = energy_sum_of_magnitudes(&l->energy);
     w->energy_scale = real_max(w->energy_scale, real_max(size, fabs(l->external_work)));
     l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
 }
 
-void diagnostics_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work)
+void diagnostics_update_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work)
 {
     w->now.time = t;
     w->now.energy = *energy;
@@ -67,7 +67,7 @@ void diagnostics_energy_balance(struct diagnostics *w, real t, const struct ener
 /* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
  * distances up to the horizon. list[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the middle of one
  * group in centre[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
-int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre)
+int64_t diagnostics_locate_cuts(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre)
 {
     const real along[DIM_MAX] = {0};
     int64_t cut = 0;
@@ -100,7 +100,7 @@ bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p,
     w->bonds_broken += broken_bonds;
     if (broken_bonds == 0) return false;
     if (isnan(w->break_time)) {
-        w->break_ends = diagnostics_first_break(p, NULL, p->n, horizon, w->break_position);
+        w->break_ends = diagnostics_locate_cuts(p, NULL, p->n, horizon, w->break_position);
         if (w->break_ends > 0) w->break_time = t;
     }
     const bool tears = isnan(w->driven_time) && driven_breaks(p);
@@ -155,8 +155,8 @@ static int64_t first_diverged(const struct particles *p, const int32_t *list, in
     return list[k];
 }
 
-status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real max_speed, int64_t step,
-                              real t)
+status diagnostics_check_divergence(const struct particles *p, bool peridynamic, bool meshed, real max_speed,
+                                    int64_t step, real t)
 {
     INVARIANT(max_speed > 0);
     int64_t first = peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], max_speed) : p->n_all;

@@ -11,12 +11,12 @@
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
-    for (int k = 0; k < ENERGIES; k++) json_real(j, ledger[k].name, l->energy.of[k]);
-    json_real(j, ledger[LEDGER_WORK].name, l->external_work);
-    json_real(j, "balance_error", l->balance_error);
+    for (int k = 0; k < ENERGIES; k++) json_write_real(j, ledger[k].name, l->energy.of[k]);
+    json_write_real(j, ledger[LEDGER_WORK].name, l->external_work);
+    json_write_real(j, "balance_error", l->balance_error);
     json_close(j, '}');
-    json_real(j, "momentum_error", l->momentum_error);
-    json_real(j, "angular_momentum_error", l->spin_error);
+    json_write_real(j, "momentum_error", l->momentum_error);
+    json_write_real(j, "angular_momentum_error", l->spin_error);
 }
 
 /* Writes the time t of an event [s] under the key `what`_time; in runs in load steps, the number of the step under
@@ -27,9 +27,9 @@ static void put_when(struct json *j, const struct scene *scene, const struct run
     const bool in_steps = scene_has_load_steps(scene);
     snprintf(key, sizeof key, "%s_%s", what, in_steps ? "step" : "time");
     if (!in_steps)
-        json_real(j, key, t);
+        json_write_real(j, key, t);
     else if (!isnan(t))
-        json_count(j, key, (int64_t)floor(t / clock->dt + 0.5));
+        json_write_integer(j, key, (int64_t)floor(t / clock->dt + 0.5));
 }
 
 /* Writes body, origin, position, growth, angle, times and speeds of a crack tip as an element of a JSON array. Runs in
@@ -38,15 +38,15 @@ static void put_tip(struct json *j, const struct scene *s, const struct run_cloc
 {
     const int dim = s->dim;
     json_open(j, NULL, '{');
-    json_count(j, "body", tip->body);
-    json_point(j, "origin_", tip->origin, dim);
-    json_point(j, "", tip->place, dim);
-    json_real(j, "growth", tip->growth);
-    json_real(j, "angle_deg", tip_angle(tip, dim));
+    json_write_integer(j, "body", tip->body);
+    json_write_point(j, "origin_", tip->origin, dim);
+    json_write_point(j, "", tip->place, dim);
+    json_write_real(j, "growth", tip->growth);
+    json_write_real(j, "angle_deg", tip_angle(tip, dim));
     put_when(j, s, clock, "start", tip->start_time);
     put_when(j, s, clock, "arrest", tip->arrest_time);
-    if (!scene_has_load_steps(s)) json_real(j, "speed_max", tip->speed_max);
-    if (!scene_has_load_steps(s)) json_real(j, "speed_mean", tip->speed_mean);
+    if (!scene_has_load_steps(s)) json_write_real(j, "speed_max", tip->speed_max);
+    if (!scene_has_load_steps(s)) json_write_real(j, "speed_mean", tip->speed_mean);
     json_close(j, '}');
 }
 
@@ -68,17 +68,17 @@ static void put_crack(struct json *j, const struct run *e)
     json_open(j, "crack", '{');
     put_when(j, e->scene, &e->clock, "start", e->diagnostics->break_time);
     put_when(j, e->scene, &e->clock, "driven_start", e->diagnostics->driven_time);
-    if (!isnan(e->diagnostics->driven_time)) json_count(j, "driven_bonds", driven_bonds(&e->bonds, &e->part));
+    if (!isnan(e->diagnostics->driven_time)) json_write_integer(j, "driven_bonds", driven_bonds(&e->bonds, &e->part));
     if (longest) {
         put_when(j, e->scene, &e->clock, "tip_start", longest->start_time);
         put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
-        json_real(j, "length_end", longest->growth);
-        json_real(j, "angle_deg", tip_angle(longest, dim));
-        json_count(j, "tied", tips_count_longest(&e->fracture->tips));
+        json_write_real(j, "length_end", longest->growth);
+        json_write_real(j, "angle_deg", tip_angle(longest, dim));
+        json_write_integer(j, "tied", tips_count_longest_ends(&e->fracture->tips));
     }
     if (longest && !scene_has_load_steps(e->scene)) {
-        json_real(j, "tip_speed_max", longest->speed_max);
-        json_real(j, "tip_speed_mean", longest->speed_mean);
+        json_write_real(j, "tip_speed_max", longest->speed_max);
+        json_write_real(j, "tip_speed_mean", longest->speed_mean);
     }
     json_open(j, "tips", '[');
     for (int k = 0; k < e->fracture->tips.n; k++) put_tip(j, e->scene, &e->clock, &e->fracture->tips.tip[k]);

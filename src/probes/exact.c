@@ -76,7 +76,7 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
 {
     struct wave_pulse centred = *p;
     centred.at[0] = 0, centred.direction[0] = 1;
-    struct wave_state wave = wave_pulse_at(&centred, &eta, wave_speed(e), 1);
+    struct wave_state wave = wave_pulse_initial_state(&centred, &eta, wave_speed(e), 1);
     v->displacement += factor * wave.displacement;
     v->velocity += factor * wave.velocity;
     v->strain += factor * sign * wave.strain;
@@ -151,7 +151,7 @@ static struct exact_front step_front(const struct exact *e, real t)
                                 .behind = before + jump};
 }
 
-int exact_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS])
+int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS])
 {
     if (e->form == EXACT_STEP_BAR) {
         front[0] = step_front(e, t);
@@ -165,10 +165,10 @@ int exact_stress_fronts(const struct exact *e, real t, struct exact_front front[
     return 2;
 }
 
-bool exact_constant_window(const struct exact *e, real t, enum exact_window part, real *from, real *to)
+bool exact_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *from, real *to)
 {
     struct exact_front front[EXACT_FRONTS];
-    int fronts = exact_stress_fronts(e, t, front);
+    int fronts = exact_compute_stress_fronts(e, t, front);
     real L = length(e), near, far; /* distances from the loaded end */
     if (fronts == 0 || (part == EXACT_PRECURSOR && fronts < 2)) return false;
     bool outward = front[0].ahead == -e->loaded;

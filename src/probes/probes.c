@@ -49,8 +49,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
         columns_by_axis(s, q, "displacement_", dim, "m");
         break;
     case PROBE_POINT:
-        for (int k = 0; k < readings_count(p); k++) {
-            struct column c = reading_column(p, k);
+        for (int k = 0; k < particle_reading_count(p); k++) {
+            struct column c = particle_reading_column(p, k);
             column_add(s, q, c.name, c.unit);
         }
         break;
@@ -105,7 +105,7 @@ int32_t particle_nearest(const struct observed_run *o, const real *X)
     return nearest;
 }
 
-void station_position(const struct probe *q, int dim, int k, real *X)
+void line_probe_station_position(const struct probe *q, int dim, int k, real *X)
 {
     const struct probe_request *r = &q->request;
     real s = r->points > 1 ? (real)k / (r->points - 1) : 0;
@@ -134,7 +134,7 @@ static status bind_line(struct probe *q, const struct observed_run *o)
                           q->request.name);
     q->list = NEW("probes.list", q->request.points, int32_t);
     for (; q->n < q->request.points; q->n++) {
-        station_position(q, dim, (int)q->n, X);
+        line_probe_station_position(q, dim, (int)q->n, X);
         q->list[q->n] = particle_nearest(o, X);
         inside += q->list[q->n] >= 0;
     }
@@ -261,7 +261,7 @@ void probes_free(struct probes *s)
  * probe. Changes nothing but the number if none break in this step; bonds of driven particles do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
-    q->memory.ends = diagnostics_first_break(o->part, q->list, q->n, o->horizon, q->memory.position);
+    q->memory.ends = diagnostics_locate_cuts(o->part, q->list, q->n, o->horizon, q->memory.position);
     if (q->memory.ends == 0) return; /* bonds of driven particles do not count */
     q->memory.first_time = o->t;
     q->memory.first_step = o->load_step;
@@ -320,7 +320,7 @@ void probes_update_every_step(struct probes *s, const struct observed_run *o)
  * tip. */
 static void sample_tip(const struct probe *q, const struct observed_run *o, real *value)
 {
-    const struct crack_tip *tip = probe_tip(q, o->tips);
+    const struct crack_tip *tip = probe_find_tip(q, o->tips);
     int dim = o->part->dim;
     for (int d = 0; d < dim; d++) value[d] = tip ? tip->place[d] : NAN;
     value[dim] = tip ? tip->growth : 0;
@@ -348,7 +348,7 @@ void probes_sample_begin(struct probes *s, const struct observed_run *o)
             probe_reaction(q, o->loads, dim, value, value + dim);
             break;
         case PROBE_POINT:
-            particle_readings(o, q->list[0], value);
+            particle_compute_readings(o, q->list[0], value);
             break;
         case PROBE_ENERGY:
             probes_sample_energy(q, o, value);
@@ -360,7 +360,7 @@ void probes_sample_begin(struct probes *s, const struct observed_run *o)
             bar_compute_results(q->bar, o, value);
             break;
         case PROBE_GROWTH:
-            growing_crack_readings(&o->growth[q->growth], value);
+            growing_crack_compute_readings(&o->growth[q->growth], value);
             break;
         case PROBE_RIGID:
             rigid_probe_sample(q, o, value);

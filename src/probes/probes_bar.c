@@ -43,7 +43,7 @@ static void add_bonds(const struct bar *b, const struct observed_run *o, real *b
     }
 }
 
-void bar_bond_flux(const struct bar *b, const struct observed_run *o, real *flux)
+void bar_compute_bond_flux_stress(const struct bar *b, const struct observed_run *o, real *flux)
 {
     real *between = NEW("probes.between", b->n + 1, real), *end = NEW("probes.end", b->n + 1, real), crossing = 0;
     if (o->bonds && o->bonds->rows > 0) add_bonds(b, o, between, end);
@@ -75,7 +75,7 @@ void bar_measure_fields(struct bar *b, const struct observed_run *o)
         b->velocity[k] = o->part->v[0][i];
     }
     measure_strain(b, o->part);
-    bar_bond_flux(b, o, b->flux);
+    bar_compute_bond_flux_stress(b, o, b->flux);
 }
 
 /* ---- profile ----------------------------------------------------------------------------------------------------- */
@@ -237,17 +237,17 @@ static void fronts(const struct bar *b, const struct observed_run *o, real *valu
 {
     struct exact_front front[EXACT_FRONTS];
     const struct exact *e = &b->exact;
-    int n = exact_stress_fronts(e, o->t, front);
+    int n = exact_compute_stress_fronts(e, o->t, front);
     real from, to;
     if (n > 0) value[FRONT] = front_of(b, o->part, &front[0], b->flux, 1);
     if (n > 0) value[FRONT_STRAIN] = front_of(b, o->part, &front[0], b->strain, e->young);
     if (n > 1) value[FRONT_PLASTIC] = front_of(b, o->part, &front[1], b->flux, 1);
-    if (exact_constant_window(e, o->t, EXACT_PLATEAU, &from, &to)) {
+    if (exact_constant_stress_range(e, o->t, EXACT_PLATEAU, &from, &to)) {
         value[PLATEAU] = mean_between(b, o->part, b->flux, from, to);
         value[STRAIN_PLASTIC] = mean_between(b, o->part, b->strain, from, to);
         value[PLATEAU_STRAIN] = e->young * value[STRAIN_PLASTIC];
     }
-    if (exact_constant_window(e, o->t, EXACT_PRECURSOR, &from, &to))
+    if (exact_constant_stress_range(e, o->t, EXACT_PRECURSOR, &from, &to))
         value[STRAIN_ELASTIC] = mean_between(b, o->part, b->strain, from, to);
 }
 

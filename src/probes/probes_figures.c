@@ -30,9 +30,12 @@ static int law_readings_count(const struct particles *p)
     return (p->plastic_work != NULL) + (p->temperature != NULL);
 }
 
-int readings_count(const struct particles *p) { return 2 * p->dim + stresses_count(p) + 1 + law_readings_count(p); }
+int particle_reading_count(const struct particles *p)
+{
+    return 2 * p->dim + stresses_count(p) + 1 + law_readings_count(p);
+}
 
-struct column reading_column(const struct particles *p, int k)
+struct column particle_reading_column(const struct particles *p, int k)
 {
     const int dim = p->dim;
     struct column c = {.name = "damage", .unit = "1"};
@@ -64,13 +67,13 @@ static real plastic_strain_reading(const struct observed_run *o, int64_t i)
     return by_bonds ? bond_row_plastic_path(b, b->row_of[i]) : o->part->plastic_strain[i];
 }
 
-void particle_readings(const struct observed_run *o, int64_t i, real *value)
+void particle_compute_readings(const struct observed_run *o, int64_t i, real *value)
 {
     const struct particles *p = o->part;
     for (int d = 0; d < p->dim; d++) *value++ = p->x[d][i] - p->X[d][i];
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
     for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][i];
-    if (p->plane_strain) *value++ = particle_plane_strain_stress(p, i);
+    if (p->plane_strain) *value++ = particle_out_of_plane_stress(p, i);
     *value++ = damage_reading(o, i);
     if (p->plastic_work) *value++ = plastic_strain_reading(o, i);
     if (p->temperature) *value++ = p->temperature[i];
@@ -79,7 +82,7 @@ void particle_readings(const struct observed_run *o, int64_t i, real *value)
 const struct column growth_figure[GROWTH_FIGURES] = {
     {"x", "m"}, {"y", "m"}, {"length", "m"}, {"speed", "m/s"}, {"K_eq", "Pa m^(1/2)"}};
 
-void growing_crack_readings(const struct growing_crack *g, real *value)
+void growing_crack_compute_readings(const struct growing_crack *g, real *value)
 {
     const real reading[GROWTH_FIGURES] = {g->place[0], g->place[1], g->grown, g->speed, g->intensity};
     memcpy(value, reading, sizeof reading);
@@ -90,7 +93,7 @@ void growing_crack_readings(const struct growing_crack *g, real *value)
 /* Returns the crack tip that a TIP probe follows at present: the one with its origin nearest to the probe's position
  * `at`, or without `at` that of the longest crack, or the first one if none has grown. NULL if there are no tips. The
  * tip belongs to *t. */
-const struct crack_tip *probe_tip(const struct probe *q, const struct crack_tips *t)
+const struct crack_tip *probe_find_tip(const struct probe *q, const struct crack_tips *t)
 {
     if (t->n == 0) return NULL;
     const struct crack_tip *chosen = q->request.has_at ? NULL : tips_longest(t);
@@ -236,7 +239,7 @@ static void put_position(const struct emitter *e, const real *X)
  * equally long. Reports nothing without a tip. */
 static void figures_tip(const struct emitter *e)
 {
-    const struct crack_tip *tip = probe_tip(e->q, e->o->tips);
+    const struct crack_tip *tip = probe_find_tip(e->q, e->o->tips);
     if (!tip) return;
     const bool moves = e->o->load_step == 0;
     if (moves) probes_figures_put(e, "start_time", tip->start_time);
@@ -246,7 +249,7 @@ static void figures_tip(const struct emitter *e)
     if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
     if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_position(e, tip->place);
-    probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_count_longest(e->o->tips)));
+    probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_count_longest_ends(e->o->tips)));
 }
 
 /* Reports time (or load step) and position of the first break in the region of a BREAK probe, and the number of broken
@@ -308,9 +311,10 @@ static void figures_point(const struct emitter *e)
 {
     const struct particles *p = e->o->part;
     real value[READINGS_MAX];
-    particle_readings(e->o, e->q->list[0], value);
+    particle_compute_readings(e->o, e->q->list[0], value);
     for (int k = 0; k < p->dim && e->sampled; k++) value[p->dim + k] = e->sampled[p->dim + k];
-    for (int k = 0; k < readings_count(p); k++) probes_figures_put(e, reading_column(p, k).name, value[k]);
+    for (int k = 0; k < particle_reading_count(p); k++)
+        probes_figures_put(e, particle_reading_column(p, k).name, value[k]);
 }
 
 /* Reports the least and the largest value of each quantity of a LINE probe over its stations inside the bodies. */
@@ -321,13 +325,13 @@ static void figures_line(const struct emitter *e)
     for (int k = 0; k < READINGS_MAX; k++) low[k] = INFINITY, high[k] = -INFINITY;
     for (int64_t m = 0; m < e->q->n; m++) {
         if (e->q->list[m] < 0) continue;
-        particle_readings(e->o, e->q->list[m], value);
-        for (int k = 0; k < readings_count(p); k++)
+        particle_compute_readings(e->o, e->q->list[m], value);
+        for (int k = 0; k < particle_reading_count(p); k++)
             low[k] = real_min(low[k], value[k]), high[k] = real_max(high[k], value[k]);
     }
-    for (int k = 0; k < readings_count(p); k++) {
+    for (int k = 0; k < particle_reading_count(p); k++) {
         char name[NAME_MAX_LENGTH];
-        struct column c = reading_column(p, k);
+        struct column c = particle_reading_column(p, k);
         snprintf(name, sizeof name, "%.32s_min", c.name);
         probes_figures_put(e, name, low[k]);
         snprintf(name, sizeof name, "%.32s_max", c.name);
@@ -352,7 +356,7 @@ static void figures_momentum(const struct emitter *e)
 
 static void figures_pulse(const struct emitter *e)
 {
-    struct pulse_shares s = pulse_compute_shares(e->q, e->o);
+    struct pulse_shares s = pulse_compute_amplitudes(e->q, e->o);
     probes_figures_put(e, "reflected", s.reflected);
     probes_figures_put(e, "transmitted", s.transmitted);
     probes_figures_put(e, "energy_change", s.energy_change);

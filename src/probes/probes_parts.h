@@ -62,23 +62,23 @@ enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 3 };
 
 /* Returns the number of values that a POINT or LINE probe reports of a particle: components of displacement, velocity
  * and stress, the damage, and what yielding adds. The number depends on the dimension and the arrays of p. */
-int readings_count(const struct particles *p);
+int particle_reading_count(const struct particles *p);
 
 /* Returns the name and unit of value `number` of those that a POINT or LINE probe reports of a particle, 0 <= number <
- * readings_count(p). */
-struct column reading_column(const struct particles *p, int number);
+ * particle_reading_count(p). */
+struct column particle_reading_column(const struct particles *p, int number);
 
 /* Returns the damage of particle i of the run: the share of its bonds that are broken or have softened, by volume
  * [1]. */
 static inline real damage_reading(const struct observed_run *o, int64_t i)
 {
     const struct bonds *b = o->bonds;
-    return o->part->damage[i] + (b ? bonds_row_softening(b, o->part, b->row_of[i]) : 0);
+    return o->part->damage[i] + (b ? bonds_row_softening_damage(b, o->part, b->row_of[i]) : 0);
 }
 
-/* Computes the readings of particle i of the run and stores them in value[readings_count(o->part)], in the order of
- * reading_column. */
-void particle_readings(const struct observed_run *o, int64_t i, real *value);
+/* Computes the readings of particle i of the run and stores them in value[particle_reading_count(o->part)], in the
+ * order of particle_reading_column. */
+void particle_compute_readings(const struct observed_run *o, int64_t i, real *value);
 
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
@@ -124,10 +124,10 @@ int32_t particle_nearest(const struct observed_run *o, const real *X);
 
 /* Computes the reference position X of the station of a LINE probe, dim components [m]. Stations 0 .. points - 1 are
  * equidistant from one end of the line to the other. */
-void station_position(const struct probe *q, int dim, int station, real *X);
+void line_probe_station_position(const struct probe *q, int dim, int station, real *X);
 
 /* Returns the crack tip that a TIP probe follows at present, or NULL if there is none. The tip belongs to *t. */
-const struct crack_tip *probe_tip(const struct probe *q, const struct crack_tips *t);
+const struct crack_tip *probe_find_tip(const struct probe *q, const struct crack_tips *t);
 
 /* Computes the sum of the reactions of all supports (in load steps also loads) of the probe's boundary, force[dim]
  * [N], and the mean displacement of their particles, displacement[dim] [m]. */
@@ -158,7 +158,7 @@ status pulse_probe_start(struct probe *q, const struct observed_run *o);
 
 /* Returns the reflected and transmitted amplitudes of a PULSE probe, relative to its incident amplitude, and the
  * energy change of the present state relative to that of the run on material points alone. */
-struct pulse_shares pulse_compute_shares(const struct probe *q, const struct observed_run *o);
+struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
 /* Tests whether broken bonds separate a bar into two parts along x. If so, stores the position of the plane of
  * separation and the time in q->memory; else changes nothing. */
@@ -174,7 +174,7 @@ extern const struct column growth_figure[GROWTH_FIGURES];
 
 /* Computes the reported quantities of a growing crack (position of its tip, length, speed, equivalent stress-intensity
  * factor) and stores them in value[GROWTH_FIGURES], in the order of growth_figure[]. */
-void growing_crack_readings(const struct growing_crack *g, real *value);
+void growing_crack_compute_readings(const struct growing_crack *g, real *value);
 
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------------------- */
 
@@ -238,7 +238,7 @@ void bar_measure_fields(struct bar *b, const struct observed_run *o);
  * all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond counts fully for
  * particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror images of
  * particles are included. Material points have their Cauchy stress instead. */
-void bar_bond_flux(const struct bar *b, const struct observed_run *o, real *flux);
+void bar_compute_bond_flux_stress(const struct bar *b, const struct observed_run *o, real *flux);
 
 /* Figures of a bar in a fixed order; they are columns of the history, too. */
 enum { BAR_FIGURES_MAX = 16 };

@@ -12,8 +12,8 @@ static void profile_header(FILE *file, const struct particles *p)
 {
     fprintf(file, "s [m]");
     for (int d = 0; d < p->dim; d++) fprintf(file, ",%s [m]", axis_name[d]);
-    for (int k = 0; k < readings_count(p); k++) {
-        struct column c = reading_column(p, k);
+    for (int k = 0; k < particle_reading_count(p); k++) {
+        struct column c = particle_reading_column(p, k);
         fprintf(file, ",%s [%s]", c.name, c.unit);
     }
     fputc('\n', file);
@@ -25,16 +25,16 @@ static void profile_rows(FILE *file, const struct probe *q, const struct observe
 {
     const struct particles *p = o->part;
     real X[DIM_MAX], start[DIM_MAX], value[READINGS_MAX];
-    station_position(q, p->dim, 0, start);
+    line_probe_station_position(q, p->dim, 0, start);
     for (int64_t k = 0; k < q->n; k++) {
         if (q->list[k] < 0) continue;
         real s2 = 0;
-        station_position(q, p->dim, (int)k, X);
+        line_probe_station_position(q, p->dim, (int)k, X);
         for (int d = 0; d < p->dim; d++) s2 += square(X[d] - start[d]);
         fprintf(file, "%.9g", sqrt(s2));
         for (int d = 0; d < p->dim; d++) fprintf(file, ",%.9g", X[d]);
-        particle_readings(o, q->list[k], value);
-        for (int m = 0; m < readings_count(p); m++) fprintf(file, ",%.9g", value[m]);
+        particle_compute_readings(o, q->list[k], value);
+        for (int m = 0; m < particle_reading_count(p); m++) fprintf(file, ",%.9g", value[m]);
         fputc('\n', file);
     }
 }
@@ -81,7 +81,7 @@ static bool has_profile(const struct probe *q)
     return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT;
 }
 
-bool probes_profile_name(const struct probes *s, int which, int frame, char *name)
+bool probes_write_profile_name(const struct probes *s, int which, int frame, char *name)
 {
     for (int k = 0; k < s->n; k++) {
         if (!has_profile(&s->probe[k]) || which-- > 0) continue;

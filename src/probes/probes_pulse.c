@@ -41,7 +41,7 @@ status pulse_probe_start(struct probe *q, const struct observed_run *o)
                       q->request.name);
 }
 
-struct pulse_shares pulse_compute_shares(const struct probe *q, const struct observed_run *o)
+struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o)
 {
     return (struct pulse_shares){
         .reflected = probes_pulse_fastest(q, o->part, o->baseline, -1) / q->memory.incident,

@@ -87,7 +87,7 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
         const int32_t i = q->list[k];
         const real mean = 0.5 * (p->stress[0][i] + p->stress[1][i]);
         const real radius = hypot(0.5 * (p->stress[0][i] - p->stress[1][i]), p->stress[2][i]);
-        *stress = real_max(*stress, real_max(fabs(mean) + radius, fabs(particle_plane_strain_stress(p, i))));
+        *stress = real_max(*stress, real_max(fabs(mean) + radius, fabs(particle_out_of_plane_stress(p, i))));
         *shear = real_max(*shear, radius);
     }
 }

@@ -358,7 +358,7 @@ static bool find_body_force(struct sif_tracked *w, const struct observed_run *o)
         for (int64_t k = 0; k < l->load[b].n && boundary_applies_force(l->load[b].boundary); k++) {
             const int32_t i = l->load[b].particle[k];
             real force[DIM_MAX];
-            load_force_at(&l->load[b], p, k, t, force);
+            load_force_on_particle(&l->load[b], p, k, t, force);
             for (int d = 0; d < 2; d++) w->body[d][i] += force[d] / p->mass[i];
         }
     for (int64_t i = 0; i < p->n; i++) {
@@ -386,7 +386,7 @@ void sif_probe_sample(struct probe *q, const struct observed_run *o, real t_velo
     struct sif_motion m = {.displacement = {w->u[0], w->u[1]}, .stress = {w->stress[0], w->stress[1], w->stress[2]}};
     for (int d = 0; d < 2 && loaded; d++) m.body[d] = w->body[d];
     for (int d = 0; d < 2 && moves; d++) m.velocity[d] = w->mean[d], m.acceleration[d] = w->acceleration[d];
-    sif_integrate(&w->tip, w->contour, w->contours, &m, &w->rule, p, o->cells, found);
+    sif_compute_by_interaction_integral(&w->tip, w->contour, w->contours, &m, &w->rule, p, o->cells, found);
     const real factors[SIF_FIGURES] = {found[0].K[MODE_I], found[0].K[MODE_II], found[0].J,
                                        sif_contour_spread(found + 1, w->contours - 1)};
     memcpy(q->memory.factors, factors, sizeof factors);
@@ -394,7 +394,7 @@ void sif_probe_sample(struct probe *q, const struct observed_run *o, real t_velo
     q->memory.time = o->t;
 }
 
-bool probes_sif_contour(const struct probes *s, int k, const struct observed_run *o, real position[2], real *radius)
+bool probes_get_sif_contour(const struct probes *s, int k, const struct observed_run *o, real position[2], real *radius)
 {
     const struct sif_tracked *w = s->probe[k].sif;
     if (s->probe[k].request.kind != PROBE_SIF || !w) return false;

@@ -31,7 +31,7 @@ void profiles_check(const struct probes *s, const struct output *out, struct war
     char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
     int64_t lost = 0;
     for (int frame = 0; frame < out->series[0].frames; frame++)
-        for (int k = 0; probes_profile_name(s, k, frame, name); k++) {
+        for (int k = 0; probes_write_profile_name(s, k, frame, name); k++) {
             if (path_is_file(path_join(out->folder, name).text)) continue;
             if (lost++ == 0) snprintf(first, sizeof first, "%s", name);
         }
@@ -54,7 +54,7 @@ static bool profile_remove(const char *path)
 void profiles_remove(const struct probes *s, const struct output *out)
 {
     char name[PROFILE_NAME];
-    for (int k = 0; probes_profile_name(s, k, 0, name); k++)
-        for (int frame = 0; probes_profile_name(s, k, frame, name); frame++)
+    for (int k = 0; probes_write_profile_name(s, k, 0, name); k++)
+        for (int frame = 0; probes_write_profile_name(s, k, frame, name); frame++)
             if (!profile_remove(path_join(out->folder, name).text)) break;
 }

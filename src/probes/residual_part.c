@@ -18,7 +18,7 @@ static bool in_patch(const struct scene *s, const real *x)
 static void node_keep(const struct scene *s, const struct grid *g, int64_t I, int64_t at, real *most)
 {
     real x[DIM_MAX];
-    for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
+    for (int d = 0; d < g->dim; d++) x[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
     for (int d = 0; d < g->dim; d++)
         if (in_patch(s, x)) *most = real_max(*most, fabs(g->force[d][I]));
 }

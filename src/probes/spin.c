@@ -56,7 +56,7 @@ static real diagnostics_spin_of(const struct particles *p, const struct mesh *me
         real x[DIM_MAX] = {0}, v[DIM_MAX] = {0};
         if (!(g->mass[I] > 0)) continue;
         for (int d = 0; d < g->dim; d++) {
-            x[d] = grid_position(g, d, mesh_regular_node_of(mesh, I) / g->stride[d] % g->count[d]) +
+            x[d] = grid_node_position(g, d, mesh_regular_node_of(mesh, I) / g->stride[d] % g->count[d]) +
                    mesh->displacement[d][I];
             v[d] = g->velocity[d][I];
         }
@@ -82,7 +82,8 @@ static real diagnostics_spin_of(const struct particles *p, const struct mesh *me
     return real_max(size, LEAST_TURN * sqrt(real_max(0, inertia) * real_max(0, kinetic)));
 }
 
-void diagnostics_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies)
+void diagnostics_update_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
+                                         int bodies)
 {
     real spin[DIM_MAX], missing2 = 0;
     const real size = diagnostics_spin_of(p, mesh, bodies, spin);

@@ -60,7 +60,7 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < s->balance.n; k++)
             if (!(s->balance.held[k] >> d & 1)) s->increment.of[d][k] = growth * s->balance.u.of[d][k];
-    remove_free_rigid_motion(s, &s->increment);
+    field_remove_free_rigid_motion(s, &s->increment);
 }
 
 /* Returns ten times the norm of the bond forces caused by round-off of the positions [N]. */
@@ -69,7 +69,7 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
     real sum = 0;
     for (int64_t r = 0; r < bonds->rows; r++) {
         const int32_t i = bonds->particle[r];
-        const real spring = 0.25 * bonds_row_stiffness_bound(bonds, part, r);
+        const real spring = 0.25 * bonds_row_largest_eigenvalue_bound(bonds, part, r);
         for (int d = 0; d < part->dim; d++) sum += square(spring * part->X[d][i] * DBL_EPSILON);
     }
     return 10 * sqrt(sum);
@@ -146,7 +146,7 @@ static status solve_at(struct run *e, real t, bool *crossed)
     const status found = equilibrium_solve(e, t, account.applied);
     plastic_state_update(e);
     frame_update_points(e->frame, &e->part, &e->loads);
-    loads_update_images(&e->loads, &e->part);
+    loads_update_mirror_images(&e->loads, &e->part);
     const bool touched = statics_in_contact(s, e->contact);
     const real worked = e->loads.work + e->loads.constraint_work,
                range = account_end(&account, s, &e->part, &e->loads, touched ? 0 : s->balance.bent);
@@ -156,7 +156,7 @@ static status solve_at(struct run *e, real t, bool *crossed)
     e->damped += s->balance.lost - lost;
     reactions_store(s, &e->part, &e->loads);
     s->solutions++;
-    statics_precondition_check_cost(s, s->balance.directions - asked);
+    statics_preconditioner_check_cost(s, s->balance.directions - asked);
     return found;
 }
 
@@ -183,13 +183,13 @@ static status solve_whole(struct run *e, real t)
         return solve_substeps(e, t, substeps, &crossed);
     for (int k = 0; k < TRIES_MOST; k++, substeps *= SUBSTEPS_FACTOR) {
         struct memory_archive saved;
-        trial_begin(e, &saved);
+        trial_equilibrium_begin(e, &saved);
         const status solved = solve_substeps(e, t, substeps, &crossed);
         if (solved != OK || !crossed || t == from) {
             memory_archive_free(&saved);
             return solved;
         }
-        trial_undo(e, &saved, NULL);
+        trial_equilibrium_undo(e, &saved, NULL);
     }
     return status_set(FAILED,
                       "load step %lld, t = %.6g s: crack faces pass through each other before equilibrium is reached: "
@@ -203,7 +203,7 @@ status equilibrium_find_at_time(struct run *e, real t)
 {
     TRY(check_stop(e->report, &e->clock));
     TRY(solve_whole(e, t));
-    e->statics->stretch_ratio = largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
+    e->statics->stretch_ratio = bonds_largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
     return OK;
 }
 
@@ -211,7 +211,7 @@ status equilibrium_convert_points(struct run *e, int64_t broken_bonds)
 {
     while (step_convert(e, broken_bonds)) {
         broken_bonds = 0;
-        statics_precondition_free(e->statics);
+        statics_preconditioner_free(e->statics);
         statics_unknowns_free(e->statics);
         statics_unknowns_make(e);
         e->statics->next.n = 0;

@@ -38,21 +38,21 @@ static void unconstrained_update(struct run *e)
 {
     const int before = free_motions(e->statics);
     unconstrained_fragments_find(e);
-    if (free_motions(e->statics) != before) statics_precondition_free(e->statics);
+    if (free_motions(e->statics) != before) statics_preconditioner_free(e->statics);
 }
 
 /* Searches for contact pairs and selects the active contacts. close: gap up to which contacts become active [spacings].
  * Returns the number of changes of the active set. */
 static int64_t statics_contact_search(struct run *e, real close)
 {
-    return contact_search_and_select(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, close);
+    return contact_search_and_select_active(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, close);
 }
 
-void statics_contact_search_first(struct run *e)
+void statics_contact_first_search(struct run *e)
 {
     if (!e->statics->has_contact) return;
     e->contact->marked = true;
-    loads_update_images(&e->loads, &e->part);
+    loads_update_mirror_images(&e->loads, &e->part);
     if (!e->contact->made || !e->contact->touch) statics_contact_search(e, CARRIED);
 }
 
@@ -62,7 +62,7 @@ int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, 
     for (int k = 0; k < s->rigids; k++) {
         const struct rigid_body *r = &rigid->body[k];
         real shift[DIM_MAX];
-        rigid_driven_displacement(r, t, shift);
+        rigid_prescribed_displacement(r, t, shift);
         for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(r->centre[d] + shift[d] - r->x[d]));
     }
     return (int)real_min(SUBSTEPS_MOST, real_max(1, ceil(most / (SUBSTEP_MOST * s->spacing))));
@@ -87,16 +87,16 @@ void statics_contact_begin(struct run *e, real t)
     const bool touched = s->in_contact;
     s->in_contact = false, q->reach = 0;
     if (!e->statics->has_contact) return;
-    statics_contact_search_first(e);
+    statics_contact_first_search(e);
     q->force(e, &q->u, &q->f);
     s->energy = energy_present(e) - (touched ? 0 : contact_energy(e->contact, &e->part));
-    for (int k = 0; k < e->scene->rigids; k++) rigid_set_position(&e->rigid->body[k], t);
+    for (int k = 0; k < e->scene->rigids; k++) rigid_move_to_prescribed_position(&e->rigid->body[k], t);
     s->in_contact = statics_contact_search(e, CARRIED) > 0 || touched;
     s->largest = q->largest;
     if (!s->in_contact) return;
     unconstrained_update(e);
     q->force(e, &q->u, &q->f);
-    q->reach = contact_list_safe_distance(e->contact);
+    q->reach = contact_list_largest_safe_motion(e->contact);
 }
 
 /* Updates contact at the end of a solution: searches for pairs if particles have moved far, else marks active contacts
@@ -109,9 +109,9 @@ bool statics_contact_update_set(void *engine)
     struct contact *c = e->contact;
     if (!e->statics->has_contact) return true;
     unknowns_apply_displacements(s, &e->part, &e->frame->mesh, &s->balance.u);
-    loads_update_images(&e->loads, &e->part);
+    loads_update_mirror_images(&e->loads, &e->part);
     const int64_t changed =
-        contact_search_needed(c, &e->part) ? 1 + statics_contact_search(e, 0) : contact_select(c, &e->part, 0);
+        contact_search_needed(c, &e->part) ? 1 + statics_contact_search(e, 0) : contact_select_active(c, &e->part, 0);
     s->balance.applied = applied_forces_norm(s, &e->part, c);
     s->balance.largest = s->largest;
     if (changed > 0) unconstrained_update(e);
@@ -136,7 +136,7 @@ real statics_contact_end(struct run *e, real work, real lost)
         for (int d = 0; d < e->part.dim; d++)
             range += 0.5 * fabs((e->rigid->body[k].force[d] - e->rigid->body[k].force_previous[d]) *
                                 e->rigid->body[k].increment[d]);
-        rigid_add_work(&e->rigid->body[k]);
+        rigid_add_drive_work(&e->rigid->body[k]);
         work += e->rigid->body[k].work - before;
     }
     if (statics_in_contact(s, e->contact)) q->lost = lost + work - (energy_present(e) - s->energy);

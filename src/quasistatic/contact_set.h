@@ -17,7 +17,7 @@ bool statics_in_contact(const struct statics *s, const struct contact *contact);
 
 /* Searches for pairs in contact before the first solution. Does nothing in scenes without contact and rigid bodies, or
  * if the search has been made. */
-void statics_contact_search_first(struct run *e);
+void statics_contact_first_search(struct run *e);
 
 /* Returns the number of substeps into which the load increment from the present positions of rigid bodies to those at
  * pseudo-time t [s] is divided, so that no rigid body moves by more than 0.2 particle spacings in a substep; at least

@@ -44,7 +44,8 @@ static real symmetry_share(const struct crack_tips *t, const struct bond_source 
     for (int k = 0; k < t->n && on; k++) {
         bool any = false;
         for (int m = 0; m < source->mirrors; m++)
-            any |= (d < 0 || source->mirror[m].axis == d) && tip_is_on_mirror(t, &t->tip[k], &source->mirror[m], 1);
+            any |= (d < 0 || source->mirror[m].axis == d) &&
+                   tip_grows_on_mirror_plane(t, &t->tip[k], &source->mirror[m], 1);
         on = any;
     }
     return on ? 0.5 : 1;
@@ -73,7 +74,7 @@ static real increment_area(const struct scene *s, const struct crack_tips *t, co
                            real front)
 {
     const real ahead = INCREMENT_SPACINGS * (s->dim > 1 ? s->spacing : 1);
-    return symmetry_share(t, source, -1) * ahead * scene_section_factor(s) * front;
+    return symmetry_share(t, source, -1) * ahead * scene_section_or_thickness(s) * front;
 }
 
 /* Returns the number of pairs of bonds that may break between two equilibria: `steps.breaks` for each spacing of the
@@ -131,12 +132,12 @@ static status increment_find_now(struct run *e)
     struct statics *s = e->statics;
     struct memory_archive saved;
     struct crack_increment second;
-    if (sif_cracks_start(e)) {
+    if (sif_cracks_initialise(e)) {
         TRY(sif_increment_find(e));
         if (s->next.n > 0 || s->stretch_ratio <= 1) return OK; /* else bonds break away from the tips */
     }
     if (s->next.n > 0 || s->stretch_ratio < (s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED)) return OK;
-    trial_begin(e, &saved);
+    trial_equilibrium_begin(e, &saved);
     s->next.n = 0;
     status tried = increment_break_try(e, &s->ahead);
     const int64_t bonds = s->next.n;
@@ -144,9 +145,9 @@ static status increment_find_now(struct run *e)
         tried = increment_break_try(e, &second);
         if (second.cost > 0) s->behind = increment_extrapolate_previous(&s->ahead, &second);
     }
-    trial_undo(e, &saved, &s->next);
+    trial_equilibrium_undo(e, &saved, &s->next);
     s->next.n = bonds;
-    s->due = increments_balanced_load(&s->ahead, &s->behind);
+    s->due = increments_energy_balance_load(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -161,20 +162,20 @@ static status increment_find_at_due(struct run *e)
     struct memory_archive saved;
     const real from = s->t;
     const int64_t particles = s->particles;
-    trial_begin(e, &saved);
+    trial_equilibrium_begin(e, &saved);
     status found = OK;
     real previous = 0, previous_share = NAN;
     for (int k = 0; k < SECANTS_MOST && found == OK && s->next.n > 0; k++) {
         const real size = statics_load_size(e, s->t), share = size / s->due;
         if (fabs(share - 1) <= DUE_ERROR || !isfinite(s->due)) break;
         const real secant = size + (1 - share) * (size - previous) / (share - previous_share);
-        found = equilibrium_find_at_time(e, statics_time_of_size(e, secant > 0 ? secant : s->due));
+        found = equilibrium_find_at_time(e, statics_time_of_load_size(e, secant > 0 ? secant : s->due));
         previous = size, previous_share = share;
         s->next.n = 0;
         if (found == OK) found = increment_find_now(e);
     }
     if (s->particles == particles) {
-        trial_undo(e, &saved, NULL);
+        trial_equilibrium_undo(e, &saved, NULL);
         return found;
     }
     memory_archive_free(&saved); /* converted points cannot be restored */
@@ -192,12 +193,12 @@ status crack_increment_find(struct run *e)
 
 status crack_increment_apply_balanced(struct run *e)
 {
-    const real size = increment_balanced_load(&e->statics->ahead);
-    if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_time_of_size(e, size)));
+    const real size = increment_energy_balance_load(&e->statics->ahead);
+    if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_time_of_load_size(e, size)));
     return crack_increment_apply(e);
 }
 
-int64_t crack_increment_break(struct run *e)
+int64_t crack_increment_break_bonds(struct run *e)
 {
     struct statics *s = e->statics;
     const int64_t broken = s->next.n;
@@ -215,4 +216,4 @@ status crack_increment_equilibrate(struct run *e, int64_t broken_bonds)
     return equilibrium_convert_points(e, broken_bonds);
 }
 
-status crack_increment_apply(struct run *e) { return crack_increment_equilibrate(e, crack_increment_break(e)); }
+status crack_increment_apply(struct run *e) { return crack_increment_equilibrate(e, crack_increment_break_bonds(e)); }

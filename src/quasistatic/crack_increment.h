@@ -15,11 +15,11 @@ status crack_increment_apply(struct run *e);
 
 /* Breaks the bonds of the next crack increment and moves the tips of SIF-driven cracks, without finding the new
  * equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken. */
-int64_t crack_increment_break(struct run *e);
+int64_t crack_increment_break_bonds(struct run *e);
 
-/* Finds the equilibrium after crack_increment_break has broken bonds, and converts material points near the crack to
- * peridynamic particles. broken_bonds: number of directed bonds that were broken. Returns FAILED if no equilibrium is
- * found, INTERRUPTED if the run is to stop. */
+/* Finds the equilibrium after crack_increment_break_bonds has broken bonds, and converts material points near the crack
+ * to peridynamic particles. broken_bonds: number of directed bonds that were broken. Returns FAILED if no equilibrium
+ * is found, INTERRUPTED if the run is to stop. */
 status crack_increment_equilibrate(struct run *e, int64_t broken_bonds);
 
 /* Scales the loads to the size at which the next crack increment releases as much energy as it costs, finds the

@@ -12,7 +12,7 @@
 static real rigid_displacement2(const struct rigid_set *r, int n, real t)
 {
     real sum = 0, shift[DIM_MAX];
-    for (int k = 0; k < n; k++) sum += square(rigid_driven_displacement(&r->body[k], t, shift));
+    for (int k = 0; k < n; k++) sum += square(rigid_prescribed_displacement(&r->body[k], t, shift));
     return sum;
 }
 
@@ -30,7 +30,7 @@ real statics_load_size(const struct run *e, real t)
             for (int d = 0; d < e->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
                 if (l->boundary->components >> d & 1) sum += square(prescribed_displacement_at(&by, X, d));
             if (!boundary_applies_force(l->boundary)) continue;
-            load_force_at(l, &e->part, k, t, f);
+            load_force_on_particle(l, &e->part, k, t, f);
             forces += dot(f, f, e->part.dim);
         }
     }
@@ -40,7 +40,7 @@ real statics_load_size(const struct run *e, real t)
 
 enum { SECANTS_MOST = 30 };
 
-real statics_time_of_size(const struct run *e, real size)
+real statics_time_of_load_size(const struct run *e, real size)
 {
     real from = e->statics->t, at_from = statics_load_size(e, from);
     real t = at_from > 0 ? from * size / at_from : from;
@@ -62,15 +62,15 @@ real statics_energy_released(const struct statics *s, const struct bonds *b)
     return bonds_fracture_energy(b) + s->balance.lost;
 }
 
-real increments_balanced_load(const struct crack_increment *a, const struct crack_increment *b)
+real increments_energy_balance_load(const struct crack_increment *a, const struct crack_increment *b)
 {
     const real release = a->release + b->release;
     return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
 }
 
-real increment_balanced_load(const struct crack_increment *a)
+real increment_energy_balance_load(const struct crack_increment *a)
 {
-    return increments_balanced_load(a, &(struct crack_increment){0});
+    return increments_energy_balance_load(a, &(struct crack_increment){0});
 }
 
 struct crack_increment increment_extrapolate_previous(const struct crack_increment *first,

@@ -9,15 +9,15 @@
 
 /* Returns the pseudo-time at which the load size (statics_load_size) equals `size` [s], found by the secant method
  * from the present pseudo-time. The load size is in [m] or [N]. */
-real statics_time_of_size(const struct run *e, real size);
+real statics_time_of_load_size(const struct run *e, real size);
 
 /* Returns the load size at which the crack increments a and b together release as much energy as they cost,
  * sqrt((cost_a + cost_b)/(release_a + release_b)) [m or N]; INFINITY if a has no cost or the two release no energy. */
-real increments_balanced_load(const struct crack_increment *a, const struct crack_increment *b);
+real increments_energy_balance_load(const struct crack_increment *a, const struct crack_increment *b);
 
 /* Returns the load size at which the crack increment a releases as much energy as it costs [m or N]; INFINITY if it
  * has no cost or releases no energy. */
-real increment_balanced_load(const struct crack_increment *a);
+real increment_energy_balance_load(const struct crack_increment *a);
 
 /* Returns a fictitious increment that precedes the first one, as if the pre-crack had grown to its present length by
  * it. Its cost equals that of *first; its release is extrapolated linearly from the first two increments and is at

@@ -40,7 +40,7 @@ enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
  * that loads oscillate about those of a crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
-    return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_balanced_load(&s->ahead)) : s->due;
+    return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_energy_balance_load(&s->ahead)) : s->due;
 }
 
 /* Updates the probes and the largest forces of the rigid bodies for the present equilibrium, a state that the loads
@@ -55,7 +55,7 @@ static void state_sample(struct run *e)
  * message, if there is none. */
 static status go_to_size(struct run *e, real size, real least, real most)
 {
-    return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_size(e, size), least), most));
+    return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_load_size(e, size), least), most));
 }
 
 /* Finds the equilibrium at pseudo-time t [s], or at an earlier one at which bonds come near their critical stretch, and
@@ -69,13 +69,13 @@ static status approach_loads(struct run *e, real t)
     bool far = true;
     for (int k = 0; k < APPROACHES_MOST && far; k++) {
         struct memory_archive saved;
-        trial_begin(e, &saved);
+        trial_equilibrium_begin(e, &saved);
         const status gone = equilibrium_find_at_time(e, t);
         far = gone == OK && s->stretch_ratio > FAR_BEYOND && at_low < NEAR_LEAST;
         if (far) {
             const real share = (NEAR_LIMIT - at_low) / (s->stretch_ratio - at_low);
-            t = real_max(from, statics_time_of_size(e, low + share * (statics_load_size(e, t) - low)));
-            trial_undo(e, &saved, NULL);
+            t = real_max(from, statics_time_of_load_size(e, low + share * (statics_load_size(e, t) - low)));
+            trial_equilibrium_undo(e, &saved, NULL);
         } else
             memory_archive_free(&saved);
         TRY(gone);
@@ -95,7 +95,7 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     const bool follows = increment_load(e->statics, e->diagnostics) <= *size;
     *size = real_max(*size, increment_load(e->statics, e->diagnostics));
     const real loads = statics_load_size(e, t);
-    const bool pays = increment_balanced_load(&s->ahead) <= *size, within = *size < loads;
+    const bool pays = increment_energy_balance_load(&s->ahead) <= *size, within = *size < loads;
     if (within)
         TRY(go_to_size(e, *size, from, t));
     else if (s->t < t && loads >= *size * (1 - ROUND_OFF))
@@ -141,7 +141,7 @@ static status step_by_energy(struct run *e, real most)
     if (s->next.n == 0) TRY(approach_loads(e, t));
     if (s->severs) return OK;
     s->increment_due = s->next.n > 0 && statics_load_size(e, t) >= s->due;
-    if (s->next.n > 0) TRY(equilibrium_find_at_time(e, s->increment_due ? statics_time_of_size(e, s->due) : t));
+    if (s->next.n > 0) TRY(equilibrium_find_at_time(e, s->increment_due ? statics_time_of_load_size(e, s->due) : t));
     s->record.load_most = real_max(s->record.load_most, statics_load_size(e, s->t));
     s->severs = s->increment_due && s->due < THROUGH * s->record.load_most;
     return OK;
@@ -223,9 +223,9 @@ static void load_step_begin(struct run *e)
     struct statics *s = e->statics;
     unconstrained_fragments_find(e);
     if (s->precondition_stale || s->has_contact)
-        statics_precondition_free(s);
+        statics_preconditioner_free(s);
     else if (s->kept && !s->precondition)
-        statics_precondition_make(e);
+        statics_preconditioner_make(e);
     s->kept = false;
     s->directions = 0;
 }
@@ -332,7 +332,7 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
 static void warn_at_end(struct run *e)
 {
     real K[MODES];
-    sif_leading_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
+    sif_leading_tip_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
     warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
     warn_large_flow(&e->warnings, &e->part);
     rigid_bodies_warn_missed(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
@@ -358,10 +358,10 @@ status engine_run_load_steps(struct run *e)
     TRY(report_start(e));
     timers_start(&e->timers);
     if (!e->statics->node) statics_unknowns_make(e); /* a resumed run has them */
-    statics_contact_search_first(e);
+    statics_contact_first_search(e);
     e->statics->gauge[0] = particles_nearest(&e->part, e->scene->steps.from);
     e->statics->gauge[1] = particles_nearest(&e->part, e->scene->steps.to);
-    sif_cracks_start(e); /* for the plane of the tips, which a resumed run lacks */
+    sif_cracks_initialise(e); /* for the plane of the tips, which a resumed run lacks */
     if (e->clock.step == 0) sample_take_in_equilibrium(e);
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;

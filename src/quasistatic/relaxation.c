@@ -13,7 +13,10 @@
 #define ESTIMATE_STEPS 10 /* steps between estimates of damping and residual */
 #define MOTION_SMALL 1e-6 /* ratio of kinetic to strain energy of a body at rest */
 
-real grid_relaxation_ramp(real length, real wave_speed, real dt) { return ceil(2 * length / (wave_speed * dt)) * dt; }
+real grid_relaxation_ramp_time(real length, real wave_speed, real dt)
+{
+    return ceil(2 * length / (wave_speed * dt)) * dt;
+}
 
 /* Adds the sums of m u^2 and m v^2 of particles first .. end - 1 to sum[0] and sum[1]; a block function of
  * reproducible_sums. context: the particles. */
@@ -91,7 +94,7 @@ static void damp_velocities(struct particles *p, const struct loads *loads, int 
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->gradient[k][i] *= keep;
     }
-    loads_update_images(loads, p);
+    loads_update_mirror_images(loads, p);
 }
 
 status grid_relaxation_step(struct run *e, bool *done)

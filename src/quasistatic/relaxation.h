@@ -6,7 +6,7 @@
 
 /* Returns the time over which loads grow to their full value [s]: the smallest whole number of time steps dt [s] in
  * which a wave with the speed wave_speed [m/s] travels twice the length of the body, `length` [m]. */
-real grid_relaxation_ramp(real length, real wave_speed, real dt);
+real grid_relaxation_ramp_time(real length, real wave_speed, real dt);
 
 /* Makes one damped time step towards equilibrium. Sets *done to true if the body has reached equilibrium, else leaves
  * *done unchanged. Returns FAILED if the step fails or is unstable. */

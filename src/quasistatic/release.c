@@ -73,7 +73,7 @@ static void velocities_scale(struct particles *p, struct mesh *mesh, const struc
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= share;
         for (int64_t I = 0; mesh->points > 0 && I < g->n; I++) g->velocity[d][I] *= share;
     }
-    loads_update_images(loads, p);
+    loads_update_mirror_images(loads, p);
 }
 
 /* Returns the kinetic energy of particles and mesh [J]. */
@@ -86,7 +86,7 @@ static real kinetic_present(const struct particles *part, const struct reference
  * bonds that break. Returns FAILED, with a message, if the motion diverges. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {
-    const real crossing = (particles_longest_edge(&e->part) + e->scene->spacing) /
+    const real crossing = (particles_bounding_box_longest_edge(&e->part) + e->scene->spacing) /
                           e->tables.wave_speed; /* time in which a wave crosses the body [s] */
     const real quiet = CROSSINGS_QUIET * crossing, damping = 2 / crossing;
     const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing / e->clock.dt);
@@ -119,7 +119,7 @@ status crack_increment_apply_dynamic(struct run *e)
     struct statics *s = e->statics;
     const struct run_clock clock = e->clock;
     const real before = energy_budget(e), damped = e->damped;
-    const int64_t broken = crack_increment_break(e);
+    const int64_t broken = crack_increment_break_bonds(e);
     int64_t more;
     velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     boundaries_freeze(e->scene, e->boundary, s->t);
@@ -138,7 +138,7 @@ status crack_increment_apply_dynamic(struct run *e)
     if (more > 0) sif_tips_stop_all(&s->sif);
     const real lost = before - energy_budget(e);
     s->balance.lost += lost, e->damped = damped + lost;
-    statics_precondition_free(s);
+    statics_preconditioner_free(s);
     statics_unknowns_free(s);
     statics_unknowns_make(e);
     return crack_increment_equilibrate(e, broken + more);

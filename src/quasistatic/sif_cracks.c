@@ -1,9 +1,9 @@
 /* Tips of SIF-driven cracks: position, stress-intensity factors, direction of growth.
  *
  * A tip grows in the direction of the largest hoop stress of its stress-intensity factors (Erdogan & Sih 1963;
- * crack_kink_angle). The factors are fitted in a frame that follows the direction of growth over a smoothing length:
- * a tip that turned at once, and whose factors were then fitted in a ring that its kink has not yet crossed, would
- * oscillate (fracture/growth.h). Where a pre-crack kinks, the crack grows straight on until the ring contains
+ * crack_kink_angle_of_sif). The factors are fitted in a frame that follows the direction of growth over a smoothing
+ * length: a tip that turned at once, and whose factors were then fitted in a ring that its kink has not yet crossed,
+ * would oscillate (fracture/growth.h). Where a pre-crack kinks, the crack grows straight on until the ring contains
  * nothing but the new segment. */
 #include <math.h>
 #include <string.h>
@@ -27,11 +27,11 @@
 
 enum { INCREMENT_SPACINGS = 2 };
 
-bool sif_tip_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip)
+bool sif_tip_is_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip)
 {
     real ahead[2];
     sif_point_ahead(tip->position, plane->spacing, tip->last, ahead);
-    return sif_plane_on_mirror(plane, tip->position, ahead);
+    return sif_plane_segment_is_on_mirror(plane, tip->position, ahead);
 }
 
 /* ---- factors ----------------------------------------------------------------------------------------------------- */
@@ -45,7 +45,8 @@ static const struct material *material_at(const struct sif_cracks *l, const stru
     for (int64_t i = 0; i < p->n; i++) {
         if (p->body[i] != tip->body) continue;
         sif_plane_project_particle(&l->plane, p, i, X);
-        if (sif_distance(X, tip->position) < least) least = sif_distance(X, tip->position), nearest = i;
+        if (sif_plane_point_distance(X, tip->position) < least)
+            least = sif_plane_point_distance(X, tip->position), nearest = i;
     }
     return &l->scene->material[p->material[nearest]];
 }
@@ -104,7 +105,7 @@ bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles 
     view.crack = crack;
     const bool seen = crack_tip_fit_sif(&view, p, K);
     crack_segments_free(crack, view.cracks);
-    if (sif_tip_along_mirror(&l->plane, tip)) K[MODE_II] = 0;
+    if (sif_tip_is_along_mirror(&l->plane, tip)) K[MODE_II] = 0;
     if (faces_in_contact) K[MODE_I] = real_max(K[MODE_I], 0); /* the fit takes contact forces for stress */
     return seen;
 }
@@ -116,7 +117,7 @@ void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles
         for (int d = 0; d < 2; d++) tip->heading[d] = tip->last[d];
         return;
     }
-    const real angle = crack_kink_angle(tip->K), c = cos(angle), s = sin(angle), *a = tip->along;
+    const real angle = crack_kink_angle_of_sif(tip->K), c = cos(angle), s = sin(angle), *a = tip->along;
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
@@ -132,14 +133,15 @@ static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool 
     return first;
 }
 
-void sif_leading_factors(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact, real K[MODES])
+void sif_leading_tip_factors(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact,
+                             real K[MODES])
 {
     const struct sif_crack_tip *first = tip_longest(l, true);
     K[MODE_I] = K[MODE_II] = NAN;
     if (first) sif_tip_compute_factors(l, p, first, faces_in_contact, K);
 }
 
-void sif_leading_position(const struct sif_cracks *l, real position[DIM_MAX])
+void sif_leading_tip_position(const struct sif_cracks *l, real position[DIM_MAX])
 {
     const struct sif_plane *plane = &l->plane;
     const struct sif_crack_tip *first = tip_longest(l, false);
@@ -166,7 +168,8 @@ static real intersection_share(const struct crack *c, const real *a, const real 
 /* Returns true if one end of crack c is within `within` [m] of the tip, as is one end of the tip's own last segment. */
 static bool crack_ends_at_tip(const struct crack *c, const struct sif_crack_tip *tip, real within)
 {
-    return sif_distance(c->corner[0], tip->position) <= within || sif_distance(c->corner[1], tip->position) <= within;
+    return sif_plane_point_distance(c->corner[0], tip->position) <= within ||
+           sif_plane_point_distance(c->corner[1], tip->position) <= within;
 }
 
 void sif_tip_next_position(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
@@ -206,7 +209,8 @@ static bool body_continues(const struct sif_cracks *l, const struct particles *p
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[2];
         sif_plane_project_particle(&l->plane, p, i, X);
-        free_ones += p->body[i] == tip->body && !(p->flag[i] & FLAG_DRIVEN) && sif_distance(X, ahead) <= REACH * h;
+        free_ones +=
+            p->body[i] == tip->body && !(p->flag[i] & FLAG_DRIVEN) && sif_plane_point_distance(X, ahead) <= REACH * h;
     }
     return wide > 0 && free_ones >= 2 * floor(wide);
 }
@@ -242,13 +246,13 @@ void sif_tip_move(struct sif_cracks *l, const struct particles *p, int k)
     const real h = l->plane.spacing;
     real to[2];
     sif_tip_next_position(l, p, tip, to);
-    const real growth = sif_distance(to, tip->position);
+    const real growth = sif_plane_point_distance(to, tip->position);
     sif_path_add(l, k, to);
     tip_frame_turn(tip, growth, h);
     for (int d = 0; d < 2; d++) tip->last[d] = tip->heading[d], tip->position[d] = to[d];
     tip->grown += growth, tip->length_behind += growth;
     sif_tip_next_position(l, p, tip, to);
-    tip->ended = !body_continues(l, p, tip) || sif_distance(to, tip->position) < REST * h;
+    tip->ended = !body_continues(l, p, tip) || sif_plane_point_distance(to, tip->position) < REST * h;
 }
 
 void sif_tips_stop_all(struct sif_cracks *l)

@@ -40,7 +40,7 @@ real sif_plane_crack_area(const struct sif_plane *plane, const struct particles 
 
 /* Returns true if the segment between the points `from` and `to` of the plane, two coordinates each [m], lies on a
  * plane of symmetry. */
-bool sif_plane_on_mirror(const struct sif_plane *plane, const real *from, const real *to);
+bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *from, const real *to);
 
 /* Computes the point ahead = from + distance * along. from: point of the plane of the tips [m]; along: unit vector in
  * the plane; distance and result in [m]. */
@@ -50,13 +50,13 @@ static inline void sif_point_ahead(const real *from, real distance, const real *
 }
 
 /* Returns the distance between the points a and b of the plane, two coordinates each [m]. */
-static inline real sif_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
+static inline real sif_plane_point_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
 /* ---- tips (sif_cracks.c)
  * ------------------------------------------------------------------------------------------------ */
 
 /* Returns true if the crack segment that ends at the tip lies on a plane of symmetry. */
-bool sif_tip_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
+bool sif_tip_is_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
  * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
@@ -85,13 +85,13 @@ void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles
 void sif_tip_move(struct sif_cracks *l, const struct particles *p, int tip);
 
 /* Computes the stress-intensity factors of the tip that has grown most among those that can still grow, and stores them
- * in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are in contact. Call sif_cracks_start
+ * in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are in contact. Call sif_cracks_initialise
  * before. */
-void sif_leading_factors(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact, real K[2]);
+void sif_leading_tip_factors(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact, real K[2]);
 
 /* Stores the reference position of the tip that has grown most in position[] [m]; in three dimensions that of the
  * middle of its front. Stores NAN if there is no tip. */
-void sif_leading_position(const struct sif_cracks *l, real position[DIM_MAX]);
+void sif_leading_tip_position(const struct sif_cracks *l, real position[DIM_MAX]);
 
 /* Sets `ended` of all tips, so that none grows any more. Call this function if bonds have broken away from the tips,
  * since the tips then no longer describe the cracks. */
@@ -104,7 +104,7 @@ void sif_cracks_free(struct sif_cracks *l);
 
 /* Breaks the intact bonds that cross the last part of the pre-crack behind a tip, at no cost of energy. Needed after a
  * tip has been moved off a row of particles (sif_start.c). */
-void sif_tip_break_behind(struct run *e, const struct sif_crack_tip *tip);
+void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
 
 /* Determines the next crack increment of the SIF-driven cracks under the present loads. For each tip that can grow, a
  * trial equilibrium with the bonds of its increment broken gives the energy that is released. Stores the bonds to
@@ -119,6 +119,6 @@ void sif_tips_advance(struct sif_cracks *l, const struct particles *p);
 
 /* Finds the plane and the tips of the pre-cracks on the first call. Returns true if a tip can grow; false also if the
  * cracks of the scene are not SIF-driven, with the reason in sif.fault of e->statics. */
-bool sif_cracks_start(struct run *e);
+bool sif_cracks_initialise(struct run *e);
 
 #endif

@@ -30,12 +30,12 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     bool close = false;
     sif_plane_project_particle(&l->plane, p, b->particle[r], X);
     for (int w = 0; w < segments->n; w++)
-        close |= crack_may_cut_near(&segments->crack[w], X, l->source->family.cutoff, 2);
+        close |= crack_may_cut_bonds_near(&segments->crack[w], X, l->source->family.cutoff, 2);
     for (struct bond_iterator it = bond_iterator_of_row(b, r); close && bond_next(&it);) {
         bool cut = false;
         if (it.bond.w == 0) continue;
         sif_plane_project_particle(&l->plane, p, it.bond.nbr, Y);
-        for (int w = 0; w < segments->n; w++) cut |= crack_cuts(&segments->crack[w], X, Y, 2);
+        for (int w = 0; w < segments->n; w++) cut |= crack_cuts_bond(&segments->crack[w], X, Y, 2);
         if (!cut) continue;
         const struct broken_bond record = bond_make_record(b, p, &l->source->limit, &it.bond, r);
         break_list_add(list, &record);
@@ -87,7 +87,7 @@ static real segment_bonds(const struct sif_cracks *l, const struct bonds *b, con
     return cost;
 }
 
-void sif_tip_break_behind(struct run *e, const struct sif_crack_tip *tip)
+void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip)
 {
     const struct sif_cracks *l = &e->statics->sif;
     const real length = real_min(tip->length_behind, e->source.family.cutoff + 2 * e->scene->spacing);
@@ -180,10 +180,10 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct break_list *l)
 {
     struct memory_archive saved;
-    trial_begin(e, &saved);
+    trial_equilibrium_begin(e, &saved);
     status tried = list_break_try(e, l, &tip->ahead);
     if (tried == OK && tip->grown == 0) tried = behind_first_set(e, tip);
-    trial_undo(e, &saved, l);
+    trial_equilibrium_undo(e, &saved, l);
     return tried;
 }
 
@@ -213,7 +213,7 @@ static void increment_choose(struct statics *s, struct break_list *list)
         s->ahead.cost += tip->ahead.cost, s->ahead.release += tip->ahead.release;
         s->behind.cost += tip->behind.cost, s->behind.release += tip->behind.release;
     }
-    s->due = increments_balanced_load(&s->ahead, &s->behind);
+    s->due = increments_energy_balance_load(&s->ahead, &s->behind);
 }
 
 /* Recomputes the energy release of the selected tips, if there are several, by breaking their bonds together: they
@@ -231,12 +231,12 @@ static status increment_try_together(struct run *e)
     for (int k = 0; k < s->sif.n; k++)
         if (s->sif.tip[k].selected) selected++, grown = grown && s->sif.tip[k].grown > 0;
     if (selected < 2) return OK;
-    trial_begin(e, &saved);
+    trial_equilibrium_begin(e, &saved);
     const status tried = list_break_try(e, &s->next, &s->ahead);
-    trial_undo(e, &saved, &s->next);
+    trial_equilibrium_undo(e, &saved, &s->next);
     for (int k = 0; k < s->sif.n && separate > 0; k++)
         if (s->sif.tip[k].selected) s->sif.tip[k].ahead.release *= s->ahead.release / separate;
-    if (grown) s->due = increments_balanced_load(&s->ahead, &s->behind);
+    if (grown) s->due = increments_energy_balance_load(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -251,7 +251,7 @@ static status tip_try(struct run *e, struct sif_crack_tip *tip, struct break_lis
     tip->ended = list->n == 0;
     if (tip->ended) return OK;
     TRY(segment_try(e, tip, list));
-    tip->due = increments_balanced_load(&tip->ahead, &tip->behind);
+    tip->due = increments_energy_balance_load(&tip->ahead, &tip->behind);
     return OK;
 }
 

@@ -225,7 +225,7 @@ real sif_plane_width(const struct sif_plane *plane, const struct particles *p, c
     return sum / SAMPLES;
 }
 
-bool sif_plane_on_mirror(const struct sif_plane *plane, const real *from, const real *to)
+bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *from, const real *to)
 {
     bool on = false;
     for (int k = 0; k < plane->mirrors; k++) {
@@ -239,5 +239,5 @@ bool sif_plane_on_mirror(const struct sif_plane *plane, const real *from, const 
 real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to)
 {
     const real length = hypot(to[0] - from[0], to[1] - from[1]);
-    return length * sif_plane_width(plane, p, from, to) * (sif_plane_on_mirror(plane, from, to) ? 0.5 : 1);
+    return length * sif_plane_width(plane, p, from, to) * (sif_plane_segment_is_on_mirror(plane, from, to) ? 0.5 : 1);
 }

@@ -22,16 +22,16 @@ static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *t
         real at[2][DIM_MAX] = {{0}};
         sif_plane_intersect_crack(&l->plane, &s->crack[k], at);
         for (int end = 0; end < 2; end++) {
-            if (sif_distance(at[end], tip->position) > HERE * s->spacing) continue;
-            tip->length_behind = real_max(tip->length_behind, sif_distance(at[0], at[1]));
+            if (sif_plane_point_distance(at[end], tip->position) > HERE * s->spacing) continue;
+            tip->length_behind = real_max(tip->length_behind, sif_plane_point_distance(at[0], at[1]));
             tip->reversed |= end == 0;
         }
     }
 }
 
-/* Moves a tip on a row of particles sideways to half the distance to the next row. crack_cuts assigns the particles of
- * a row on a crack to one of its faces; the tip is moved to the side on which bonds are cut, so that round-off does not
- * decide further growth. Returns true if the tip has been moved. */
+/* Moves a tip on a row of particles sideways to half the distance to the next row. crack_cuts_bond assigns the
+ * particles of a row on a crack to one of its faces; the tip is moved to the side on which bonds are cut, so that
+ * round-off does not decide further growth. Returns true if the tip has been moved. */
 static bool tip_off_row(const struct sif_plane *plane, const struct particles *p, struct sif_crack_tip *tip)
 {
     const real h = plane->spacing, *along = tip->along;
@@ -47,7 +47,7 @@ static bool tip_off_row(const struct sif_plane *plane, const struct particles *p
         next = aside < ON_ROW * h ? next : real_min(next, aside);
     }
     const real below = (tip->reversed ? 0.5 : -0.5) * next;
-    if (on < ROW_LEAST || next < ROWS_APART * h || sif_tip_along_mirror(plane, tip)) return false;
+    if (on < ROW_LEAST || next < ROWS_APART * h || sif_tip_is_along_mirror(plane, tip)) return false;
     tip->position[0] -= below * along[1], tip->position[1] += below * along[0];
     memcpy(tip->start, tip->position, sizeof tip->start);
     return true;
@@ -72,7 +72,7 @@ static void sif_tips_start(struct run *e)
             tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
         }
         crack_behind_tip(l, tip);
-        if (tip_off_row(&l->plane, &e->part, tip)) sif_tip_break_behind(e, tip);
+        if (tip_off_row(&l->plane, &e->part, tip)) sif_tip_break_bonds_behind(e, tip);
     }
 }
 
@@ -86,7 +86,7 @@ const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *pla
     *plane = (struct sif_plane){.made = true,
                                 .dim = e->part.dim,
                                 .spacing = s->spacing,
-                                .section = scene_section_factor(s),
+                                .section = scene_section_or_thickness(s),
                                 .body_mirrors = e->source.mirrors,
                                 .body_mirror = e->source.mirror};
     if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
@@ -105,7 +105,7 @@ status sif_growth_check(const struct run *e)
                  : OK;
 }
 
-bool sif_cracks_start(struct run *e)
+bool sif_cracks_initialise(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
     l->scene = e->scene, l->source = &e->source;

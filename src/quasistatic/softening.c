@@ -15,8 +15,8 @@ enum { BISECTIONS_MOST = 100 };
 static void softening_list_add(struct softening_list *l, const struct bonds *b, const struct particles *p, int64_t row,
                                const struct bond *bond, real factor)
 {
-    const struct bond_softness soft = bond_softness_get(&b->soft, bond->entry);
-    const real stretch = bond_stretch_earlier(p, bond->inverse_length, b->particle[row], bond->nbr, 0);
+    const struct bond_softness soft = bond_softness_load(&b->soft, bond->entry);
+    const real stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, b->particle[row], bond->nbr, 0);
     GROW("softening.bonds", l->bond, l->n + 1);
     l->bond[l->n++] =
         (struct softening_bond){bond->entry, stretch / factor, real_max(b->soft.settled[bond->entry], soft.onset),
@@ -27,9 +27,9 @@ void softening_list_make(struct softening_list *l, const struct bonds *b, const 
 {
     l->n = 0, l->curve = b->soft.curve;
     for (int64_t row = 0; row < b->rows; row++) {
-        if (!row_block_softens(b, row / LANES)) continue;
+        if (!row_block_has_softening(b, row / LANES)) continue;
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
-            if (it.bond.w != 0 && bond_softens(b, row / LANES, it.bond.entry))
+            if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
                 softening_list_add(l, b, p, row, &it.bond, factor);
     }
 }
@@ -37,7 +37,7 @@ void softening_list_make(struct softening_list *l, const struct bonds *b, const 
 /* Returns the energy that a bond has dissipated once its largest stretch is k [J]. */
 static real spent_at(const struct softening_list *l, const struct softening_bond *bond, real k)
 {
-    return bond->energy * softening_spent(l->curve, bond->onset, bond->end, k);
+    return bond->energy * softening_dissipated_energy(l->curve, bond->onset, bond->end, k);
 }
 
 real softening_list_spent(const struct softening_list *l, real factor)
@@ -92,26 +92,28 @@ static void settle_bond(struct bonds *b, const struct particles *p, const struct
         return;
     }
     b->soft.settled[q] = 0;
-    bond_softness_put(&b->soft, q, bond_softness_closed(bond_range_of(p, limit, b->particle[row], bond->nbr)));
+    bond_softness_store(&b->soft, q,
+                        bond_softness_initial(bond_softening_range(p, limit, b->particle[row], bond->nbr)));
 }
 
 void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
-    if (!b->soft.settled) b->soft.settled = memory_new_lazy_zero("bonds.settled", b->room * LANES, sizeof(float));
+    if (!b->soft.settled) b->soft.settled = memory_new_lazy_zeroed("bonds.settled", b->room * LANES, sizeof(float));
     for (int64_t row = 0; row < b->rows; row++) {
-        if (!row_block_softens(b, row / LANES)) continue;
+        if (!row_block_has_softening(b, row / LANES)) continue;
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
-            if (it.bond.w != 0 && bond_softens(b, row / LANES, it.bond.entry)) settle_bond(b, p, limit, row, &it.bond);
+            if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
+                settle_bond(b, p, limit, row, &it.bond);
     }
 }
 
 void softening_undo(struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
-        if (!row_block_softens(b, row / LANES)) continue;
+        if (!row_block_has_softening(b, row / LANES)) continue;
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             const int64_t q = it.bond.entry;
-            if (it.bond.w != 0 && bond_softens(b, row / LANES, q))
+            if (it.bond.w != 0 && bond_is_softening(b, row / LANES, q))
                 b->soft.most[q] = fmaxf(b->soft.settled[q], b->soft.onset[q]);
         }
     }

@@ -101,7 +101,7 @@ static status search_run(struct run *e, struct search *f)
             const real factor = secants_choose(f, size > 0 ? last / size : 1);
             f->residual = k > 0 ? residual_now(f->q) : 1;
             if (f->residual <= enough && fabs(factor - 1) <= FACTOR_ERROR) return OK;
-            t = f->at_end ? f->end : statics_time_of_size(e, factor * size);
+            t = f->at_end ? f->end : statics_time_of_load_size(e, factor * size);
         }
         account_start(&now, s, &e->part);
         s->balance.tolerance = real_max(tolerance, real_min(SOLVED_LEAST, SOLVED_TO * f->residual));
@@ -127,7 +127,7 @@ static status step_try(struct run *e, real t, real spent)
     struct memory_archive saved;
     struct account account;
     struct search f = {&s->balance, &e->bonds, &e->part, &e->source.limit, .spent = spent, .end = t};
-    trial_begin(e, &saved);
+    trial_equilibrium_begin(e, &saved);
     account_start(&account, s, &e->part);
     const real worked = e->loads.work + e->loads.constraint_work,
                stored = e->kernels.bond_energy(&e->bonds, &e->part) + bonds_fracture_energy(&e->bonds);
@@ -136,7 +136,7 @@ static status step_try(struct run *e, real t, real spent)
     if (found != OK) {
         account_free(&account);
         softening_undo(&e->bonds);
-        trial_undo(e, &saved, NULL);
+        trial_equilibrium_undo(e, &saved, NULL);
         return found;
     }
     memory_archive_free(&saved);
@@ -163,12 +163,12 @@ static real least_toughness(const struct scene *s, const struct bond_source *sou
 static real area_of_step(const struct scene *s, const struct particles *p)
 {
     real shortest = INFINITY, low, high;
-    if (p->dim == 1) return LENGTH_SHARE * scene_section_factor(s);
+    if (p->dim == 1) return LENGTH_SHARE * scene_section_or_thickness(s);
     for (int d = 0; d < p->dim; d++) {
         particles_coordinate_range(p, p->n, d, &low, &high);
         shortest = real_min(shortest, high - low + s->spacing);
     }
-    return LENGTH_SHARE * s->spacing * (p->dim == 2 ? scene_section_factor(s) : shortest);
+    return LENGTH_SHARE * s->spacing * (p->dim == 2 ? scene_section_or_thickness(s) : shortest);
 }
 
 /* Under control by energy the first step ends where bonds begin to soften: on a coarse lattice that may be the largest
@@ -193,7 +193,7 @@ status softening_step(struct run *e, real t)
     s->precondition_stale = true, s->fragments_stale |= ended > 0;
     reactions_store(s, &e->part, &e->loads);
     s->solutions++;
-    s->stretch_ratio = largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
+    s->stretch_ratio = bonds_largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
     const real size = statics_load_size(e, s->t);
     s->record.load_most = real_max(s->record.load_most, size);
     s->severs = by_energy && size < THROUGH * s->record.load_most;

@@ -30,10 +30,11 @@ status engine_static_solver_make(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct static_body body = static_body_of(e);
-    const real ramp_time = s->method == METHOD_PD ? 1
-                                                  : grid_relaxation_ramp(particles_longest_edge(&e->part) + s->spacing,
-                                                                         e->tables.wave_speed, e->clock.dt);
-    loads_make_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
+    const real ramp_time = s->method == METHOD_PD
+                               ? 1
+                               : grid_relaxation_ramp_time(particles_bounding_box_longest_edge(&e->part) + s->spacing,
+                                                           e->tables.wave_speed, e->clock.dt);
+    static_boundaries_make(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
     TRY(static_solver_make(e->solver, &body, ramp_time));
     if (s->method == METHOD_PD)
         static_solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
@@ -98,7 +99,7 @@ static void solver_finish(struct run *e)
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->v[d], 0, p->n_all, sizeof(real));
     for (int k = 0; k < p->dim * p->dim && (e->optional & WITH_GRADIENT); k++)
         array_fill_bytes(p->gradient[k], 0, p->n_all, sizeof(real));
-    loads_update_images(&e->loads, p);
+    loads_update_mirror_images(&e->loads, p);
     loads_compute_static_work(&e->loads, p);
     memset(e->loads.impulse, 0, sizeof e->loads.impulse);
     e->clock.t = e->scene->duration;
@@ -108,7 +109,7 @@ static void solver_finish(struct run *e)
     sample_update_probes(e);
     e->solver->past_limit = bonds_past_limit(&e->bonds, p, &limit);
     warn_past_limit(&e->warnings, e->solver->past_limit);
-    compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     warn_large_strain(&e->warnings, p, e->scene->material);
 }
 

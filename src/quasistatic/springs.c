@@ -79,7 +79,7 @@ static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
     const struct particles *p = &s->e->part;
     real n[DIM_MAX] = {0}, K[DIM_MAX][DIM_MAX], sign[DIM_MAX];
     const struct movers own = movers_list(s, i), other = movers_of_end(s, bond->nbr, sign);
-    const real kept = bond_kept_share(&s->e->bonds, s->e->bonds.row_of[i] / LANES, bond->entry, TINY);
+    const real kept = bond_remaining_stiffness_fraction(&s->e->bonds, s->e->bonds.row_of[i] / LANES, bond->entry, TINY);
     for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
     for (int k = 0; k < own.n; k++) {
         const real stiffness = s->e->bonds.stiffness * bond->w * kept * bond->inverse_length * own.share[k] *
@@ -241,7 +241,7 @@ static void matrix_scale(struct block_matrix *a)
 }
 
 /* Returns the stiffness matrix of the present bonds, cells and contacts, scaled. It is freed by
- * statics_precondition_free. */
+ * statics_preconditioner_free. */
 static struct block_matrix *matrix_make(const struct run *e)
 {
     const struct statics *s = e->statics;
@@ -274,7 +274,7 @@ static struct block_matrix *matrix_make(const struct run *e)
 /* ---- the preconditioner ------------------------------------------------------------------------------------------ */
 
 /* Frees the preconditioner of load steps, if there is one. */
-void statics_precondition_free(struct statics *s)
+void statics_preconditioner_free(struct statics *s)
 {
     if (s->precondition) multigrid_free(s->precondition);
     s->precondition = NULL;
@@ -286,7 +286,7 @@ void statics_precondition_free(struct statics *s)
     s->matrix = NULL;
 }
 
-void statics_precondition_make(struct run *e)
+void statics_preconditioner_make(struct run *e)
 {
     struct statics *s = e->statics;
     real *place[DIM_MAX] = {0};
@@ -302,21 +302,21 @@ void statics_precondition_make(struct run *e)
     s->directions = 0, s->precondition_stale = false;
 }
 
-void statics_precondition_apply(void *engine, const struct field *r, struct field *z)
+void statics_preconditioner_apply(void *engine, const struct field *r, struct field *z)
 {
     struct run *e = engine;
-    if (!e->statics->precondition) statics_precondition_make(e);
+    if (!e->statics->precondition) statics_preconditioner_make(e);
     multigrid_apply(e->statics->precondition, r->of, z->of);
-    remove_free_rigid_motion(e->statics, z);
+    field_remove_free_rigid_motion(e->statics, z);
 }
 
 /* Frees the preconditioner if the last solution needed far more search directions than the first one with it: more than
  * 1.5 times as many plus 8. directions: number of directions of the last solution. */
-void statics_precondition_check_cost(struct statics *s, int64_t directions)
+void statics_preconditioner_check_cost(struct statics *s, int64_t directions)
 {
     if (!s->precondition) return;
     if (s->directions == 0)
         s->directions = directions;
     else if (2 * directions > 3 * s->directions + 16)
-        statics_precondition_free(s);
+        statics_preconditioner_free(s);
 }

@@ -8,18 +8,18 @@
 /* Computes z = M^-1 r, M being the preconditioner (callback `precondition` of solver/equilibrium.h), and removes the
  * free rigid motions of unconstrained fragments from z. Makes the preconditioner if there is none. engine: a struct
  * run; r: residual forces [N]; z: result. */
-void statics_precondition_apply(void *engine, const struct field *r, struct field *z);
+void statics_preconditioner_apply(void *engine, const struct field *r, struct field *z);
 
 /* Makes the multigrid preconditioner from the stiffness of the present bonds, cells and contacts, and stores it in
  * e->statics. */
-void statics_precondition_make(struct run *e);
+void statics_preconditioner_make(struct run *e);
 
 /* Frees the preconditioner if bonds that have broken since it was made have made it inefficient. directions: number of
  * search directions of the last solution. The limit is 1.5 times that of the first solution with the preconditioner,
  * plus 8 (empirical). */
-void statics_precondition_check_cost(struct statics *s, int64_t directions);
+void statics_preconditioner_check_cost(struct statics *s, int64_t directions);
 
 /* Frees the preconditioner. Does nothing if there is none. */
-void statics_precondition_free(struct statics *s);
+void statics_preconditioner_free(struct statics *s);
 
 #endif

@@ -24,7 +24,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
                          "bonds of material %s yield before they break, so that a crack dissipates %.3g J/m^2; elastic "
                          "bonds of the same critical stretch would dissipate %.3g J/m^2",
                          s->material[m].name, toughness_of_material(&e->source.family, s->model, &s->material[m]),
-                         family_crossing_energy(&e->source.family, &s->material[m]));
+                         family_crack_energy_per_area(&e->source.family, &s->material[m]));
     if (!scene_is_single_equilibrium(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
@@ -33,7 +33,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
         if (dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0)
             warnings_add(to, "a static equilibrium has no velocities: the velocity of body %s is ignored",
                          s->body[b].name);
-    if ((s->bodies > 1 || (s->cracks > 0 && s->method != METHOD_MPM)) && !scene_accepts(s, ACCEPT_CONTACT))
+    if ((s->bodies > 1 || (s->cracks > 0 && s->method != METHOD_MPM)) && !scene_silences_warning(s, ACCEPT_CONTACT))
         warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
                          "where they close; if they do not close: accept: [contact]");
     if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
@@ -51,16 +51,16 @@ static void put_load_steps(const struct run *e, struct json *j)
     const struct statics *s = e->statics;
     if (!scene_has_load_steps(e->scene)) return;
     json_open(j, "load_steps", '{');
-    json_text(j, "control", control[e->scene->steps.control]);
-    json_count(j, "steps", e->clock.step);
-    json_real(j, "load_time", s->t);
-    json_count(j, "equilibria", s->solutions);
-    json_count(j, "search_directions", s->balance.directions);
-    json_real(j, "stretch_ratio", s->stretch_ratio);
-    json_count(j, "bonds_broken", e->diagnostics->bonds_broken / 2);
-    json_real(j, "released", s->record.released);
-    json_real(j, "crack_area", s->record.area);
-    json_real(j, "release_rate", s->record.area > 0 ? s->record.released / s->record.area : NAN);
+    json_write_text(j, "control", control[e->scene->steps.control]);
+    json_write_integer(j, "steps", e->clock.step);
+    json_write_real(j, "load_time", s->t);
+    json_write_integer(j, "equilibria", s->solutions);
+    json_write_integer(j, "search_directions", s->balance.directions);
+    json_write_real(j, "stretch_ratio", s->stretch_ratio);
+    json_write_integer(j, "bonds_broken", e->diagnostics->bonds_broken / 2);
+    json_write_real(j, "released", s->record.released);
+    json_write_real(j, "crack_area", s->record.area);
+    json_write_real(j, "release_rate", s->record.area > 0 ? s->record.released / s->record.area : NAN);
     json_close(j, '}');
 }
 

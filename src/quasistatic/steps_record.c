@@ -83,10 +83,10 @@ static void measure(struct run *e)
 {
     const struct statics *s = e->statics;
     struct steps_record *r = &e->statics->record;
-    const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section_factor(e->scene),
+    const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section_or_thickness(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
     const real path = sif_paths_area(&s->sif, &e->part),
-               spacing = growth_by_spacing(&e->fracture->tips, scene_section_factor(e->scene));
+               spacing = growth_by_spacing(&e->fracture->tips, scene_section_or_thickness(e->scene));
     const bool solid = e->part.dim == 3 && path == 0;
     const real damaged = solid ? r->broken : tips_crack_area(&e->fracture->tips, &e->part, &around);
     const bool by_path = path > 0 && damaged <= path + 1.5 * spacing;
@@ -116,8 +116,8 @@ void statics_write_record(struct run *e, real *record)
                                                          (real)(s->balance.directions - s->record.directions),
                                                          (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
-    sif_leading_factors(&s->sif, &e->part, crack_faces_are_in_contact(e->contact), record + COUNT_OF(own));
-    sif_leading_position(&s->sif, place);
+    sif_leading_tip_factors(&s->sif, &e->part, crack_faces_are_in_contact(e->contact), record + COUNT_OF(own));
+    sif_leading_tip_position(&s->sif, place);
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 

@@ -17,7 +17,7 @@
 static real stretch_ratio_of(const struct particles *p, const struct bond_limit *limit, const struct bond *bond,
                              int32_t i)
 {
-    const real stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
+    const real stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, 0);
     return stretch / bond_breaking_stretch(p, limit, i, bond->nbr);
 }
 
@@ -43,7 +43,7 @@ static real row_block_stretch_ratio(const struct bonds *b, const struct particle
     return most;
 }
 
-real largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     const real weakest = critical_stretch_least(limit, p);
     real most = 0;
@@ -72,7 +72,7 @@ static real half_energy_to_limit(const struct bonds *b, const struct particles *
         hardening = b->yield.hardening[b->pair[bond->entry]];
         yield = b->yield.stretch[b->pair[bond->entry]] + hardening * b->plastic_path[bond->entry];
     }
-    const real work = bond_stretch_work(real_max(0, elastic), yield, hardening);
+    const real work = bond_work_to_stretch(real_max(0, elastic), yield, hardening);
     return 0.5 * b->stiffness * bond->w * work / bond->inverse_length;
 }
 
@@ -187,7 +187,8 @@ int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pai
     for (int64_t k = had; k < l->n && e->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
     for (int64_t k = had; k < l->n; k++) {
         *cost += l->bond[k].held;
-        *area += l->bond[k].held / toughness_between(e->scene, &e->source, &e->part, l->bond[k].i, l->bond[k].j);
+        *area +=
+            l->bond[k].held / toughness_between_particles(e->scene, &e->source, &e->part, l->bond[k].i, l->bond[k].j);
     }
     memory_free(o.ratio);
     memory_free(o.record);
@@ -207,7 +208,7 @@ void bonds_break_listed(struct run *e, const struct break_list *l)
         bond_record_break(&e->bonds, &e->part, e->source.limit, record);
         more += *booked - before - record->held;
         e->statics->record.broken +=
-            record->held / toughness_between(e->scene, &e->source, &e->part, record->i, record->j);
+            record->held / toughness_between_particles(e->scene, &e->source, &e->part, record->i, record->j);
         *booked = before + record->held;
     }
     e->statics->balance.lost += more, e->damped += more;

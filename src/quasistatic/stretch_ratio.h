@@ -8,7 +8,7 @@
 
 /* Returns the largest ratio of stretch to critical stretch among all intact bonds [1]. limit: rule for the critical
  * stretch. */
-real largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
+real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those whose ratio differs from the
  * largest one by at most the fraction `tolerance` [1], but no more than `max_pairs` pairs of particles and the pairs

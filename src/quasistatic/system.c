@@ -67,12 +67,12 @@ static void forces_present(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
     if (has_mesh) frame_update_exposed_points(e->frame, &e->part);
-    loads_update_images(&e->loads, &e->part);
+    loads_update_mirror_images(&e->loads, &e->part);
     loads_clear_forces(&e->loads, &e->part);
     plastic_state_restore(&e->statics->plastic, &e->bonds, &e->part,
                           e->optional); /* that of the last equilibrium, whatever positions have been evaluated since */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_force(e->contact, &e->part, 0);
+    contact_compute_forces(e->contact, &e->part, 0);
     applied_add(e->statics, &e->loads, &e->part);
     if (has_mesh) frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
@@ -91,7 +91,7 @@ static void statics_forces(void *context, const struct field *u, struct field *f
         for (int64_t k = 0; k < s->balance.n; k++)
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
     }
-    remove_free_rigid_motion(s, f);
+    field_remove_free_rigid_motion(s, f);
 }
 
 void plastic_state_update(struct run *e)
@@ -115,7 +115,7 @@ void statics_unknowns_make(struct run *e)
     struct statics *s = e->statics;
     const struct newton_solver kept = s->balance; /* its counters and losses are kept */
     s->balance = (struct newton_solver){.force = statics_forces,
-                                        .precondition = statics_precondition_apply,
+                                        .precondition = statics_preconditioner_apply,
                                         .settle = statics_contact_update_set,
                                         .laws = statics_contact_choose_laws,
                                         .context = e,
@@ -144,7 +144,7 @@ void statics_unknowns_free(struct statics *s)
 
 void statics_free(struct statics *s)
 {
-    statics_precondition_free(s);
+    statics_preconditioner_free(s);
     statics_unknowns_free(s);
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
     memory_archive_free(&s->plastic);

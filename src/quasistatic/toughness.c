@@ -3,7 +3,7 @@
 
 #include "toughness.h"
 
-real bond_stretch_work(real elastic_stretch, real yield_stretch, real hardening_ratio)
+real bond_work_to_stretch(real elastic_stretch, real yield_stretch, real hardening_ratio)
 {
     const real beyond = real_max(0, elastic_stretch - yield_stretch), slope = hardening_ratio / (1 + hardening_ratio);
     return 0.5 * square(elastic_stretch - beyond) + (beyond > 0 ? beyond * (yield_stretch + 0.5 * slope * beyond) : 0);
@@ -13,9 +13,9 @@ real toughness_of_material(const struct family *family, enum model model, const 
 {
     const bool given = model != MODEL_BOND && !isnan(m->energy_release_rate);
     if (given) return m->energy_release_rate;
-    const real elastic = family_crossing_energy(family, m), limit = m->critical_stretch;
+    const real elastic = family_crack_energy_per_area(family, m), limit = m->critical_stretch;
     if (!material_yields(m) || !isfinite(limit)) return elastic;
-    const real taken = bond_stretch_work(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
+    const real taken = bond_work_to_stretch(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
     return elastic * taken / (0.5 * square(limit));
 }
 
@@ -37,11 +37,11 @@ static real toughness_of_pair(const struct scene *s, const struct bond_source *s
     const real limit = source->limit.critical_stretch[a * s->materials + b];
     if (a == b || s->model != MODEL_BOND || material_yields(one) || material_yields(other)) return least;
     const real c = family_micro_modulus(family, one), d = family_micro_modulus(family, other);
-    return family_crossing_energy(family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
+    return family_crack_energy_per_area(family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
 }
 
-real toughness_between(const struct scene *s, const struct bond_source *source, const struct particles *p, int64_t i,
-                       int64_t j)
+real toughness_between_particles(const struct scene *s, const struct bond_source *source, const struct particles *p,
+                                 int64_t i, int64_t j)
 {
     return toughness_of_pair(s, source, p->material[i], p->material[j]) * square(bond_strength_factor(p, i, j));
 }

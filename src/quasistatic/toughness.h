@@ -13,14 +13,14 @@ real toughness_of_material(const struct family *family, enum model model, const 
 /* Returns the crack energy per area between the particles i and j [J/m^2]: that of their common material; for two
  * materials that of their interface if the scene defines it, else that of the weaker material. Where the strength of
  * bonds scatters, the value is multiplied by the square of the relative strength of the bond i-j. */
-real toughness_between(const struct scene *s, const struct bond_source *source, const struct particles *p, int64_t i,
-                       int64_t j);
+real toughness_between_particles(const struct scene *s, const struct bond_source *source, const struct particles *p,
+                                 int64_t i, int64_t j);
 
 /* Returns the work that stretches a bond from zero force by the elastic stretch `elastic_stretch` beyond its plastic
  * stretch, divided by the stiffness and length of the bond [1]. The force grows linearly up to the stretch
  * `yield_stretch` [1] (INFINITY: the bond does not yield), then with the slope h/(1 + h), where h = `hardening_ratio`
  * is the ratio of plastic modulus to stiffness [1], as in a bar with linear isotropic hardening (Simo & Hughes 1998,
  * section 1.2). */
-real bond_stretch_work(real elastic_stretch, real yield_stretch, real hardening_ratio);
+real bond_work_to_stretch(real elastic_stretch, real yield_stretch, real hardening_ratio);
 
 #endif

@@ -22,7 +22,7 @@ static status trial_archive(struct run *e, struct archive *a)
     return statics_save_or_load(e, a);
 }
 
-void trial_begin(struct run *e, struct memory_archive *m)
+void trial_equilibrium_begin(struct run *e, struct memory_archive *m)
 {
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
     memory_archive_make(m, ARCHIVE_TRIAL);
@@ -30,7 +30,7 @@ void trial_begin(struct run *e, struct memory_archive *m)
     INVARIANT(saved == OK);
 }
 
-void trial_undo(struct run *e, struct memory_archive *m, const struct break_list *broken)
+void trial_equilibrium_undo(struct run *e, struct memory_archive *m, const struct break_list *broken)
 {
     if (broken) bonds_restore_broken(e->statics, &e->bonds, &e->part, broken);
     memory_archive_rewind(m);
@@ -41,6 +41,6 @@ void trial_undo(struct run *e, struct memory_archive *m, const struct break_list
                        e->optional); /* a nested trial may have saved a different one */
     unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     frame_update_points(e->frame, &e->part, &e->loads);
-    loads_update_images(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
+    loads_update_mirror_images(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
     reactions_store(e->statics, &e->part, &e->loads);
 }

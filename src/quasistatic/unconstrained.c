@@ -237,8 +237,9 @@ static void mirror_nodes_resist(const struct search *s)
         if (k < 0 || !(mesh->grid.mass[node->node] > 0)) continue;
         for (int d = 0; d < dim; d++) {
             const int64_t stride = mesh->grid.stride[d], count = mesh->grid.count[d];
-            x[d] = grid_position(&mesh->grid, d, node->node / stride % count) + mesh->displacement[d][node->node];
-            y[d] = grid_position(&mesh->grid, d, node->image / stride % count) + mesh->displacement[d][node->image];
+            x[d] = grid_node_position(&mesh->grid, d, node->node / stride % count) + mesh->displacement[d][node->node];
+            y[d] =
+                grid_node_position(&mesh->grid, d, node->image / stride % count) + mesh->displacement[d][node->image];
         }
         for (int a = 0; a < m; a++) {
             motion_at(&s->candidate[s->fragment[k]], dim, a, x, u);
@@ -435,7 +436,7 @@ void unconstrained_fragments_free(struct statics *s)
     s->fragment = NULL, s->fragments = 0;
 }
 
-void remove_free_rigid_motion(const struct statics *s, struct field *v)
+void field_remove_free_rigid_motion(const struct statics *s, struct field *v)
 {
     const int dim = s->balance.dim;
 #pragma omp parallel for schedule(dynamic)

@@ -19,6 +19,6 @@ status unconstrained_fragments_check(const struct statics *s, const struct parti
 
 /* Removes from the field v (nodal forces or displacements) its components along the free rigid motions of the
  * unconstrained fragments, by orthogonal projection. */
-void remove_free_rigid_motion(const struct statics *s, struct field *v);
+void field_remove_free_rigid_motion(const struct statics *s, struct field *v);
 
 #endif

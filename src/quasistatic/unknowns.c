@@ -141,7 +141,7 @@ void unknown_position(const struct statics *s, const struct particles *p, const 
     }
     const int64_t at = mesh_regular_node_of(mesh, i);
     for (int d = 0; d < p->dim; d++)
-        X[d] = grid_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
+        X[d] = grid_node_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
@@ -185,7 +185,7 @@ void applied_forces_compute(struct statics *s, const struct particles *p, const 
         const struct load *l = &loads->load[b];
         for (int64_t k = 0; boundary_applies_force(l->boundary) && k < l->n; k++) {
             real force[DIM_MAX];
-            load_force_at(l, p, k, t, force);
+            load_force_on_particle(l, p, k, t, force);
             for (int d = 0; d < p->dim; d++) s->applied[d][l->particle[k]] += force[d];
         }
     }
@@ -207,7 +207,7 @@ void reactions_store(const struct statics *s, const struct particles *p, struct 
 {
     for (int b = 0; b < loads->n; b++) {
         struct load *l = &loads->load[b];
-        if (boundary_applies_force(l->boundary)) load_sum_force_and_motion(l, p, s->t);
+        if (boundary_applies_force(l->boundary)) load_sum_force_and_mean_displacement(l, p, s->t);
         if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
         const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, s->t);
         memset(l->reaction, 0, sizeof l->reaction);

@@ -28,21 +28,21 @@ static void products(const struct run *e, real t, real u, real *product)
         const int64_t stride = 1 + l->n / LOAD_PARTICLES;
         for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k += stride) {
             real x[DIM_MAX], y[DIM_MAX];
-            load_displacement_at(l, &e->part, k, t, x);
-            load_displacement_at(l, &e->part, k, u, y);
+            load_displacement_of_particle(l, &e->part, k, t, x);
+            load_displacement_of_particle(l, &e->part, k, u, y);
             product[DISPLACEMENTS] += (real)stride * dot(x, y, dim);
         }
         for (int64_t k = 0; k < l->n && boundary_applies_force(l->boundary); k += stride) {
             real f[DIM_MAX], g[DIM_MAX];
-            load_force_at(l, &e->part, k, t, f);
-            load_force_at(l, &e->part, k, u, g);
+            load_force_on_particle(l, &e->part, k, t, f);
+            load_force_on_particle(l, &e->part, k, u, g);
             product[FORCES] += (real)stride * dot(f, g, dim);
         }
     }
     for (int k = 0; k < e->scene->rigids; k++) {
         real x[DIM_MAX], y[DIM_MAX];
-        rigid_driven_displacement(&e->rigid->body[k], t, x);
-        rigid_driven_displacement(&e->rigid->body[k], u, y);
+        rigid_prescribed_displacement(&e->rigid->body[k], t, x);
+        rigid_prescribed_displacement(&e->rigid->body[k], u, y);
         product[DISPLACEMENTS] += dot(x, y, dim);
     }
 }
@@ -132,7 +132,7 @@ static status worst_try(struct run *e, real t, real *at, real *ratio)
     return OK;
 }
 
-status engine_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio)
+status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio)
 {
     struct worst worst[SORTS] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
     struct found found[SORTS] = {{0}};

@@ -116,7 +116,7 @@ status film_read(struct film *f, const char *folder, const struct scene *scene)
         frame_free(&frame);
     }
     memory_free(list);
-    film_fields_settle(f);
+    film_fields_choose_ranges(f);
     if (s != OK) film_free(f);
     return s;
 }
@@ -142,7 +142,7 @@ static void frames_use(struct film *f, int most)
 /* Divides the particles of all particle sets of the film into groups, by the present levels and thinning. */
 static void film_group(struct film *f)
 {
-    for (int k = 0; k < f->sets; k++) film_set_group(&f->set[k], f);
+    for (int k = 0; k < f->sets; k++) film_set_form_groups(&f->set[k], f);
 }
 
 /* Returns true if the film, with its present frames, fields and groups, takes at most `budget` bytes. */
@@ -169,7 +169,7 @@ static void film_fill(struct film *f, int64_t budget)
     frames_use(f, used);
 }
 
-void film_fit(struct film *f, int64_t budget)
+void film_fit_to_budget(struct film *f, int64_t budget)
 {
     frames_use(f, FILM_FRAMES_MOST);
     film_group(f);
@@ -203,8 +203,8 @@ static void write_positions(struct page *p, const struct film_set *s, int d)
     for (int64_t g = 0; g < s->groups; g++)
         if (!s->hidden[g]) stored[n++] = (uint16_t)lround(high > low ? U16_MOST * (mean[g] - low) / (high - low) : 0);
     json_open(&p->json, NULL, '{');
-    json_number(&p->json, "low", low, JSON_TIMING);
-    json_number(&p->json, "high", high, JSON_TIMING);
+    json_write_rounded(&p->json, "low", low, JSON_TIMING);
+    json_write_rounded(&p->json, "high", high, JSON_TIMING);
     page_add_array(p, "of", PAGE_U16, stored, n);
     json_close(&p->json, '}');
     memory_free(stored), memory_free(mean);
@@ -243,8 +243,8 @@ static void write_film_set(struct page *p, const struct film *f, const struct fi
                            const struct output_frame *frame, const char *path)
 {
     json_open(&p->json, NULL, '{');
-    json_count(&p->json, "particles", s->n);
-    json_count(&p->json, "n", s->shown);
+    json_write_integer(&p->json, "particles", s->n);
+    json_write_integer(&p->json, "n", s->shown);
     json_open(&p->json, "X", '[');
     for (int d = 0; d < f->dim; d++) write_positions(p, s, d);
     json_close(&p->json, ']');
@@ -281,13 +281,13 @@ static void write_fields(struct page *p, const struct film *f)
         const struct film_field *field = &f->field[k];
         if (!film_field_is_shown(f, field)) continue;
         json_open(&p->json, NULL, '{');
-        json_text(&p->json, "name", field->of->name);
-        json_text(&p->json, "unit", field->of->unit);
-        json_text(&p->json, "scale", scale[field->of->scale]);
-        json_number(&p->json, "low", field->low, JSON_TIMING);
-        json_number(&p->json, "high", field->high, JSON_TIMING);
-        json_number(&p->json, "least", field->least, JSON_TIMING);
-        json_number(&p->json, "most", field->most, JSON_TIMING);
+        json_write_text(&p->json, "name", field->of->name);
+        json_write_text(&p->json, "unit", field->of->unit);
+        json_write_text(&p->json, "scale", scale[field->of->scale]);
+        json_write_rounded(&p->json, "low", field->low, JSON_TIMING);
+        json_write_rounded(&p->json, "high", field->high, JSON_TIMING);
+        json_write_rounded(&p->json, "least", field->least, JSON_TIMING);
+        json_write_rounded(&p->json, "most", field->most, JSON_TIMING);
         json_close(&p->json, '}');
     }
     json_close(&p->json, ']');
@@ -304,10 +304,10 @@ static status write_frame(struct page *p, const struct film *f, const struct fil
         return status_set(FAILED, "%s changed while it was read; try again", path.text);
     }
     json_open(&p->json, NULL, '{');
-    json_count(&p->json, "number", shown->listed.number);
-    json_count(&p->json, "step", shown->step);
-    json_number(&p->json, "t", shown->listed.time, JSON_TIMING);
-    json_count(&p->json, "set", shown->set);
+    json_write_integer(&p->json, "number", shown->listed.number);
+    json_write_integer(&p->json, "step", shown->step);
+    json_write_rounded(&p->json, "t", shown->listed.time, JSON_TIMING);
+    json_write_integer(&p->json, "set", shown->set);
     json_open(&p->json, "u", '[');
     for (int d = 0; d < f->dim; d++) write_displacements(p, f, s, frame.u[d], d);
     json_close(&p->json, ']');
@@ -325,13 +325,13 @@ static status write_frame(struct page *p, const struct film *f, const struct fil
 status film_write(struct page *p, const struct film *f)
 {
     json_open(&p->json, "film", '{');
-    json_count(&p->json, "dim", f->dim);
-    json_number(&p->json, "spacing", f->spacing, JSON_TIMING);
-    json_count(&p->json, "listed", f->listed);
-    json_count(&p->json, "levels", f->levels);
-    json_count(&p->json, "every", f->every);
+    json_write_integer(&p->json, "dim", f->dim);
+    json_write_rounded(&p->json, "spacing", f->spacing, JSON_TIMING);
+    json_write_integer(&p->json, "listed", f->listed);
+    json_write_integer(&p->json, "levels", f->levels);
+    json_write_integer(&p->json, "every", f->every);
     json_open(&p->json, "reach", '[');
-    for (int d = 0; d < f->dim; d++) json_number(&p->json, NULL, f->reach[d], JSON_TIMING);
+    for (int d = 0; d < f->dim; d++) json_write_rounded(&p->json, NULL, f->reach[d], JSON_TIMING);
     json_close(&p->json, ']');
     write_fields(p, f);
     film_rigids_write(p, f);

@@ -1,5 +1,5 @@
 /* The frames of a run as a page shows them: selected frames, particle sets that frames share, fields and their ranges.
- * A page has a budget of bytes; film_fit keeps it. */
+ * A page has a budget of bytes; film_fit_to_budget keeps it. */
 #ifndef CLEAVE_REPORT_FILM
 #define CLEAVE_REPORT_FILM
 
@@ -69,7 +69,7 @@ struct film {
 status film_read(struct film *f, const char *folder, const struct scene *scene);
 
 /* Selects frames, fields and groups so that the film takes at most `budget` bytes. */
-void film_fit(struct film *f, int64_t budget);
+void film_fit_to_budget(struct film *f, int64_t budget);
 
 /* Writes the film to the page as the entry `film`. Returns FAILED if a frame cannot be read again. */
 status film_write(struct page *p, const struct film *f);
@@ -79,7 +79,7 @@ void film_free(struct film *f);
 
 /* Divides the particles of a set into groups (film_groups.c): cells of up to 2^f->levels particles along an edge that
  * are not busy, and have the same kind and fragment in every frame, become one group. */
-void film_set_group(struct film_set *s, const struct film *f);
+void film_set_form_groups(struct film_set *s, const struct film *f);
 
 /* Returns the size of group `group` [m]. */
 double film_group_size(const struct film_set *s, const struct film *f, int64_t group);
@@ -91,7 +91,7 @@ void film_fields_list(struct film *f);
 void film_fields_scan(struct film *f, const struct output_frame *frame, const char *path);
 
 /* Chooses the ranges that are stored, and drops fields that are the same everywhere. */
-void film_fields_settle(struct film *f);
+void film_fields_choose_ranges(struct film *f);
 
 /* Returns the number of bytes of all stored fields that change, for one group in one frame. */
 int film_fields_bytes(const struct film *f);

@@ -84,7 +84,7 @@ static void field_settle(struct film_field *field)
     if (damage) field->low = 0, field->high = 1;
 }
 
-void film_fields_settle(struct film *f)
+void film_fields_choose_ranges(struct film *f)
 {
     for (int k = 0; k < f->fields; k++) field_settle(&f->field[k]);
 }

@@ -84,7 +84,7 @@ static void film_groups_fill(struct film_set *s, const struct film *f, const dou
     memory_free(m);
 }
 
-void film_set_group(struct film_set *s, const struct film *f)
+void film_set_form_groups(struct film_set *s, const struct film *f)
 {
     double from[DIM_MAX] = {0};
     for (int d = 0; d < f->dim; d++) {

@@ -22,7 +22,7 @@ static void particles_box(const struct film *f, real *low, real *high)
 static void write_vector(struct page *p, const char *key, const real *value, int n)
 {
     json_open(&p->json, key, '[');
-    for (int k = 0; k < n; k++) json_number(&p->json, NULL, value[k], JSON_TIMING);
+    for (int k = 0; k < n; k++) json_write_rounded(&p->json, NULL, value[k], JSON_TIMING);
     json_close(&p->json, ']');
 }
 
@@ -34,7 +34,7 @@ static void write_surface(struct page *p, const struct rigid_surface *s, int dim
     float *X = NEW("report.X", s->points * dim, float), *corner = NEW("report.corner", corners, float);
     for (int64_t k = 0; k < s->points * dim; k++) X[k] = (float)s->X[k / dim * DIM_MAX + k % dim];
     for (int64_t k = 0; k < corners; k++) corner[k] = (float)s->corner[k];
-    json_count(&p->json, "corners", s->corners);
+    json_write_integer(&p->json, "corners", s->corners);
     page_add_array(p, "X", PAGE_F32, X, s->points * dim);
     page_add_array(p, "corner", PAGE_F32, corner, corners);
     memory_free(X), memory_free(corner);
@@ -54,7 +54,7 @@ void film_rigids_write(struct page *p, const struct film *f)
             (void)rigid_box_shown(&body->shape, f->dim, low, high);
             rigid_surface_make(&surface, &body->shape, f->dim, low, high);
             json_open(&p->json, NULL, '{');
-            json_text(&p->json, "name", body->name);
+            json_write_text(&p->json, "name", body->name);
             write_vector(p, "centre", at[b].centre, f->dim);
             write_surface(p, &surface, f->dim);
             json_close(&p->json, '}');

@@ -49,9 +49,9 @@ static void write_base64(FILE *to, const unsigned char *bytes, size_t length)
 void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t n)
 {
     json_open(&p->json, key, '{');
-    json_count(&p->json, "array", p->count);
-    json_text(&p->json, "type", types[type].name);
-    json_count(&p->json, "length", n);
+    json_write_integer(&p->json, "array", p->count);
+    json_write_text(&p->json, "type", types[type].name);
+    json_write_integer(&p->json, "length", n);
     json_close(&p->json, '}');
     fprintf(p->arrays, "<script type=\"text/plain\" id=\"array%d\">", p->count++);
     write_base64(p->arrays, values, (size_t)n * types[type].size);
@@ -74,7 +74,7 @@ void page_add_text_file(struct page *p, const char *key, const char *folder, con
     size_t length;
     const struct path path = path_join(folder, name);
     if (!path_is_file(path.text) || file_read_whole(path.text, &text, &length) != OK) return;
-    json_text(&p->json, key, text);
+    json_write_text(&p->json, key, text);
     memory_free(text);
 }
 
@@ -83,7 +83,7 @@ void page_add_time(struct page *p, const char *key, time_t at)
     char text[64];
     struct tm tm;
     if (gmtime_r(&at, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0)
-        json_text(&p->json, key, text);
+        json_write_text(&p->json, key, text);
 }
 
 /* Writes a text as the content of an HTML element, with < and & escaped. */

@@ -48,7 +48,7 @@ static status page_destination(struct path *path, const struct report_request *r
     if (out[length - 1] == '/') TRY(folder_make(path->text));
     if (path_is_folder(path->text)) *path = path_join(path->text, PAGE_NAME);
     TRY(file_check_replaceable(path->text));
-    if (r->overwrite || !path_exists(path->text) || page_file_is_own(path->text)) return OK;
+    if (r->overwrite || !path_exists(path->text) || page_file_is_from_cleave(path->text)) return OK;
     return status_set(REFUSED, "%s exists and is no page of cleave; choose another -o, or replace it with --overwrite",
                       printable_name(path->text).text);
 }
@@ -57,10 +57,10 @@ static status page_destination(struct path *path, const struct report_request *r
  * made. */
 static void write_origin(struct page *p, const struct report_request *r)
 {
-    json_text(&p->json, "folder", r->folder);
-    json_text(&p->json, "version", CLEAVE_VERSION);
-    json_text(&p->json, "commit", program_commit());
-    json_text(&p->json, "machine", machine_processor_name());
+    json_write_text(&p->json, "folder", r->folder);
+    json_write_text(&p->json, "version", CLEAVE_VERSION);
+    json_write_text(&p->json, "commit", program_commit());
+    json_write_text(&p->json, "machine", machine_processor_name());
     page_add_time(p, "made", time(NULL));
 }
 

@@ -36,7 +36,7 @@ static void write_unit(void *context, const char *key, double value)
     char unit[UNIT_ROOM];
     (void)value;
     study_result_unit(unit, sizeof unit, u->header, key);
-    if (unit[0]) json_text(&u->page->json, key, unit);
+    if (unit[0]) json_write_text(&u->page->json, key, unit);
 }
 
 static void write_figures(struct page *p, const char *folder, const char *header)
@@ -46,7 +46,7 @@ static void write_figures(struct page *p, const char *folder, const char *header
     const struct path summary = path_join(folder, "summary.json");
     page_add_text_file(p, "summary", folder, "summary.json");
     json_open(&p->json, "units", '{');
-    if (path_is_file(summary.text)) (void)summary_numbers(folder, write_unit, &u);
+    if (path_is_file(summary.text)) (void)summary_visit_numbers(folder, write_unit, &u);
     json_close(&p->json, '}');
     if (stat(summary.text, &s) == 0) page_add_time(p, "ended", s.st_mtime);
 }
@@ -65,12 +65,13 @@ static status write_history(struct page *p, const char *folder, const char *head
     const int64_t rows = h.rows > 0 ? (h.rows - 1 + stride - 1) / stride + 1 : 0;
     float *column = NEW("report.column", rows, float);
     json_open(&p->json, "history", '{');
-    json_text(&p->json, "header", header);
-    json_count(&p->json, "listed", h.rows);
-    json_count(&p->json, "rows", rows);
+    json_write_text(&p->json, "header", header);
+    json_write_integer(&p->json, "listed", h.rows);
+    json_write_integer(&p->json, "rows", rows);
     json_open(&p->json, "columns", '[');
     for (int c = 0; c < h.columns; c++) {
-        for (int64_t k = 0; k < rows; k++) column[k] = (float)history_at(&h, k < rows - 1 ? k * stride : h.rows - 1, c);
+        for (int64_t k = 0; k < rows; k++)
+            column[k] = (float)history_value_at(&h, k < rows - 1 ? k * stride : h.rows - 1, c);
         page_add_array(p, NULL, PAGE_F32, column, rows);
     }
     json_close(&p->json, ']');
@@ -90,7 +91,7 @@ static void write_pre_cracks(struct page *p, const struct scene *s)
         json_open(&p->json, NULL, '[');
         for (int c = 0; c < s->crack[k].n; c++) {
             json_open(&p->json, NULL, '[');
-            for (int d = 0; d < s->dim; d++) json_number(&p->json, NULL, s->crack[k].corner[c][d], JSON_TIMING);
+            for (int d = 0; d < s->dim; d++) json_write_rounded(&p->json, NULL, s->crack[k].corner[c][d], JSON_TIMING);
             json_close(&p->json, ']');
         }
         json_close(&p->json, ']');
@@ -103,10 +104,10 @@ static void write_names(struct page *p, const struct scene *s)
 {
     json_open(&p->json, "names", '{');
     json_open(&p->json, "material", '[');
-    for (int k = 0; k < s->materials; k++) json_text(&p->json, NULL, s->material[k].name);
+    for (int k = 0; k < s->materials; k++) json_write_text(&p->json, NULL, s->material[k].name);
     json_close(&p->json, ']');
     json_open(&p->json, "body", '[');
-    for (int k = 0; k < s->bodies; k++) json_text(&p->json, NULL, s->body[k].name);
+    for (int k = 0; k < s->bodies; k++) json_write_text(&p->json, NULL, s->body[k].name);
     json_close(&p->json, ']');
     json_close(&p->json, '}');
 }
@@ -133,14 +134,14 @@ static status write_picture(struct page *p, const char *scene, const char *path)
  * frame; path: of the page. */
 static void write_scene(struct page *p, const char *folder, const struct scene *s, int64_t particles, const char *path)
 {
-    json_text(&p->json, "name", s->name);
-    json_count(&p->json, "dim", s->dim);
+    json_write_text(&p->json, "name", s->name);
+    json_write_integer(&p->json, "dim", s->dim);
     write_pre_cracks(p, s);
     write_names(p, s);
     const status drawn = particles > PICTURE_PARTICLES
                              ? status_set(REFUSED, "the scene has more than two million particles")
                              : write_picture(p, path_join(folder, "scene.yaml").text, path);
-    if (drawn != OK) json_text(&p->json, "picture_missing", status_message());
+    if (drawn != OK) json_write_text(&p->json, "picture_missing", status_message());
 }
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
@@ -155,7 +156,7 @@ static status write_film(struct page *p, const char *folder, const struct scene 
     if (!run_has_file(folder, "frames.hdf.series")) return OK;
     TRY(film_read(&f, folder, scene));
     *particles = f.set[0].n;
-    film_fit(&f, FILM_BYTES);
+    film_fit_to_budget(&f, FILM_BYTES);
     const status s = film_write(p, &f);
     film_free(&f);
     return s;
@@ -166,10 +167,10 @@ status report_write_run(struct page *p, const struct report_request *r, const ch
     char header[HEADER_ROOM];
     int64_t particles;
     struct scene scene;
-    json_text(&p->json, "kind", "run");
+    json_write_text(&p->json, "kind", "run");
     page_add_text_file(p, "scene", r->folder, "scene.yaml");
     const bool known = scene_read(&scene, path_join(r->folder, "scene.yaml").text, NULL, 0) == OK;
-    if (!known) json_text(&p->json, "picture_missing", status_message());
+    if (!known) json_write_text(&p->json, "picture_missing", status_message());
     history_read_header(header, sizeof header, r->folder);
     write_figures(p, r->folder, header);
     status s = write_film(p, r->folder, known ? &scene : NULL, &particles);

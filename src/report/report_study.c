@@ -57,7 +57,7 @@ static void write_pictures(struct page *p, const char *folder)
         if (!ending || strcmp(ending, ".png") != 0 || !path_is_file(path.text) || !picture_has_mark(path.text))
             continue;
         json_open(&p->json, NULL, '{');
-        json_text(&p->json, "name", name[k]);
+        json_write_text(&p->json, "name", name[k]);
         (void)page_add_picture(p, "of", path.text);
         json_close(&p->json, '}');
         added++;
@@ -80,11 +80,11 @@ static void write_warnings(struct page *p, const char *folder)
         for (int w = 0; found < WARNINGS_MOST; w++) {
             bool known = false;
             snprintf(key, sizeof key, "warnings.%d", w);
-            if (summary_string(run.text, key, text, sizeof text) != OK) break;
+            if (summary_read_string(run.text, key, text, sizeof text) != OK) break;
             for (int j = 0; j < found; j++) known |= strcmp(seen[j], text) == 0;
             if (known) continue;
             strcpy(seen[found++], text);
-            json_text(&p->json, NULL, text);
+            json_write_text(&p->json, NULL, text);
         }
     }
     json_close(&p->json, ']');
@@ -106,7 +106,7 @@ static void write_study_units(struct page *p, const char *folder)
     json_open(&p->json, "units", '{');
     for (char *rest = table, *column; (column = strsep(&rest, ","));) {
         study_result_unit(unit, sizeof unit, header, column);
-        if (unit[0]) json_text(&p->json, column, unit);
+        if (unit[0]) json_write_text(&p->json, column, unit);
     }
     json_close(&p->json, '}');
     memory_free(table);
@@ -115,7 +115,7 @@ static void write_study_units(struct page *p, const char *folder)
 void report_write_study(struct page *p, const char *folder)
 {
     const bool sweep = path_is_file(path_join(folder, "sweep.csv").text);
-    json_text(&p->json, "kind", sweep ? "sweep" : "converge");
+    json_write_text(&p->json, "kind", sweep ? "sweep" : "converge");
     page_add_text_file(p, "table", folder, sweep ? "sweep.csv" : "converge.csv");
     page_add_text_file(p, "scene", folder, STUDY_SCENE);
     if (sweep) write_study_units(p, folder);

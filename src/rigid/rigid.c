@@ -116,7 +116,7 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 {
     struct box box = {{0}, {0}};
     real second[DIM_MAX][DIM_MAX] = {{0}};
-    const bool bounded = region_bounds(shape, dim, box.from, box.to);
+    const bool bounded = region_bounding_box(shape, dim, box.from, box.to);
     r->shape = shape, r->dim = dim, r->mass = mass;
     r->motion = mass > 0 ? RIGID_FREE : dot(velocity, velocity, dim) > 0 ? RIGID_DRIVEN : RIGID_FIXED;
     array_copy(r->motion == RIGID_DRIVEN ? r->speed : r->v, velocity, dim, sizeof *velocity);
@@ -156,7 +156,7 @@ real rigid_distance(const struct rigid_body *r, const real *x, real *normal)
     return distance;
 }
 
-void rigid_point_position(const struct rigid_body *r, const real *X, real *x)
+void rigid_present_position_of_point(const struct rigid_body *r, const real *X, real *x)
 {
     real arm[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX], turned[DIM_MAX];
     memcpy(turn, r->turn, sizeof turn);
@@ -165,7 +165,7 @@ void rigid_point_position(const struct rigid_body *r, const real *X, real *x)
     for (int d = 0; d < r->dim; d++) x[d] = r->x[d] + turned[d];
 }
 
-void rigid_velocity(const struct rigid_body *r, const real *x, real *v)
+void rigid_velocity_at_point(const struct rigid_body *r, const real *x, real *v)
 {
     const real *w = r->spin;
     real arm[DIM_MAX] = {0};
@@ -194,7 +194,7 @@ static void turn_on(struct rigid_body *r, real dt)
     rotate_further(r->turn, half);
 }
 
-void rigid_driven_velocity(const struct rigid_body *r, real t, real *v)
+void rigid_prescribed_velocity(const struct rigid_body *r, real t, real *v)
 {
     const real share = r->ramp > 0 ? real_min(1, t / r->ramp) : 1;
     for (int d = 0; d < r->dim; d++) v[d] = r->speed[d] * share;
@@ -203,7 +203,7 @@ void rigid_driven_velocity(const struct rigid_body *r, real t, real *v)
 void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity)
 {
     real kinetic = 0, driven[DIM_MAX] = {0};
-    rigid_driven_velocity(r, t_middle, driven);
+    rigid_prescribed_velocity(r, t_middle, driven);
     for (int d = 0; d < r->dim; d++) {
         const real before = r->v[d];
         if (r->motion == RIGID_DRIVEN) r->v[d] = driven[d];
@@ -221,17 +221,17 @@ void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity)
     r->kinetic = kinetic;
 }
 
-real rigid_driven_displacement(const struct rigid_body *r, real t, real *u)
+real rigid_prescribed_displacement(const struct rigid_body *r, real t, real *u)
 {
     const real full = t < r->ramp ? 0.5 * square(t) / r->ramp : t - 0.5 * real_max(0, r->ramp);
     for (int d = 0; d < DIM_MAX; d++) u[d] = r->motion == RIGID_DRIVEN ? r->speed[d] * full : 0;
     return sqrt(dot(u, u, r->dim));
 }
 
-void rigid_set_position(struct rigid_body *r, real t)
+void rigid_move_to_prescribed_position(struct rigid_body *r, real t)
 {
     real u[DIM_MAX];
-    rigid_driven_displacement(r, t, u);
+    rigid_prescribed_displacement(r, t, u);
     for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++) {
         const real x = r->centre[d] + u[d];
         r->increment[d] += x - r->x[d];
@@ -251,7 +251,7 @@ static real work_of_step(const struct rigid_body *r)
     return work;
 }
 
-real rigid_work(const struct rigid_body *r)
+real rigid_total_work(const struct rigid_body *r)
 {
     real fallen = 0;
     for (int d = 0; d < r->dim; d++) fallen += r->weight[d] * (r->x[d] - r->centre[d]);
@@ -263,7 +263,7 @@ void rigid_update_largest_force(struct rigid_body *r)
     r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
 }
 
-void rigid_add_work(struct rigid_body *r)
+void rigid_add_drive_work(struct rigid_body *r)
 {
     r->work += work_of_step(r);
     memcpy(r->force_previous, r->force, sizeof r->force_previous);

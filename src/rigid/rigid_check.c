@@ -31,7 +31,7 @@ static status check_room(const struct rigid_body *r, const struct scene *s, cons
 static status check_mirrors(const struct rigid_body *r, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX];
-    if (r->motion != RIGID_FREE || !region_bounds(r->shape, s->dim, from, to)) return OK;
+    if (r->motion != RIGID_FREE || !region_bounding_box(r->shape, s->dim, from, to)) return OK;
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *mirror = &s->boundary[b];
         const real at = mirror->at, gap = s->spacing;
@@ -54,7 +54,7 @@ status rigids_check(const struct rigid_set *rigid, const struct scene *s, const 
     return OK;
 }
 
-status rigids_speed_check(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock)
+status rigids_check_speed(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock)
 {
     for (int k = 0; k < rigid->n; k++) {
         const struct rigid_body *r = &rigid->body[k];
@@ -78,7 +78,7 @@ static bool have_met(const struct rigid_body *r, const struct rigid_body *other,
     const int dim = r->dim;
     int64_t n[DIM_MAX] = {1, 1, 1};
     memcpy(x, r->x, sizeof x);
-    if (!region_bounds(r->shape, dim, from, to) || rigid_distance(other, x, normal) > r->radius) return false;
+    if (!region_bounding_box(r->shape, dim, from, to) || rigid_distance(other, x, normal) > r->radius) return false;
     real step = spacing;
     for (int d = 0; d < dim; d++) step = real_max(step, (to[d] - from[d]) / 40);
     for (int d = 0; d < dim; d++) n[d] = (int64_t)((to[d] - from[d]) / step) + 1;
@@ -88,7 +88,7 @@ static bool have_met(const struct rigid_body *r, const struct rigid_body *other,
         for (int d = 0; d < dim; d++)
             X[d] = from[d] + 0.5 * (to[d] - from[d] - (real)(n[d] - 1) * step) + (real)at[d] * step;
         if (!region_contains(r->shape, X, dim, 0)) continue;
-        rigid_point_position(r, X, x);
+        rigid_present_position_of_point(r, X, x);
         if (rigid_distance(other, x, normal) < -0.5 * spacing) return true;
     }
     return false;

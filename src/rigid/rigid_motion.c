@@ -28,7 +28,7 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s)
 void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
 {
     for (int k = 0; k < rigid->n; k++) {
-        rigid_add_work(&rigid->body[k]);
+        rigid_add_drive_work(&rigid->body[k]);
         rigid_update_largest_force(&rigid->body[k]);
         for (int d = 0; d < rigid->dim; d++) impulse[d] -= rigid->body[k].force[d] * dt_velocity;
     }
@@ -39,7 +39,7 @@ void rigids_move(struct rigid_set *rigid, real t_middle, real dt, real dt_veloci
     for (int k = 0; k < rigid->n; k++) rigid_move(&rigid->body[k], t_middle, dt, dt_velocity);
 }
 
-struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt)
+struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt)
 {
     struct rigid_energy sum = {0};
     for (int k = 0; k < rigid->n; k++) {
@@ -47,7 +47,7 @@ struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt)
         sum.before += rigid_kinetic_energy(r);
         sum.step += r->kinetic;
         sum.last += rigid_kinetic_energy(r) + rigid_leapfrog_energy_gap(r, dt);
-        sum.work += rigid_work(r);
+        sum.work += rigid_total_work(r);
     }
     return sum;
 }
@@ -63,7 +63,7 @@ static int add_column(struct column *column, int at, const char *body, const cha
     return at + 1;
 }
 
-int rigids_columns(const struct run *e, struct column *column)
+int rigids_list_columns(const struct run *e, struct column *column)
 {
     static const char *const force[] = {"force_x", "force_y", "force_z"}, *const place[] = {"x", "y", "z"};
     static const char *const moment[] = {"moment_x", "moment_y", "moment_z"};
@@ -80,7 +80,7 @@ int rigids_columns(const struct run *e, struct column *column)
     return n;
 }
 
-void rigids_store_motion(struct rigid_set *rigid, real t)
+void rigids_store_motion_for_sample(struct rigid_set *rigid, real t)
 {
     if (!rigid->motion) rigid->motion = NEW("rigid.motion", 2 * DIM_MAX * rigid->n, real);
     for (int k = 0; k < rigid->n; k++) {
@@ -88,7 +88,7 @@ void rigids_store_motion(struct rigid_set *rigid, real t)
         real *x = rigid->motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
         array_copy(x, r->x, DIM_MAX, sizeof *x);
         array_copy(v, r->v, DIM_MAX, sizeof *v);
-        if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_driven_velocity(r, t, v);
+        if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_prescribed_velocity(r, t, v);
     }
 }
 
@@ -101,21 +101,22 @@ void rigids_average_velocities(struct rigid_set *rigid)
     }
 }
 
-void rigids_velocity(const struct rigid_set *rigid, int k, real t, real dt, real *v)
+void rigids_velocity_of_body(const struct rigid_set *rigid, int k, real t, real dt, real *v)
 {
     const struct rigid_body *r = &rigid->body[k];
     array_copy(v, r->v, DIM_MAX, sizeof *v);
-    if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_driven_velocity(r, t, v);
+    if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_prescribed_velocity(r, t, v);
     for (int d = 0; d < DIM_MAX && r->motion == RIGID_FREE && rigid->moves; d++)
         v[d] += 0.5 * dt * (r->force[d] + r->weight[d]) / r->mass;
 }
 
 void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt)
 {
-    for (int k = 0; k < rigid->n; k++) rigids_velocity(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
+    for (int k = 0; k < rigid->n; k++)
+        rigids_velocity_of_body(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
 }
 
-void rigids_record(struct run *e, real *record)
+void rigids_write_record(struct run *e, real *record)
 {
     const int dim = e->rigid->dim;
     for (int k = 0; k < e->rigid->n; k++) {

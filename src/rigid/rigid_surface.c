@@ -149,7 +149,7 @@ void rigid_surface_free(struct rigid_surface *s)
 bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high)
 {
     real from[DIM_MAX], to[DIM_MAX], longest = 0;
-    const bool bounded = region_bounds(shape, dim, from, to);
+    const bool bounded = region_bounding_box(shape, dim, from, to);
     for (int d = 0; d < dim; d++) longest = real_max(longest, high[d] - low[d]);
     for (int d = 0; d < dim; d++) {
         low[d] = bounded ? from[d] : low[d] - RIGID_BESIDE * longest;
@@ -200,7 +200,7 @@ static void print_points(FILE *to, const struct rigid_set *rigid)
     for (int b = 0; b < rigid->n; b++)
         for (int64_t k = 0; k < rigid->surface[b].points; k++) {
             real x[DIM_MAX] = {0};
-            rigid_point_position(&rigid->body[b], &rigid->surface[b].X[k * DIM_MAX], x);
+            rigid_present_position_of_point(&rigid->body[b], &rigid->surface[b].X[k * DIM_MAX], x);
             fprintf(to, "%.7g %.7g %.7g\n", x[0], x[1], x[2]);
         }
     fputs("</DataArray>\n</Points>\n", to);

@@ -42,15 +42,15 @@ void bond_operator_apply(void *context, const real *u, real *y)
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * u[a * p->n + i] / body->root[i];
-    if (body->loads) loads_update_images(body->loads, p);
+    if (body->loads) loads_update_mirror_images(body->loads, p);
     bond_forces(body->force, body->b, p, &bond_limit_never, NULL);
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
 }
 
-real critical_step_of_bonds(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
-                            real spacing)
+real bonds_critical_time_step_by_iteration(struct bonds *b, struct particles *p, bond_force_fn *force,
+                                           const struct loads *loads, real spacing)
 {
     struct bond_operator body = bond_operator_make(b, p, force, loads, spacing);
     real *x[DIM_MAX];
@@ -88,8 +88,8 @@ static int64_t edges_of(const struct family *f, const real *longest, int64_t edg
     return n;
 }
 
-real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density,
-                              const real *largest_extent, real *lower_bound)
+real lattice_critical_time_step(const struct bond_source *source, bond_force_fn *force, real density,
+                                const real *largest_extent, real *lower_bound)
 {
     const struct family *f = &source->family;
     const int dim = space_dim(f->space);
@@ -107,14 +107,14 @@ real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *f
         p.mass[i] = density * f->cell_volume;
         p.kind[i] = KIND_PD;
     }
-    particles_update_lists(&p);
+    particles_update_kind_lists(&p);
     cells_make(&cells, &p, f->cutoff * (1 + 1e-9));
     s.family.surface = SURFACE_NONE;
     s.cells = &cells, s.cracks = 0, s.voids = NULL, s.image = NULL;
     s.room = 0, s.neighbour_volume = NULL, s.surface = NULL;
     bonds_make(&b, NULL, &p, &s);
-    if (lower_bound) *lower_bound = bonds_critical_step_of_existing(&b, &p);
-    real step = critical_step_of_bonds(&b, &p, force, NULL, f->spacing);
+    if (lower_bound) *lower_bound = bonds_critical_time_step_of_rows(&b, &p);
+    real step = bonds_critical_time_step_by_iteration(&b, &p, force, NULL, f->spacing);
     bonds_free(&b);
     cells_free(&cells);
     particles_free(&p);

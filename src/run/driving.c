@@ -41,7 +41,7 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
 {
     for (int64_t k = 0; k < l->n; k++) {
         real u[DIM_MAX];
-        load_displacement_at(l, p, k, 0, u);
+        load_displacement_of_particle(l, p, k, 0, u);
         for (int d = 0; d < p->dim; d++)
             if (!(fabs(u[d]) <= DISPLACEMENT_TOLERANCE * spacing))
                 return status_set(REFUSED,
@@ -65,7 +65,7 @@ status prescribed_motion_check(const struct loads *loads, const struct particles
         if (start) TRY(status_prepend_location(b->place, starts_at_reference(b, p, l, s->spacing)));
         if (s->solver != SOLVER_EXPLICIT) continue;
         TRY(status_prepend_location(b->place, starts_at_rest(b, p, l, s->spacing)));
-        const real speed = load_displacement_speed(l, p, s->duration);
+        const real speed = load_largest_displacement_speed(l, p, s->duration);
         if (!(speed >= wave_speed)) continue;
         if (isinf(speed))
             return status_prepend_location(b->place,

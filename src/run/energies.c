@@ -189,7 +189,7 @@ struct strain_sum {
     real (*compliance)[SYM_MAX * SYM_MAX]; /* [materials] C^-1 in symmetric components */
 };
 
-real point_mpm_fraction(const struct partial_stress *partial, int dim, int64_t i)
+real point_mpm_energy_fraction(const struct partial_stress *partial, int dim, int64_t i)
 {
     if (!partial || !partial->index || partial->index[i] < 0) return 1;
     const int n = symmetric_component_count(dim);
@@ -204,7 +204,7 @@ real point_mpm_fraction(const struct partial_stress *partial, int dim, int64_t i
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
-    return point_mpm_fraction(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
+    return point_mpm_energy_fraction(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
@@ -249,7 +249,7 @@ real points_strain_energy_of_list(const struct particles *p, const struct materi
         if (p->material[list[k]] >= materials) materials = p->material[list[k]] + 1;
     struct strain_sum s = {.p = p, .m = m, .partial = partial, .list = list};
     s.compliance = memory_new("diagnostics.compliance", materials, sizeof *s.compliance);
-    for (int k = 0; k < materials; k++) material_compliance(&m[k], p->dim, s.compliance[k]);
+    for (int k = 0; k < materials; k++) material_compliance_matrix(&m[k], p->dim, s.compliance[k]);
     real sum = reproducible_sum(n, strain_term, &s);
     memory_free(s.compliance);
     return sum;
@@ -267,7 +267,7 @@ static real plastic_term(const void *context, int64_t k)
     const struct particles *p = s->p;
     const int64_t i = s->list[k];
     if (p->plastic_work[i] == 0) return 0;
-    return point_mpm_fraction(s->partial, s->p->dim, i) * p->plastic_work[i] * p->volume0[i];
+    return point_mpm_energy_fraction(s->partial, s->p->dim, i) * p->plastic_work[i] * p->volume0[i];
 }
 
 real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial)
@@ -297,8 +297,8 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
 /* Computes the stresses p->stress of peridynamic particles from their bonds. The states of state-based models are
  * recomputed first, at the present positions: a step moves particles after its forces, and the stress in a rotating
  * body would otherwise contain the rotation of a step. s: source of the bonds b. */
-void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
-                         const struct kernels *kernels)
+void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
+                                   const struct kernels *kernels)
 {
     family_states_precompute(b, p, s);
     kernels->bond_stress(b, p);

@@ -15,7 +15,7 @@ real energy_sum(const struct energy *u)
     return sum;
 }
 
-real energy_magnitude(const struct energy *u)
+real energy_sum_of_magnitudes(const struct energy *u)
 {
     real sum = fabs(u->of[0]);
     for (int k = 1; k < ENERGIES; k++) sum += fabs(u->of[k]);

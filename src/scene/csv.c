@@ -9,7 +9,7 @@
 status csv_open(struct csv_file *c, const char *path, const char *contents)
 {
     *c = (struct csv_file){.path = path, .holds = contents, .separator = ','};
-    return input_open(&c->file, path, NULL);
+    return input_file_open(&c->file, path, NULL);
 }
 
 void csv_close(struct csv_file *c)
@@ -109,7 +109,7 @@ char *csv_cut_unit(char *name)
     return open + 1;
 }
 
-status csv_fault(const struct csv_file *c, const char *field, const char *format, ...)
+status csv_report_fault(const struct csv_file *c, const char *field, const char *format, ...)
 {
     char what[256];
     va_list arguments;

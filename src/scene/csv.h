@@ -41,7 +41,7 @@ char *csv_cut_field(const struct csv_file *c, char **rest);
 char *csv_cut_unit(char *name);
 
 /* Returns REFUSED with a message that begins with `file:line:column: ` of a field of the current line. */
-status csv_fault(const struct csv_file *c, const char *field, const char *format, ...)
+status csv_report_fault(const struct csv_file *c, const char *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -98,10 +98,10 @@ static void axis_round(struct axis *a)
  * if it is an intersection of solids [m]. Returns false if the box is unbounded. */
 static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MAX], real high[DIM_MAX])
 {
-    if (shape->n > 0 && shape->solid[0].intersect) return region_bounds(shape, dim, low, high);
+    if (shape->n > 0 && shape->solid[0].intersect) return region_bounding_box(shape, dim, low, high);
     for (int k = 0; k < shape->n; k++)
         if (!shape->solid[k].subtract)
-            return region_bounds(&(struct region){.n = 1, .solid = &shape->solid[k]}, dim, low, high);
+            return region_bounding_box(&(struct region){.n = 1, .solid = &shape->solid[k]}, dim, low, high);
     return false;
 }
 
@@ -112,7 +112,10 @@ static real scatter(uint64_t seed, int64_t id, int component)
     return (real)(hash_add_word(seed, (uint64_t)id * DIM_MAX + (uint64_t)component) >> 11) * 0x1p-53 - 0.5;
 }
 
-static real cell_volume(const struct scene *s) { return lattice_volume(scene_section_factor(s), s->spacing, s->dim); }
+static real cell_volume(const struct scene *s)
+{
+    return lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
+}
 
 /* Sets axis[dim] to the axes of the lattice that covers the whole shape of a body of d->scene. body: index of the body.
  * Returns REFUSED if the shape is unbounded or too large for the spacing. */
@@ -120,7 +123,7 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
 {
     const struct scene *s = d->scene;
     real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
-    if (!region_bounds(&s->body[body].shape, s->dim, from, to))
+    if (!region_bounding_box(&s->body[body].shape, s->dim, from, to))
         return particle_draft_refuse_body(d, body,
                                           "its shape is infinite; add boxes, balls or cylinders of finite size");
     if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
@@ -161,7 +164,7 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
 {
     const struct scene *s = d->scene;
     real X[DIM_MAX] = {0};
-    if (particle_is_left_out(d->hollow, place)) return place_skip(d, place);
+    if (cells_without_particles_contain(d->hollow, place)) return place_skip(d, place);
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a); /* Imachi et al. 2019, eq. 49 */
@@ -208,7 +211,7 @@ static status draft_empty(const struct particle_draft *d, int body, bool listed)
     char why[200] = "holds no particle: its shape is at most ";
     size_t used = strlen(why);
     if (listed) return particle_draft_refuse_body(d, body, "its list holds no particle of it");
-    region_bounds(&d->scene->body[body].shape, d->scene->dim, from, to);
+    region_bounding_box(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
     snprintf(why + used, sizeof why - used,
@@ -241,7 +244,8 @@ static real spacing_of(const struct particle_draft *d)
 {
     const struct scene *s = d->scene;
     if (s->spacing > 0) return s->spacing;
-    return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section_factor(s)), 1.0 / s->dim);
+    return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section_or_thickness(s)),
+               1.0 / s->dim);
 }
 
 /* Creates the particles p from the draft d. Velocities and masses that the draft leaves NAN follow from the body's
@@ -398,7 +402,7 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
         symmetric_component_axes(dim, k, &a, &b);
         strain[k] = 0.5 * (H[a * dim + b] + H[b * dim + a]);
     }
-    material_stiffness(m, dim, stiffness);
+    material_stiffness_matrix(m, dim, stiffness);
     for (int k = 0; k < count; k++) p->stress[k][i] = dot(&stiffness[k * count], strain, count);
     for (int a = 0; a < dim; a++) {
         p->x[a][i] = p->X[a][i] + dot(&H[a * dim], arm, dim);
@@ -413,7 +417,8 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {
-    const struct wave_state wave = wave_pulse_at(w, X, w->transverse ? m->shear_speed : m->wave_speed, p->dim);
+    const struct wave_state wave =
+        wave_pulse_initial_state(w, X, w->transverse ? m->shear_speed : m->wave_speed, p->dim);
     const real *along = w->direction, *moved = w->polarisation;
     const int dim = p->dim, count = symmetric_component_count(dim);
     real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX];
@@ -422,7 +427,7 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
         symmetric_component_axes(dim, k, &a, &b);
         strain[k] = 0.5 * wave.strain * (along[a] * moved[b] + along[b] * moved[a]);
     }
-    material_stiffness(m, dim, stiffness);
+    material_stiffness_matrix(m, dim, stiffness);
     for (int k = 0; k < count; k++) p->stress[k][i] += dot(&stiffness[k * count], strain, count);
     for (int a = 0; a < dim; a++) {
         p->v[a][i] += wave.velocity * moved[a];
@@ -482,8 +487,8 @@ static status fill_made(struct particles *p, const struct particle_draft *d, int
     real spacing = spacing_of(d);
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     take_draft(p, d, optional);
-    fill_strength(p, s);
-    fill_temperature(p, s);
+    fill_strength_factors(p, s);
+    fill_initial_temperature(p, s);
     take_skipped(p, d);
     TRY(check_values(p, d, spacing));
     TRY(fill_check_particle_lists(p, s));

@@ -94,7 +94,7 @@ static status take_list(struct particle_draft *d, int body, const struct particl
     const struct scene *s = d->scene;
     const char *path = s->body[body].file;
     char place[PLACE_LENGTH];
-    const real volume = lattice_volume(scene_section_factor(s), s->spacing, s->dim);
+    const real volume = lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim);
     if (!l->volume && !(volume > 0))
         return particle_draft_refuse_body(
             d, body, "its list has no column volume, and there is no particles.spacing that says it");
@@ -119,7 +119,7 @@ static void take_lattice(struct particle_draft *d, int64_t first)
         real anchor = 0;
         for (int b = 0; b < s->boundaries; b++)
             if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == a) anchor = s->boundary[b].at;
-        list_round_to_lattice(d->X[a] + first, d->n - first, s->spacing, anchor);
+        coordinates_round_to_lattice(d->X[a] + first, d->n - first, s->spacing, anchor);
     }
 }
 

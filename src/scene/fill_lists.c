@@ -104,7 +104,7 @@ static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
     const int64_t looked = c->n < LOOKED_AT ? c->n : LOOKED_AT;
-    const real section = scene_section_factor(c->s);
+    const real section = scene_section_or_thickness(c->s);
     real apart[LOOKED_AT], filled[LOOKED_AT], family = 0;
     int64_t lone = 0, within[LOOKED_AT];
 #pragma omp parallel for schedule(static)
@@ -114,12 +114,12 @@ static struct verdict crowd_look(const struct crowd *c)
         real X[DIM_MAX];
         for (int d = 0; d < p->dim; d++) X[d] = c->X[d][i];
         apart[k] = sqrt(nearest_of(c, c->X, c->n, X, &within[k]));
-        filled[k] = c->volume[i] / lattice_volume(section, apart[k], p->dim);
+        filled[k] = c->volume[i] / lattice_particle_volume(section, apart[k], p->dim);
         if (within[k] < 2 && c->s->method != METHOD_PD) nearest_of(c, p->X, p->n, X, &within[k]);
     }
     for (int64_t k = 0; k < looked; k++) lone += within[k] < 2, family += (real)(within[k] - 1);
-    array_sort(apart, looked, sizeof *apart, double_order);
-    array_sort(filled, looked, sizeof *filled, double_order);
+    array_sort(apart, looked, sizeof *apart, compare_doubles);
+    array_sort(filled, looked, sizeof *filled, compare_doubles);
     return (struct verdict){(real)lone / (real)looked, apart[looked / 2], family / (real)looked, filled[looked / 2]};
 }
 

@@ -44,7 +44,7 @@ static bool sites_dense(struct site *site, int64_t n)
     return (real)beside >= NEIGHBOURS_LEAST * (real)n;
 }
 
-bool list_is_lattice(const struct particle_list *l, real spacing, real volume)
+bool particle_list_is_lattice(const struct particle_list *l, real spacing, real volume)
 {
     int64_t first[BODIES];
     bool lattice = l->n > 1 && spacing > 0;
@@ -70,7 +70,7 @@ bool list_is_lattice(const struct particle_list *l, real spacing, real volume)
  * 53). */
 static real lattice_unit(real most) { return exp2(ceil(log2(most)) - 53); }
 
-void list_round_to_lattice(real *X, int64_t n, real spacing, real anchor)
+void coordinates_round_to_lattice(real *X, int64_t n, real spacing, real anchor)
 {
     if (n == 0) return;
     real off = 0, low = X[0], high = X[0], least = 0, most = 0;

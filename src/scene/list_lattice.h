@@ -6,11 +6,11 @@
 
 /* Returns true if the positions of each body of a list are whole spacings apart, to a thousandth of a spacing, and all
  * volumes equal `volume`, the volume of a lattice cell [m^3], to a thousandth. */
-bool list_is_lattice(const struct particle_list *l, real spacing, real volume);
+bool particle_list_is_lattice(const struct particle_list *l, real spacing, real volume);
 
 /* Rounds the n coordinates X of a body along one axis to exact multiples of the spacing. The coordinates must be whole
  * spacings apart up to a thousandth of a spacing; they are unchanged if they are exact already. anchor [m]: if the
  * coordinates are nearly whole or half spacings away from it, they are rounded to exactly such positions. */
-void list_round_to_lattice(real *X, int64_t n, real spacing, real anchor);
+void coordinates_round_to_lattice(real *X, int64_t n, real spacing, real anchor);
 
 #endif

@@ -56,7 +56,7 @@ static status table_check(const struct table *t, const char *path, const char *n
     if (stat(path, &about) != 0 || t->rows / ROWS_PER_BYTE_MOST > about.st_size)
         return status_set(REFUSED, "%s: %s claims %lld entries, more than a file of its size holds", path, name,
                           (long long)t->rows);
-    return list_check_memory(path, t->rows);
+    return particle_list_check_memory(path, t->rows);
 }
 
 /* Reads the dataset `name` of an open HDF5 file into t->value [rows][columns], which the caller releases with
@@ -64,13 +64,13 @@ static status table_check(const struct table *t, const char *path, const char *n
  * datasets that are no list of numbers. */
 static status table_read(hid_t file, const char *path, const char *name, struct table *t)
 {
-    if (hdf_is_linked(file, name))
+    if (hdf_is_link(file, name))
         return status_set(REFUSED, "%s: %s is a link; a dataset of this file is expected", path, name);
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
     if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset", path, name);
     bool good = table_shape(set, t);
     status checked = good ? table_check(t, path, name) : OK;
-    if (good && !hdf_lies_inside(set))
+    if (good && !hdf_dataset_is_in_its_file(set))
         checked = status_set(REFUSED, "%s: %s has its numbers in other files", path, name);
     if (checked != OK) {
         H5Dclose(set);
@@ -92,10 +92,10 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
 static status table_take(struct particle_list *l, int column, const struct table *t, int k, const char *path)
 {
     real *array = NEW("list.column", l->n, real);
-    *column_array(l, column) = array;
+    *particle_list_column_array(l, column) = array;
     for (int64_t i = 0; i < l->n; i++) {
         array[i] = t->value[i * t->columns + k] * t->factor;
-        const char *fault = column_value_fault(column, array[i]);
+        const char *fault = particle_list_value_fault(column, array[i]);
         if (fault != NULL)
             return status_set(REFUSED, "%s: entry %lld: %s: %g %s", path, (long long)i, list_quantity[column].name,
                               array[i], fault);
@@ -115,15 +115,15 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
     TRY(table_read(file, path, name, &t));
     status s = OK;
     hdf_read_text_attribute(file, name, "unit", unit, UNIT_TEXT);
-    if (!unit[0]) t.factor = column_default_factor(l, column);
+    if (!unit[0]) t.factor = particle_list_default_factor(l, column);
     if (column == COLUMN_X) l->n = t.rows;
     if (t.rows != l->n || (count > 1 || column < COLUMN_VOLUME ? t.columns < count : t.columns != count))
         s = status_set(REFUSED, "%s: dataset %s has %lld x %lld numbers; %lld x %d are expected", path, name,
                        (long long)t.rows, (long long)t.columns, (long long)l->n, count);
-    else if (unit[0] && !unit_factor(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
+    else if (unit[0] && !unit_factor_to_si(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
     if (t.columns > count)
-        list_note_append(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
+        particle_list_note_append(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
     for (int k = 0; k < count && s == OK; k++) s = table_take(l, column + k, &t, k, path);
     memory_free(t.value);
     return s;
@@ -143,7 +143,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
         TRY(hdf5_column(l, file, path, sets[k].name, sets[k].column, sets[k].column == COLUMN_VX ? l->dim : 1));
         has[sets[k].column] = true;
     }
-    list_note_columns(&l->head, has);
+    particle_list_note_columns(&l->head, has);
     if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
     return status_set(
         REFUSED, "%s: mass and density are both given, and each determines the other; leave one of them out", path);
@@ -154,8 +154,8 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
 static status hdf5_read(struct particle_list *l, const char *path)
 {
     status s;
-    input_register(path);
-    crash_message_set_file(path);
+    input_file_register(path);
+    crash_message_set_file_in_use(path);
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -163,7 +163,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
         if (file >= 0) H5Fclose(file);
     }
     H5E_END_TRY;
-    crash_message_set_file(NULL);
+    crash_message_set_file_in_use(NULL);
     return s;
 }
 
@@ -205,9 +205,9 @@ static status list_read(struct particle_list *l, const char *path, const struct 
         return status_set(REFUSED, "%s: names its columns itself; columns are for files of text", path);
     if (stat(path, &about) != 0) return status_set(REFUSED, "%s: there is no such file", path);
     if (!S_ISREG(about.st_mode)) return status_set(REFUSED, "%s: not a plain file", path);
-    status s = format == LIST_CSV    ? list_csv_read(l, path, head)
+    status s = format == LIST_CSV    ? particle_list_read_csv(l, path, head)
                : format == LIST_HDF5 ? hdf5_read(l, path)
-                                     : list_exodus_read(l, path);
+                                     : particle_list_read_exodus(l, path);
     if (s != OK) particle_list_free(l);
     return s;
 }

@@ -13,7 +13,7 @@ const struct list_quantity list_quantity[COLUMNS] = {
     {"density", UNIT_DENSITY}, {"material", UNIT_NONE}, {"body", UNIT_NONE},
 };
 
-real **column_array(struct particle_list *l, int column)
+real **particle_list_column_array(struct particle_list *l, int column)
 {
     switch (column) {
     case COLUMN_VX:
@@ -35,37 +35,37 @@ real **column_array(struct particle_list *l, int column)
     }
 }
 
-bool column_is_unused(int column, int dim)
+bool particle_list_column_is_unused(int column, int dim)
 {
     return column <= COLUMN_VZ && column % DIM_MAX >= dim; /* x, y, z, vx, vy, vz */
 }
 
-void list_note_append(struct particle_list_head *head, const char *between, const char *what)
+void particle_list_note_append(struct particle_list_head *head, const char *between, const char *what)
 {
     const size_t used = strlen(head->note);
     snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? between : "", what);
 }
 
-void list_note_columns(struct particle_list_head *head, const bool *has)
+void particle_list_note_columns(struct particle_list_head *head, const bool *has)
 {
     head->material = has[COLUMN_MATERIAL], head->mass = has[COLUMN_MASS] || has[COLUMN_DENSITY];
     head->volumes = has[COLUMN_VOLUME];
-    if (head->note[0]) list_note_append(head, " ", "not read");
-    if (head->unnamed) list_note_append(head, "; ", "read as x y z block_id volume");
-    if (head->block) list_note_append(head, "; ", "block_id is the material, counted from 1");
-    if (!has[COLUMN_VOLUME]) list_note_append(head, "; ", "no volumes: each that of the spacing");
+    if (head->note[0]) particle_list_note_append(head, " ", "not read");
+    if (head->unnamed) particle_list_note_append(head, "; ", "read as x y z block_id volume");
+    if (head->block) particle_list_note_append(head, "; ", "block_id is the material, counted from 1");
+    if (!has[COLUMN_VOLUME]) particle_list_note_append(head, "; ", "no volumes: each that of the spacing");
 }
 
 void particle_list_free(struct particle_list *l)
 {
-    for (int c = 0; c < COLUMNS; c++) memory_free(*column_array(l, c));
+    for (int c = 0; c < COLUMNS; c++) memory_free(*particle_list_column_array(l, c));
     memory_free(l->line);
     memory_free(l->material_at);
     memory_free(l->name);
     *l = (struct particle_list){0};
 }
 
-const char *column_value_fault(int column, real value)
+const char *particle_list_value_fault(int column, real value)
 {
     if (!isfinite(value)) return "is not a finite number";
     if (column >= COLUMN_VOLUME && column <= COLUMN_DENSITY && value <= 0) return "must be larger than 0";
@@ -74,7 +74,7 @@ const char *column_value_fault(int column, real value)
     return NULL;
 }
 
-bool unit_factor(real *factor, const char *unit, enum unit expected, char *message, size_t capacity)
+bool unit_factor_to_si(real *factor, const char *unit, enum unit expected, char *message, size_t capacity)
 {
     char number[UNIT_TEXT + 2];
     *factor = 1;
@@ -83,7 +83,7 @@ bool unit_factor(real *factor, const char *unit, enum unit expected, char *messa
     return number_read(factor, number, expected, false, message, capacity);
 }
 
-real column_default_factor(const struct particle_list *l, int column)
+real particle_list_default_factor(const struct particle_list *l, int column)
 {
     const real scale = l->form.scale > 0 ? l->form.scale : 1;
     return column <= COLUMN_Z ? scale : column == COLUMN_VOLUME ? scale * scale * scale : 1;
@@ -91,7 +91,7 @@ real column_default_factor(const struct particle_list *l, int column)
 
 enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without bonds [numbers] */
 
-status list_check_memory(const char *path, int64_t n)
+status particle_list_check_memory(const char *path, int64_t n)
 {
     const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
     if (machine_memory_size() <= 0 || bytes <= (real)machine_memory_size()) return OK;

@@ -48,7 +48,7 @@ static int column_named(const char *name, int dim)
                                   : COLUMN_NONE;
     for (int k = 0; k < COLUMNS; k++)
         if (strcasecmp(name, list_quantity[k].name) == 0) found = k;
-    return found == COLUMN_NONE || column_is_unused(found, dim) ? COLUMN_NONE : found;
+    return found == COLUMN_NONE || particle_list_column_is_unused(found, dim) ? COLUMN_NONE : found;
 }
 
 /* Sets *column to COLUMN_MASS or COLUMN_VOLUME, the meaning of a column `weight`, by its unit. name, unit: parts of the
@@ -57,9 +57,9 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
 {
     char what[160];
     real one;
-    *column = unit_factor(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
-    if (*unit && unit_factor(&one, unit, list_quantity[*column].unit, what, sizeof what)) return OK;
-    return csv_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
+    *column = unit_factor_to_si(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
+    if (*unit && unit_factor_to_si(&one, unit, list_quantity[*column].unit, what, sizeof what)) return OK;
+    return csv_report_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
 }
 
 /* Appends a column to c->column from its name with unit, such as `x [mm]`. A column of unknown name is noted in l->head
@@ -70,20 +70,20 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
     char what[160];
     const char *unit = csv_cut_unit(name);
     int k = column_named(name, l->dim);
-    if (c->fields == FIELDS_MAX) return csv_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
+    if (c->fields == FIELDS_MAX) return csv_report_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
     if (strpbrk(name, "\"'"))
-        return csv_fault(&c->in, name, "unknown column '%.40s'; names without quotes, or in double ones, are expected",
-                         name);
+        return csv_report_fault(&c->in, name,
+                                "unknown column '%.40s'; names without quotes, or in double ones, are expected", name);
     if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
     if (k == COLUMN_NONE)
-        list_note_append(&l->head, ", ", *name ? name : "a column without a name");
+        particle_list_note_append(&l->head, ", ", *name ? name : "a column without a name");
     else if (has[k])
-        return csv_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
-    else if (!unit_factor(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
-        return csv_fault(&c->in, unit, "%s: [%.40s] %s", list_quantity[k].name, unit, what);
+        return csv_report_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
+    else if (!unit_factor_to_si(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
+        return csv_report_fault(&c->in, unit, "%s: [%.40s] %s", list_quantity[k].name, unit, what);
     else
         has[k] = true;
-    if (k != COLUMN_NONE && !*unit) c->factor[c->fields] = column_default_factor(l, k);
+    if (k != COLUMN_NONE && !*unit) c->factor[c->fields] = particle_list_default_factor(l, k);
     if (k == COLUMN_MATERIAL && names_block(name)) l->head.block = true, c->first[c->fields] = 1;
     c->column[c->fields++] = k;
     return OK;
@@ -122,12 +122,13 @@ static status header_read(struct csv *c, struct particle_list *l)
                               "such as [%s]",
                               c->in.path, l->form.columns, list_quantity[k].name, names);
         else if (!has[k])
-            return csv_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
-                             list_quantity[k].name, names);
+            return csv_report_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
+                                    list_quantity[k].name, names);
     if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
-        return csv_fault(&c->in, c->in.text,
-                         "mass and density are both given, and each determines the other; leave one of them out");
-    list_note_columns(&l->head, has);
+        return csv_report_fault(
+            &c->in, c->in.text,
+            "mass and density are both given, and each determines the other; leave one of them out");
+    particle_list_note_columns(&l->head, has);
     return OK;
 }
 
@@ -269,7 +270,8 @@ static status csv_header(struct csv *c, struct particle_list *l)
         return header_elsewhere(c, l, mesh, c->in.line);
     }
     if (line_of_numbers(c->in.text))
-        return csv_fault(&c->in, c->in.text, "numbers, and no line before them names the columns, as x,y,volume");
+        return csv_report_fault(&c->in, c->in.text,
+                                "numbers, and no line before them names the columns, as x,y,volume");
     header_bare(c->in.text);
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
@@ -297,10 +299,10 @@ static status csv_grow(struct csv *c, struct particle_list *l)
 {
     if (l->n < c->room) return OK;
     int64_t room = c->room > 0 ? 2 * c->room : 1024;
-    TRY(list_check_memory(c->in.path, room / 2));
+    TRY(particle_list_check_memory(c->in.path, room / 2));
     for (int k = 0; k < c->fields; k++) {
         if (c->column[k] == COLUMN_NONE) continue;
-        real **array = column_array(l, c->column[k]);
+        real **array = particle_list_column_array(l, c->column[k]);
         GROW("list.column", *array, room);
         if (c->column[k] == COLUMN_MATERIAL) GROW("list.at", l->material_at, room);
     }
@@ -315,9 +317,9 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
 {
     int k = 0;
     if (!l->name) l->name = memory_new("list.name", NAMES_MAX, sizeof *l->name);
-    if (strlen(field) >= NAME_MAX_LENGTH) return csv_fault(&c->in, field, "material: its name is too long");
+    if (strlen(field) >= NAME_MAX_LENGTH) return csv_report_fault(&c->in, field, "material: its name is too long");
     while (k < l->names && strcmp(l->name[k], field) != 0) k++;
-    if (k == NAMES_MAX) return csv_fault(&c->in, field, "material: more than %d names", NAMES_MAX);
+    if (k == NAMES_MAX) return csv_report_fault(&c->in, field, "material: more than %d names", NAMES_MAX);
     if (k == l->names) strcpy(l->name[l->names++], field);
     *value = -1 - k;
     return OK;
@@ -330,17 +332,17 @@ static status csv_value(const struct csv *c, struct particle_list *l, int k, con
     const int column = c->column[k];
     const char *name = c->first[k] ? "block_id" : list_quantity[column].name;
     char *end;
-    real value = strtod(field, &end), *to = *column_array(l, column) + l->n;
+    real value = strtod(field, &end), *to = *particle_list_column_array(l, column) + l->n;
     if (column == COLUMN_MATERIAL) l->material_at[l->n] = (int16_t)(field - c->in.text + 1);
     if (column == COLUMN_MATERIAL && end == field && *field) return csv_name(c, l, field, to);
     if (end == field || *end != '\0' || strpbrk(field, "xX"))
-        return csv_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
-                         strchr(field, ',') ? "; numbers have a point, not a comma" : "");
+        return csv_report_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
+                                strchr(field, ',') ? "; numbers have a point, not a comma" : "");
     value = value * c->factor[k] - c->first[k];
-    const char *fault = column_value_fault(column, value);
+    const char *fault = particle_list_value_fault(column, value);
     if (fault != NULL)
-        return csv_fault(&c->in, field, "%s: %.40s %s", name, field,
-                         c->first[k] ? "must be a whole number from 1 to 256" : fault);
+        return csv_report_fault(&c->in, field, "%s: %.40s %s", name, field,
+                                c->first[k] ? "must be a whole number from 1 to 256" : fault);
     *to = value;
     return OK;
 }
@@ -353,13 +355,14 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     for (int k = 0; k < c->fields; k++) {
         const char *field = csv_cut_field(&c->in, &rest);
         if (field == NULL)
-            return csv_fault(&c->in, c->in.text, "%d values; the %s %d columns", k,
-                             l->form.columns ? "scene names" : "header names", c->fields);
+            return csv_report_fault(&c->in, c->in.text, "%d values; the %s %d columns", k,
+                                    l->form.columns ? "scene names" : "header names", c->fields);
         if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
     }
     if (rest != NULL)
-        return csv_fault(&c->in, rest, "more values than the %d columns of the %s; numbers have a point, not a comma",
-                         c->fields, l->form.columns ? "scene" : "header");
+        return csv_report_fault(&c->in, rest,
+                                "more values than the %d columns of the %s; numbers have a point, not a comma",
+                                c->fields, l->form.columns ? "scene" : "header");
     l->line[l->n++] = c->in.line;
     return OK;
 }
@@ -377,7 +380,7 @@ static status csv_entries(struct csv *c, struct particle_list *l, bool head)
     }
 }
 
-status list_csv_read(struct particle_list *l, const char *path, bool head)
+status particle_list_read_csv(struct particle_list *l, const char *path, bool head)
 {
     struct csv c = {0};
     TRY(csv_open(&c.in, path, "a particle list has one particle a line"));

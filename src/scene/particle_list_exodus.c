@@ -21,7 +21,7 @@ static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_
     char name[NAME_MAX_LENGTH];
     bool named = false;
     for (int64_t k = 0; k < n; k++) {
-        exodus_name(f, "attrib_name", number, k, n, name);
+        exodus_read_name(f, "attrib_name", number, k, n, name);
         if (strcasecmp(name, "volume") == 0) return k;
         named = named || name[0];
     }
@@ -32,11 +32,11 @@ static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_
  * this column. */
 static status value_take(struct exodus_list *x, int column, int64_t entry, real value)
 {
-    const char *fault = column_value_fault(column, value);
+    const char *fault = particle_list_value_fault(column, value);
     if (fault)
-        return exodus_fault(&x->file, "element %lld: %s: %g %s", (long long)entry + 1, list_quantity[column].name,
-                            value, fault);
-    (*column_array(x->l, column))[entry] = value;
+        return exodus_report_fault(&x->file, "element %lld: %s: %g %s", (long long)entry + 1,
+                                   list_quantity[column].name, value, fault);
+    (*particle_list_column_array(x->l, column))[entry] = value;
     return OK;
 }
 
@@ -48,33 +48,33 @@ static status block_read(struct exodus_list *x, int64_t number)
     struct particle_list *l = x->l;
     int64_t elements, nodes, *node = NULL;
     real *attribute = NULL;
-    TRY(exodus_block(&x->file, number, type, &elements, &nodes));
+    TRY(exodus_read_block_header(&x->file, number, type, &elements, &nodes));
     if (nodes != 1)
-        return exodus_fault(&x->file,
-                            "block %lld has elements of type %s with %lld nodes; a list of particles has "
-                            "SPHERE with one (shape: {mesh: {file: ..}} reads meshes)",
-                            (long long)number, type, (long long)nodes);
-    const int64_t attributes = exodus_dimension(&x->file, "num_att_in_blk", number);
+        return exodus_report_fault(&x->file,
+                                   "block %lld has elements of type %s with %lld nodes; a list of particles has "
+                                   "SPHERE with one (shape: {mesh: {file: ..}} reads meshes)",
+                                   (long long)number, type, (long long)nodes);
+    const int64_t attributes = exodus_read_dimension(&x->file, "num_att_in_blk", number);
     const int64_t volume = volume_column(&x->file, number, attributes), first = l->n;
     if (first > 0 && (volume >= 0) != x->volumes)
-        return exodus_fault(&x->file, "block %lld has %svolumes, unlike the blocks before", (long long)number,
-                            volume >= 0 ? "" : "no ");
+        return exodus_report_fault(&x->file, "block %lld has %svolumes, unlike the blocks before", (long long)number,
+                                   volume >= 0 ? "" : "no ");
     x->volumes = volume >= 0;
-    TRY(exodus_integers(&x->file, "connect", number, elements, &node));
-    status s = volume >= 0 ? exodus_reals(&x->file, "attrib", number, elements * attributes, &attribute) : OK;
+    TRY(exodus_read_integers(&x->file, "connect", number, elements, &node));
+    status s = volume >= 0 ? exodus_read_reals(&x->file, "attrib", number, elements * attributes, &attribute) : OK;
     for (int d = 0; d < l->dim; d++) GROW("list.column", l->X[d], first + elements);
     GROW("list.column", l->material, first + elements);
     if (volume >= 0) GROW("list.column", l->volume, first + elements);
     for (int64_t k = 0; k < elements && s == OK; k++, l->n++) {
         if (node[k] < 1 || node[k] > x->file.nodes)
-            s = exodus_fault(&x->file, "element %lld has node %lld; nodes from 1 to %lld are expected",
-                             (long long)l->n + 1, (long long)node[k], (long long)x->file.nodes);
+            s = exodus_report_fault(&x->file, "element %lld has node %lld; nodes from 1 to %lld are expected",
+                                    (long long)l->n + 1, (long long)node[k], (long long)x->file.nodes);
         for (int d = 0; d < l->dim && s == OK; d++)
-            s = value_take(x, COLUMN_X + d, l->n, x->axis[d][node[k] - 1] * column_default_factor(l, COLUMN_X));
+            s = value_take(x, COLUMN_X + d, l->n, x->axis[d][node[k] - 1] * particle_list_default_factor(l, COLUMN_X));
         if (s == OK) s = value_take(x, COLUMN_MATERIAL, l->n, (real)(number - 1));
         if (s == OK && volume >= 0)
             s = value_take(x, COLUMN_VOLUME, l->n,
-                           attribute[k * attributes + volume] * column_default_factor(l, COLUMN_VOLUME));
+                           attribute[k * attributes + volume] * particle_list_default_factor(l, COLUMN_VOLUME));
     }
     memory_free(node);
     memory_free(attribute);
@@ -87,17 +87,17 @@ static status blocks_read(struct exodus_list *x)
 {
     bool has[COLUMNS] = {false};
     if (x->file.dim < x->l->dim)
-        return exodus_fault(&x->file, "has %d coordinates; the space has %d", x->file.dim, x->l->dim);
-    TRY(exodus_coordinates(&x->file, x->axis));
+        return exodus_report_fault(&x->file, "has %d coordinates; the space has %d", x->file.dim, x->l->dim);
+    TRY(exodus_read_coordinates(&x->file, x->axis));
     for (int64_t k = 1; k <= x->file.blocks; k++)
-        if (exodus_has(&x->file, "connect", k)) TRY(block_read(x, k));
+        if (exodus_has_array(&x->file, "connect", k)) TRY(block_read(x, k));
     has[COLUMN_VOLUME] = x->volumes, has[COLUMN_MATERIAL] = true;
     x->l->head.block = true;
-    list_note_columns(&x->l->head, has);
+    particle_list_note_columns(&x->l->head, has);
     return OK;
 }
 
-status list_exodus_read(struct particle_list *l, const char *path)
+status particle_list_read_exodus(struct particle_list *l, const char *path)
 {
     struct exodus_list x = {.l = l};
     TRY(exodus_open_path(&x.file, path));

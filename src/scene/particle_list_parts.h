@@ -31,36 +31,36 @@ struct list_quantity {
 extern const struct list_quantity list_quantity[COLUMNS];
 
 /* Returns the member of l that holds the array of a column. */
-real **column_array(struct particle_list *l, int column);
+real **particle_list_column_array(struct particle_list *l, int column);
 
 /* Returns true for a component of position or velocity along an axis that a space of `dim` dimensions does not have. */
-bool column_is_unused(int column, int dim);
+bool particle_list_column_is_unused(int column, int dim);
 
 /* Returns the fault of a value in a column, as the end of a sentence, or NULL if the value is valid. */
-const char *column_value_fault(int column, real value);
+const char *particle_list_value_fault(int column, real value);
 
 /* Computes the factor that converts a number in `unit` to SI units; 1 if `unit` is empty. expected: kind of unit. If
  * `unit` is not of this kind, returns false and writes the fault to message[capacity], as the rest of a sentence. */
-bool unit_factor(real *factor, const char *unit, enum unit expected, char *message, size_t capacity);
+bool unit_factor_to_si(real *factor, const char *unit, enum unit expected, char *message, size_t capacity);
 
 /* Returns the factor to SI units of a number in a column without a unit: in coordinates and volumes that of the form of
  * the list, else 1. */
-real column_default_factor(const struct particle_list *l, int column);
+real particle_list_default_factor(const struct particle_list *l, int column);
 
 /* Appends `what` to the note on a list, preceded by `between` if the note is not empty. */
-void list_note_append(struct particle_list_head *head, const char *between, const char *what);
+void particle_list_note_append(struct particle_list_head *head, const char *between, const char *what);
 
 /* Stores in *head whether the file has columns of materials, masses and volumes, and adds the defaults of missing
  * columns to its note. has[COLUMNS]: true for each column that the file has. */
-void list_note_columns(struct particle_list_head *head, const bool *has);
+void particle_list_note_columns(struct particle_list_head *head, const bool *has);
 
 /* REFUSED if n particles of a run need more memory than the machine has. */
-status list_check_memory(const char *path, int64_t n);
+status particle_list_check_memory(const char *path, int64_t n);
 
 /* Reads a particle list from an Exodus II file as particle_list_read does. */
-status list_exodus_read(struct particle_list *l, const char *path);
+status particle_list_read_exodus(struct particle_list *l, const char *path);
 
 /* Reads a particle list from a CSV file as particle_list_read does. head: true to read only the column names. */
-status list_csv_read(struct particle_list *l, const char *path, bool head);
+status particle_list_read_csv(struct particle_list *l, const char *path, bool head);
 
 #endif

@@ -14,7 +14,7 @@ static status read_space(struct reader *r, const struct yaml_node *root)
 {
     const struct key *k = key_find("", "space");
     const struct yaml_node *space = yaml_node_find(root, "space");
-    if (!space) return fault_key_missing(r, root, k);
+    if (!space) return fault_missing_key(r, root, k);
     TRY(read_key(r, k, space, r->scene));
     r->dim = r->scene->dim = space_dim(r->scene->space);
     return OK;
@@ -23,8 +23,8 @@ static status read_space(struct reader *r, const struct yaml_node *root)
 status scene_from_tree(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
-    TRY(expect_kind(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
-    TRY(check_keys(r, root, ""));
+    TRY(expect_node_kind(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
+    TRY(check_keys_known(r, root, ""));
     TRY(read_space(r, root));
     TRY(read_regions(r, root));
     s->conversion.criteria = CONVERT_ON_BREAK | CONVERT_ON_STRESS;
@@ -33,31 +33,31 @@ status scene_from_tree(struct reader *r, const struct yaml_node *root)
     TRY(read_materials(r, root));
     TRY(read_bodies(r, root));
     TRY(read_interfaces(r, root));
-    resolve_safety(r, root);
-    resolve_lists(r, root);
-    resolve_frames(s);
+    resolve_safety_factor(r, root);
+    resolve_particle_lists(r, root);
+    resolve_reference_frames(s);
     TRY(check_particle_count(r, root));
     TRY(read_cracks(r, root));
-    TRY(read_initials(r, root));
+    TRY(read_initial_states(r, root));
     TRY(read_boundaries(r, root));
     TRY(check_friction(r, root));
     TRY(check_absorbing(r, root));
     TRY(check_supported_loads(r, root));
-    TRY(check_joined(r, root));
+    TRY(check_joined_bodies(r, root));
     TRY(read_probes(r, root));
     TRY(read_frame_regions(r, root));
-    TRY(read_growths(r, root));
+    TRY(read_crack_growths(r, root));
     TRY(resolve_contact(r, root));
     return check_solver(r, root);
 }
 
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root)
 {
-    TRY(tree_read(r, text, length, -1, root));
+    TRY(tree_parse_yaml(r, text, length, -1, root));
     if (!*root) return fault_at_location(r, -1, 1, 1, "empty; a scene begins with keys such as space and duration");
     TRY(tree_rename_old_keys(r, *root));
-    TRY(tree_include(r, *root));
-    TRY(tree_override(r, *root));
+    TRY(tree_merge_included_files(r, *root));
+    TRY(tree_apply_all_overrides(r, *root));
     TRY(tree_rename_old_keys(r, *root)); /* values of overrides may be mappings */
     return read_variables(r, *root);
 }

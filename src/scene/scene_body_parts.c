@@ -1,5 +1,5 @@
-/* Reads parts of a body that consist of another material. Bonds between parts act as springs in series
- * (bonds/bonds.c: pair_table_make); in state-based models each end uses the modulus of its own material. */
+/* Reads parts of a body that consist of another material. Bonds between parts act as springs in series (bonds/bonds.c:
+ * material_pair_table_make); in state-based models each end uses the modulus of its own material. */
 #include "base/memory.h"
 #include "scene_internal.h"
 

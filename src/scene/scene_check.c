@@ -22,7 +22,7 @@ static status check_measure(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *thickness = yaml_node_find(root, "thickness"), *section = yaml_node_find(root, "section");
     const char *space = space_names[s->space];
-    if (s->dim == 2 && !thickness) return fault_key_missing(r, root, key_find("", "thickness"));
+    if (s->dim == 2 && !thickness) return fault_missing_key(r, root, key_find("", "thickness"));
     if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; leave it out", space);
     if (s->dim != 1 && section) return fault(r, section, "space %s has no section; leave it out", space);
     if (s->dim != 2) s->thickness = 1;
@@ -49,7 +49,7 @@ status check_particle_count(struct reader *r, const struct yaml_node *root)
     real total = 0, longest = 0, from[DIM_MAX], to[DIM_MAX];
     for (int b = 0; b < s->bodies; b++) {
         real count = 1;
-        if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
+        if (s->body[b].file || !region_bounding_box(&s->body[b].shape, s->dim, from, to)) continue;
         for (int d = 0; d < s->dim; d++) count *= real_max(1, (to[d] - from[d]) / s->spacing);
         if (count > PLACES_OF_FILES && s->body[b].shape.n > 0 && s->body[b].shape.solid[0].hull)
             return status_prepend_location(
@@ -139,7 +139,7 @@ status check_supported_loads(struct reader *r, const struct yaml_node *root)
             return fault(r, yaml_node_find(n, "rotation"),
                          "static solvers drive along straight lines; solver: explicit is "
                          "expected");
-        if (formula && load_check_displacement_known(load) != OK)
+        if (formula && boundary_check_displacement_known(load) != OK)
             return fault(r, yaml_node_find(n, "velocity"),
                          "static solvers need the displacement, which does not follow from a velocity that is a "
                          "formula of t; displacement is expected in its place");
@@ -184,7 +184,7 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
 /* Sets the default of time.safety, the ratio of the time step to the critical one: 0.5 if bonds can break, else 0.8.
  * Crack lengths and most crack angles are equal at both; in a scene close to two crack paths the path can change above
  * 0.3 to 0.5. root: tree of the scene, to see whether the key is given. */
-void resolve_safety(struct reader *r, const struct yaml_node *root)
+void resolve_safety_factor(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     if (!scene_check_below(root, "time", "safety"))
@@ -223,7 +223,7 @@ status resolve_contact(struct reader *r, const struct yaml_node *root)
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
-    for (int b = 0; b < s->bodies; b++) /* set by resolve_lists */
+    for (int b = 0; b < s->bodies; b++) /* set by resolve_particle_lists */
         lattice = lattice && (!s->body[b].file || s->body[b].list.lattice);
     if (s->method != METHOD_PD) return SURFACE_NONE;
     if (scene_has_load_steps(s) && scene_bonds_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
@@ -257,13 +257,13 @@ static bool list_lattice(const struct scene *s, int body)
             list_forms_agree(&s->body[b].form, &s->body[body].form))
             return s->body[b].list.lattice;
     if (particle_list_read(&list, s->body[body].file, &s->body[body].form, s->dim) != OK) return false;
-    const bool lattice =
-        list_is_lattice(&list, s->spacing, lattice_volume(scene_section_factor(s), s->spacing, s->dim));
+    const bool lattice = particle_list_is_lattice(
+        &list, s->spacing, lattice_particle_volume(scene_section_or_thickness(s), s->spacing, s->dim));
     particle_list_free(&list);
     return lattice;
 }
 
-void resolve_lists(struct reader *r, const struct yaml_node *root)
+void resolve_particle_lists(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     for (int b = 0; b < s->bodies; b++)
@@ -301,7 +301,7 @@ static bool body_yields(const struct scene *s, int body)
 
 /* Returns the reason why a body cannot be in the reference frame, as part of a message; NULL if it can. body: index in
  * the scene. */
-const char *scene_why_frame_unsupported(const struct scene *s, int body)
+const char *scene_why_reference_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
     if (scene_is_single_equilibrium(s)) return "static solvers need the current frame";
@@ -320,9 +320,9 @@ const char *scene_why_frame_unsupported(const struct scene *s, int body)
     return NULL;
 }
 
-const char *scene_why_frame_not_default(const struct scene *s, int body)
+const char *scene_why_reference_frame_not_auto(const struct scene *s, int body)
 {
-    const char *why = scene_why_frame_unsupported(s, body);
+    const char *why = scene_why_reference_frame_unsupported(s, body);
     if (why) return why;
     if (s->bodies > 1) return "bodies meet on the grid of the current frame only";
     if (s->body[body].file) return "particles from a list need not be a lattice";
@@ -331,10 +331,10 @@ const char *scene_why_frame_not_default(const struct scene *s, int body)
     return NULL;
 }
 
-const char *scene_frame_obstacle(const struct scene *s)
+const char *scene_why_reference_frame_no_remedy(const struct scene *s)
 {
     const char *why = NULL;
-    for (int b = 0; b < s->bodies && !why; b++) why = scene_why_frame_not_default(s, b);
+    for (int b = 0; b < s->bodies && !why; b++) why = scene_why_reference_frame_not_auto(s, b);
     return why;
 }
 
@@ -358,14 +358,14 @@ bool scene_yields_on_mesh(const struct scene *s)
  * auto, keys with a meaning in the current frame only (mpm.shape, mpm.transfer, interface_damping) are marked as
  * given, so that scene_echo.c writes them. They must not be written while a body is at auto, since a scene that
  * gives these keys requires the current frame. */
-void resolve_frames(struct scene *s)
+void resolve_reference_frames(struct scene *s)
 {
     bool open = false;
     s->current_frame_key = current_frame_key(s);
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
         if (body->frame == FRAME_AUTO && s->method != METHOD_PD) {
-            body->frame_reason = scene_why_frame_not_default(s, b);
+            body->frame_reason = scene_why_reference_frame_not_auto(s, b);
             if (!body->frame_reason) body->frame_reason = s->current_frame_key;
             if (body->frame_reason) body->frame = FRAME_CURRENT;
         }
@@ -386,13 +386,13 @@ static status check_times(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *frames = scene_check_below(root, "output", "frames"),
                            *every = s->every > 0 ? scene_check_below(root, "output", "every") : NULL,
                            *times = scene_check_below(root, "output", "times");
-    if (every && (frames || times)) return fault_keys_exclude(r, frames ? frames : times, every);
+    if (every && (frames || times)) return fault_exclusive_keys(r, frames ? frames : times, every);
     if (every && s->duration / s->every > FRAMES_MOST)
         return fault(r, every, "an interval of %s makes more than %d frames; at least %.3g s is expected",
                      node_text(r, every), FRAMES_MOST, s->duration / FRAMES_MOST);
     if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
-    if (frames) return fault_keys_exclude(r, frames, times);
+    if (frames) return fault_exclusive_keys(r, frames, times);
     for (s->frames = 0; s->frames < s->times.n && s->times.value[s->frames] <= s->duration * (1 + 1e-12);) s->frames++;
     return OK;
 }
@@ -437,7 +437,7 @@ status check_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
-    TRY(check_steps_given(r, root));
+    TRY(check_load_step_keys_unused(r, root));
     if (!solver || scene_is_dynamic(s)) return OK;
     if (scene_has_load_steps(s)) return check_load_steps(r, root);
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)

@@ -11,14 +11,14 @@ enum { POWER_MOST = 18 }; /* twice the largest power of a unit */
 /* ---- complaints -------------------------------------------------------------------------------------------------- */
 
 /* Returns the number of the UTF-8 character at `place` in c->text, from 1. place: position inside c->text. */
-int character_of(const struct compile *c, const char *place)
+int compile_character_number(const struct compile *c, const char *place)
 {
     int characters = 1;
     for (const char *at = c->text; at < place; at++) characters += ((unsigned char)*at & 0xC0) != 0x80;
     return characters;
 }
 
-bool compile_fail(struct compile *c, const char *format, ...)
+bool compile_report_fault(struct compile *c, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -39,7 +39,7 @@ static bool same_unit(const struct quantity *a, const struct quantity *b)
     return memcmp(a->twice, b->twice, sizeof a->twice) == 0;
 }
 
-bool is_dimensionless(const struct quantity *q) { return same_unit(q, &(struct quantity){0}); }
+bool quantity_is_dimensionless(const struct quantity *q) { return same_unit(q, &(struct quantity){0}); }
 
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
@@ -48,37 +48,38 @@ bool is_dimensionless(const struct quantity *q) { return same_unit(q, &(struct q
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
-        return compile_fail(c, "has more than %d numbers and operations", EXPRESSION_STEPS);
+        return compile_report_fault(c, "has more than %d numbers and operations", EXPRESSION_STEPS);
     c->step[c->steps++] = (struct expression_step){op, value};
     return true;
 }
 
-bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *q)
+bool compile_add_operand(struct compile *c, enum expression_op op, const struct quantity *q)
 {
-    if (c->operands == EXPRESSION_STACK) return compile_fail(c, "holds more than %d values open", EXPRESSION_STACK);
+    if (c->operands == EXPRESSION_STACK)
+        return compile_report_fault(c, "holds more than %d values open", EXPRESSION_STACK);
     c->operand[c->operands++] = (struct operand){*q, op == EXPRESSION_NUMBER};
     return add_step(c, op, q->value);
 }
 
-struct operand *operand_from_top(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
+struct operand *compile_operand_from_top(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
 
 /* Replaces the topmost operand, or two for an operation of two, by the result of the operation `op`, and appends a step
  * to the expression. unit: unit of the result, which the caller derives. If the operands are constant, evaluates the
  * operation now and appends its value as a number instead. Returns false, with a message in c, if the value is not
  * finite or the expression is too long. */
-bool add_operation(struct compile *c, enum expression_op op, const struct quantity *unit)
+bool compile_add_operation(struct compile *c, enum expression_op op, const struct quantity *unit)
 {
-    const bool two = expression_has_two(op);
-    struct operand *a = operand_from_top(c, two), *b = operand_from_top(c, 0);
+    const bool two = expression_op_is_binary(op);
+    struct operand *a = compile_operand_from_top(c, two), *b = compile_operand_from_top(c, 0);
     const bool constant = a->constant && b->constant, bare = a->q.bare && b->q.bare;
-    a->q.value = expression_apply_operation(op, a->q.value, b->q.value);
+    a->q.value = expression_op_apply(op, a->q.value, b->q.value);
     memcpy(a->q.twice, unit->twice, sizeof a->q.twice);
     a->q.bare = bare;
     c->operands -= two;
     a->constant = constant;
     if (!constant) return add_step(c, op, 0);
     c->steps -= two ? 2 : 1;
-    if (!isfinite(a->q.value)) return compile_fail(c, "has a part that is no finite number");
+    if (!isfinite(a->q.value)) return compile_report_fault(c, "has a part that is no finite number");
     return add_step(c, EXPRESSION_NUMBER, a->q.value);
 }
 
@@ -87,46 +88,48 @@ static bool is_nothing(const struct operand *o) { return o->constant && o->q.bar
 
 /* Checks that the two topmost operands have the same unit; a 0 without a unit takes the unit of the other operand.
  * Returns false otherwise, with a message in c that names the operation `word` at position `at` of c->text. */
-bool equal_units(struct compile *c, const char *word, const char *at)
+bool compile_check_equal_units(struct compile *c, const char *word, const char *at)
 {
-    struct quantity *a = &operand_from_top(c, 1)->q, *b = &operand_from_top(c, 0)->q;
-    if (is_nothing(operand_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
-    if (is_nothing(operand_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
+    struct quantity *a = &compile_operand_from_top(c, 1)->q, *b = &compile_operand_from_top(c, 0)->q;
+    if (is_nothing(compile_operand_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
+    if (is_nothing(compile_operand_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
     if (same_unit(a, b)) return true;
-    return compile_fail(c, "combines %s and %s by %s (character %d); both are expected to have the same unit",
-                        quantity_unit_name(a).text, quantity_unit_name(b).text, word, character_of(c, at));
+    return compile_report_fault(c, "combines %s and %s by %s (character %d); both are expected to have the same unit",
+                                quantity_unit_name(a).text, quantity_unit_name(b).text, word,
+                                compile_character_number(c, at));
 }
 
 static bool unit_in_bounds(struct compile *c, const struct quantity *q)
 {
     for (int k = 0; k < 3; k++)
         if (q->twice[k] > POWER_MOST || q->twice[k] < -POWER_MOST)
-            return compile_fail(c, "has a power of a unit beyond %d", POWER_MOST / 2);
+            return compile_report_fault(c, "has a power of a unit beyond %d", POWER_MOST / 2);
     return true;
 }
 
-bool add_minus(struct compile *c)
+bool compile_add_negation(struct compile *c)
 {
-    const struct quantity unit = operand_from_top(c, 0)->q;
-    return add_operation(c, EXPRESSION_MINUS, &unit);
+    const struct quantity unit = compile_operand_from_top(c, 0)->q;
+    return compile_add_operation(c, EXPRESSION_MINUS, &unit);
 }
 
-bool add_sum(struct compile *c, char sign, const char *at)
+bool compile_add_sum(struct compile *c, char sign, const char *at)
 {
     const char word[2] = {sign, 0};
-    if (!equal_units(c, word, at)) return false;
-    const struct quantity unit = operand_from_top(c, 1)->q;
-    return add_operation(c, sign == '+' ? EXPRESSION_ADD : EXPRESSION_SUBTRACT, &unit);
+    if (!compile_check_equal_units(c, word, at)) return false;
+    const struct quantity unit = compile_operand_from_top(c, 1)->q;
+    return compile_add_operation(c, sign == '+' ? EXPRESSION_ADD : EXPRESSION_SUBTRACT, &unit);
 }
 
-bool add_product(struct compile *c, char sign, const char *at)
+bool compile_add_product(struct compile *c, char sign, const char *at)
 {
-    struct quantity unit = operand_from_top(c, 1)->q;
-    const struct operand *b = operand_from_top(c, 0);
+    struct quantity unit = compile_operand_from_top(c, 1)->q;
+    const struct operand *b = compile_operand_from_top(c, 0);
     for (int k = 0; k < 3; k++) unit.twice[k] += sign == '*' ? b->q.twice[k] : -b->q.twice[k];
     if (sign == '/' && b->constant && b->q.value == 0)
-        return compile_fail(c, "divides by 0 (character %d)", character_of(c, at));
-    return unit_in_bounds(c, &unit) && add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
+        return compile_report_fault(c, "divides by 0 (character %d)", compile_character_number(c, at));
+    return unit_in_bounds(c, &unit) &&
+           compile_add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
 /* Replaces *unit by its power: exponents of m, kg and s times `power`. Returns false, with a message in c, if an
@@ -137,10 +140,11 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
     for (int k = 0; k < 3; k++) {
         const real twice = unit->twice[k] * power;
         if (twice != floor(twice) || fabs(twice) > POWER_MOST)
-            return compile_fail(c,
-                                "raises %s (character %d) to a power whose unit cannot be represented; whole and half "
-                                "powers of m, kg and s can be",
-                                quantity_unit_name(&operand_from_top(c, 1)->q).text, place);
+            return compile_report_fault(
+                c,
+                "raises %s (character %d) to a power whose unit cannot be represented; whole and half "
+                "powers of m, kg and s can be",
+                quantity_unit_name(&compile_operand_from_top(c, 1)->q).text, place);
         unit->twice[k] = (int)twice;
     }
     return true;
@@ -148,20 +152,20 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
 
 /* Appends the operation a^b on the two topmost operands a, b. Returns false, with a message in c, if the exponent b has
  * a unit, or if a has a unit and b is not constant. at: position of the operator in c->text. */
-bool add_power(struct compile *c, const char *at)
+bool compile_add_power(struct compile *c, const char *at)
 {
-    const struct operand *b = operand_from_top(c, 0);
-    struct quantity unit = operand_from_top(c, 1)->q;
-    const int place = character_of(c, at);
+    const struct operand *b = compile_operand_from_top(c, 0);
+    struct quantity unit = compile_operand_from_top(c, 1)->q;
+    const int place = compile_character_number(c, at);
     const bool two = b->constant && b->q.value == 2;
-    if (!is_dimensionless(&b->q))
-        return compile_fail(c, "has %s as a power (character %d); a plain number is expected",
-                            quantity_unit_name(&b->q).text, place);
-    if (!is_dimensionless(&unit) && !b->constant)
-        return compile_fail(
+    if (!quantity_is_dimensionless(&b->q))
+        return compile_report_fault(c, "has %s as a power (character %d); a plain number is expected",
+                                    quantity_unit_name(&b->q).text, place);
+    if (!quantity_is_dimensionless(&unit) && !b->constant)
+        return compile_report_fault(
             c, "raises %s to a power that varies (character %d); a constant number is expected as the power",
             quantity_unit_name(&unit).text, place);
-    if (!is_dimensionless(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
+    if (!quantity_is_dimensionless(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
     if (two) c->operands--, c->steps--; /* without the exponent 2 */
-    return add_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
+    return compile_add_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
 }

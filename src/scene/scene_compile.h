@@ -29,10 +29,10 @@ struct compile {
 };
 
 /* Writes a fault to c->what and returns false. */
-bool compile_fail(struct compile *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool compile_report_fault(struct compile *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Returns the number of the character at `place` in c->text, from 1. */
-int character_of(const struct compile *c, const char *place);
+int compile_character_number(const struct compile *c, const char *place);
 
 /* Text of a unit, returned by value. */
 struct named {
@@ -43,34 +43,34 @@ struct named {
 struct named quantity_unit_name(const struct quantity *q);
 
 /* Returns true if q has no dimension. */
-bool is_dimensionless(const struct quantity *q);
+bool quantity_is_dimensionless(const struct quantity *q);
 
 /* Returns the operand `below` entries under the top of the stack. */
-struct operand *operand_from_top(struct compile *c, int below);
+struct operand *compile_operand_from_top(struct compile *c, int below);
 
 /* Adds a step that pushes a value: a number, a variable, or a coordinate or the time. The functions add_* return false
  * on failure, with the fault in c->what. */
-bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *quantity);
+bool compile_add_operand(struct compile *c, enum expression_op op, const struct quantity *quantity);
 
 /* Adds a step that applies op to the topmost one or two operands. unit: unit of the result. */
-bool add_operation(struct compile *c, enum expression_op op, const struct quantity *unit);
+bool compile_add_operation(struct compile *c, enum expression_op op, const struct quantity *unit);
 
 /* Adds a step that negates the topmost operand. */
-bool add_minus(struct compile *c);
+bool compile_add_negation(struct compile *c);
 
 /* Adds a step that adds (sign '+') or subtracts the two topmost operands, which must have one unit. at: position of the
  * operator in the text, for messages. */
-bool add_sum(struct compile *c, char sign, const char *at);
+bool compile_add_sum(struct compile *c, char sign, const char *at);
 
 /* Adds a step that multiplies (sign '*') or divides the two topmost operands, and their units. */
-bool add_product(struct compile *c, char sign, const char *at);
+bool compile_add_product(struct compile *c, char sign, const char *at);
 
 /* Adds a step that raises an operand to the power of the topmost one, which must have no unit. */
-bool add_power(struct compile *c, const char *at);
+bool compile_add_power(struct compile *c, const char *at);
 
 /* Checks that the two topmost operands have one unit; a constant 0 without unit first receives the unit of the other
  * operand. word: name of the operation, and at: its position in the text, for the message. Returns false if the units
  * differ. */
-bool equal_units(struct compile *c, const char *word, const char *at);
+bool compile_check_equal_units(struct compile *c, const char *word, const char *at);
 
 #endif

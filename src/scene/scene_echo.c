@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/memory_stream.h"
 
-void write_key(struct writer *w, const char *key)
+void writer_begin_key(struct writer *w, const char *key)
 {
     fprintf(w->out, "%*s%s%s:", w->indent - (w->dash ? 2 : 0), "", w->dash ? "- " : "", key);
     w->dash = false;
@@ -197,7 +197,7 @@ static void write_series(struct writer *w)
 {
     const struct scene *s = w->scene;
     if (s->n_series == 0) return;
-    write_key(w, "regions");
+    writer_begin_key(w, "regions");
     fputc('\n', w->out);
     w->indent += 4;
     for (int k = 0; k < s->n_series; k++) {
@@ -215,7 +215,7 @@ void write_group(struct writer *w, const char *group, const void *base)
         const struct key *k = &keys[i];
         if (!key_is_directly_below(k, group) || is_left_out(k, group, base)) continue;
         if (k->type == KEY_MAP) {
-            write_key(w, key_leaf(k));
+            writer_begin_key(w, key_leaf(k));
             fputc('\n', w->out);
             w->indent += 2;
             write_group(w, k->path, base);
@@ -223,7 +223,7 @@ void write_group(struct writer *w, const char *group, const void *base)
             w->indent -= 2;
         }
         if (!has_value(k, base, key_value_address(k, base))) continue;
-        write_key(w, key_leaf(k));
+        writer_begin_key(w, key_leaf(k));
         fputc(' ', w->out);
         write_value(w, k, key_value_address(k, base));
         fprintf(w->out, "%s%s\n", k->unit ? "  # " : "", unit_rows[k->unit].symbol);
@@ -233,7 +233,7 @@ void write_group(struct writer *w, const char *group, const void *base)
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
 /* Begins an item of a list: sets the indent, and requests a dash before the first key of the item. */
-void write_item(struct writer *w)
+void writer_begin_item(struct writer *w)
 {
     w->indent = 4;
     w->dash = true;
@@ -243,7 +243,7 @@ void write_item(struct writer *w)
  * the structure `base`. */
 void write_mapping(struct writer *w, const char *key, const char *group, const void *base)
 {
-    write_key(w, key);
+    writer_begin_key(w, key);
     fputc('\n', w->out);
     w->indent += 2;
     write_group(w, group, base);
@@ -253,7 +253,7 @@ void write_mapping(struct writer *w, const char *key, const char *group, const v
 /* Writes the points of a hardening curve as the key `table`: a list of pairs of plastic strain [1] and stress [Pa]. */
 static void write_curve(struct writer *w, const struct flow_curve *c)
 {
-    write_key(w, flow_words[FLOW_TABLE]);
+    writer_begin_key(w, flow_words[FLOW_TABLE]);
     for (int k = 0; k < c->points; k++) {
         fputs(k ? ", " : " [", w->out);
         write_list(w, (const real[]){c->strain[k], c->stress[k]}, 2);
@@ -273,7 +273,7 @@ static void write_material_law(struct writer *w, const struct material *m)
     if (!word)
         write_mapping(w, "johnson_cook", "material.johnson_cook", law);
     else if (law->flow != FLOW_LINEAR || law->hardening != m->yield_hardening) {
-        write_key(w, "hardening");
+        writer_begin_key(w, "hardening");
         fputc('\n', w->out);
         w->indent += 2;
         if (law->flow == FLOW_TABLE)
@@ -294,11 +294,11 @@ static void write_materials(struct writer *w)
     for (int k = 0; k < s->materials; k++) {
         struct material m = s->material[k];
         if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN; /* follows from energy_release_rate */
-        write_item(w);
+        writer_begin_item(w);
         if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
         write_material_law(w, &m);
-        if (material_viscous(&m)) write_mapping(w, "viscosity", "material.viscosity", &m);
+        if (material_has_viscosity(&m)) write_mapping(w, "viscosity", "material.viscosity", &m);
         if (m.scatter.given) write_mapping(w, "scatter", "material.scatter", &m.scatter);
     }
 }
@@ -309,7 +309,7 @@ static void write_materials(struct writer *w)
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
     char *whole = contents ? realpath(file, NULL) : NULL;
-    write_key(w, key);
+    writer_begin_key(w, key);
     fputc(' ', w->out);
     write_quoted(w, whole ? whole : file);
     if (contents) fprintf(w->out, "  # contents %016" PRIx64, contents);
@@ -326,18 +326,18 @@ static void write_particle_list(struct writer *w, const struct scene_body *b)
         write_file_name(w, "particles", b->file, b->contents);
         return;
     }
-    write_key(w, "particles");
+    writer_begin_key(w, "particles");
     fputc('\n', w->out);
     w->indent += 2;
     write_file_name(w, "file", b->file, b->contents);
     if (b->form.scale > 0) {
-        write_key(w, "scale");
+        writer_begin_key(w, "scale");
         fputc(' ', w->out);
         write_real(w, b->form.scale);
         fputs("  # m\n", w->out);
     }
     if (b->form.columns) {
-        write_key(w, "columns");
+        writer_begin_key(w, "columns");
         fprintf(w->out, " [\"");
         for (const char *c = b->form.columns; *c; c++) *c == ',' ? fputs("\", \"", w->out) : fputc(*c, w->out);
         fprintf(w->out, "\"]\n");
@@ -348,7 +348,7 @@ static void write_particle_list(struct writer *w, const struct scene_body *b)
 static void write_body_parts(struct writer *w, const struct scene_body *b)
 {
     if (!b->parts) return;
-    write_key(w, "parts");
+    writer_begin_key(w, "parts");
     fputc('\n', w->out);
     for (int k = 0; k < b->parts; k++) {
         w->indent = 8, w->dash = true;
@@ -361,7 +361,7 @@ static void write_bodies(struct writer *w)
     const struct scene *s = w->scene;
     fputs("bodies:\n", w->out);
     for (int k = 0; k < s->bodies + s->rigids; k++) {
-        write_item(w);
+        writer_begin_item(w);
         write_group(w, "bodies", &s->body[k]);
         if (s->body[k].file) write_particle_list(w, &s->body[k]);
         write_body_parts(w, &s->body[k]);
@@ -374,8 +374,8 @@ static void write_interfaces(struct writer *w)
     if (s->interfaces) fputs("interfaces:\n", w->out);
     for (int k = 0; k < s->interfaces; k++) {
         const struct scene_interface *face = &s->interface[k];
-        write_item(w);
-        write_key(w, "bodies");
+        writer_begin_item(w);
+        writer_begin_key(w, "bodies");
         fputs(" [", w->out);
         write_quoted(w, s->body[face->body[0]].name);
         fputs(", ", w->out);
@@ -409,7 +409,7 @@ static void write_growths(struct writer *w)
     for (int k = 0; k < s->growths; k++) {
         struct growth_rule g = s->growth[k];
         if (!g.probe[0]) g.toughness = NAN; /* without a meaning if there is no probe */
-        write_item(w);
+        writer_begin_item(w);
         write_group(w, "growth", &g);
     }
 }
@@ -419,7 +419,7 @@ static void write_initials(struct writer *w)
     const struct scene *s = w->scene;
     if (s->initials) fputs("initial:\n", w->out);
     for (int k = 0; k < s->initials; k++) {
-        write_item(w);
+        writer_begin_item(w);
         const struct scene_initial *one = &s->initial[k];
         write_group(w, "initial", one);
         if (one->sets_velocity) write_formulas(w, "velocity", one->velocity, one->formula);

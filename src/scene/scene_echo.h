@@ -16,10 +16,10 @@ struct writer {
 };
 
 /* Begins a line: writes indentation, the dash of a list item if it is due, and `key:`. */
-void write_key(struct writer *w, const char *key);
+void writer_begin_key(struct writer *w, const char *key);
 
 /* Begins an item of a list; the dash is written with its first key. */
-void write_item(struct writer *w);
+void writer_begin_item(struct writer *w);
 
 /* Writes a number so that it reads back to identical bits. */
 void write_real(struct writer *w, real value);

@@ -4,12 +4,12 @@
 /* Writes the key `time` of the boundary b whose factor of time is read from a file: file name and column. */
 static void write_time_file(struct writer *w, const struct boundary *b)
 {
-    write_key(w, "time");
+    writer_begin_key(w, "time");
     fputc('\n', w->out);
     w->indent += 2;
     write_file_name(w, "file", b->time_file, b->time_contents);
     if (b->time_column[0]) {
-        write_key(w, "column");
+        writer_begin_key(w, "column");
         fputc(' ', w->out);
         write_quoted(w, b->time_column);
         fputc('\n', w->out);
@@ -26,7 +26,7 @@ static void write_time(struct writer *w, const struct boundary *b)
         return;
     }
     static const char *const words[] = {[TIME_STEP] = "step", [TIME_PULSE] = "pulse", [TIME_RAMP] = "ramp"};
-    write_key(w, "time");
+    writer_begin_key(w, "time");
     if (f->kind == TIME_CONSTANT)
         fputs(" constant", w->out);
     else if (f->kind == TIME_TABLE)
@@ -49,7 +49,7 @@ static void write_time(struct writer *w, const struct boundary *b)
 static void write_profile(struct writer *w, const struct profile *f)
 {
     const char *group = "boundary.profile.sine", *between = " {sine: {";
-    write_key(w, "profile");
+    writer_begin_key(w, "profile");
     for (int i = 0; i < keys_count && f->kind == PROFILE_SINE; i++) {
         if (!key_is_directly_below(&keys[i], group)) continue;
         fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
@@ -70,7 +70,7 @@ static void write_formula(struct writer *w, const real *value, const struct expr
 
 void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula)
 {
-    write_key(w, key);
+    writer_begin_key(w, key);
     for (int d = 0; d < w->scene->dim; d++) {
         fputs(d ? ", " : " [", w->out);
         write_formula(w, value, formula, d);
@@ -83,7 +83,7 @@ static void write_rotation(struct writer *w, const struct boundary *b)
     write_mapping(w, "rotation", "boundary.rotation", b);
     if (w->scene->dim < 3) return;
     w->indent += 2;
-    write_key(w, "axis");
+    writer_begin_key(w, "axis");
     fputc(' ', w->out);
     write_list(w, b->axis_of, DIM_MAX);
     fputc('\n', w->out);
@@ -92,7 +92,7 @@ static void write_rotation(struct writer *w, const struct boundary *b)
 
 static void write_velocity(struct writer *w, const struct boundary *b)
 {
-    write_key(w, b->displaces ? "displacement" : "velocity");
+    writer_begin_key(w, b->displaces ? "displacement" : "velocity");
     for (int d = 0; d < w->scene->dim; d++) {
         fputs(d ? ", " : " [", w->out);
         if (b->components >> d & 1)
@@ -117,10 +117,10 @@ static void write_boundary(struct writer *w, const struct boundary *b)
     } else if (b->kind == BOUNDARY_VELOCITY) {
         write_velocity(w, b);
     } else if (b->kind == BOUNDARY_ABSORBING) {
-        write_key(w, "absorbing");
+        writer_begin_key(w, "absorbing");
         fputs(" true\n", w->out);
     } else if (b->kind == BOUNDARY_PRESSURE) {
-        write_key(w, "pressure");
+        writer_begin_key(w, "pressure");
         fputc(' ', w->out);
         write_formula(w, b->value, b->formula, 0);
         fputc('\n', w->out);
@@ -128,11 +128,11 @@ static void write_boundary(struct writer *w, const struct boundary *b)
         write_formulas(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force", b->value, b->formula);
     }
     if (b->side != 0) {
-        write_key(w, "face");
+        writer_begin_key(w, "face");
         fprintf(w->out, " %c%c\n", 'x' + b->face, b->side > 0 ? '+' : '-');
     }
     if (b->side != 0 && b->kind == BOUNDARY_VELOCITY) {
-        write_key(w, "depth");
+        writer_begin_key(w, "depth");
         fputc(' ', w->out);
         write_real(w, b->depth);
         fputc('\n', w->out);
@@ -148,7 +148,7 @@ void write_boundaries(struct writer *w)
     const int n = s->boundaries - falls;
     if (n) fputs("boundary:\n", w->out);
     for (int k = 0; k < n; k++) {
-        write_item(w);
+        writer_begin_item(w);
         write_boundary(w, &s->boundary[k]);
     }
 }

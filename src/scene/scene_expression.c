@@ -55,7 +55,8 @@ static void skip(struct compile *c)
  * with a message in c, if it becomes too long. */
 static bool keep(struct compile *c, const char *text, size_t length)
 {
-    if (c->used + length > EXPRESSION_TEXT) return compile_fail(c, "is longer than %d characters", EXPRESSION_TEXT);
+    if (c->used + length > EXPRESSION_TEXT)
+        return compile_report_fault(c, "is longer than %d characters", EXPRESSION_TEXT);
     memcpy(c->kept + c->used, text, length);
     c->used += length;
     c->kept[c->used] = '\0';
@@ -97,13 +98,13 @@ static size_t name_length(const char *c)
 static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
-        return compile_fail(c, "ends where %s is expected%s", expected,
-                            c->depth > 0 ? " (in a list a formula with a comma needs quotes)" : "");
+        return compile_report_fault(c, "ends where %s is expected%s", expected,
+                                    c->depth > 0 ? " (in a list a formula with a comma needs quotes)" : "");
     size_t length = name_length(c->at);
     if (length == 0) length = 1;
     while (((unsigned char)c->at[length] & 0xC0) == 0x80) length++;
-    return compile_fail(c, "has %.*s at character %d, where %s is expected", (int)(length < 30 ? length : 30), c->at,
-                        character_of(c, c->at), expected);
+    return compile_report_fault(c, "has %.*s at character %d, where %s is expected", (int)(length < 30 ? length : 30),
+                                c->at, compile_character_number(c, c->at), expected);
 }
 
 /* ---- grammar ----------------------------------------------------------------------------------------------------- */
@@ -113,7 +114,7 @@ static bool compile_sum(struct compile *c);
 static bool deeper(struct compile *c, int levels)
 {
     if (c->depth + levels <= DEPTH_MOST) return true;
-    return compile_fail(c, "is nested deeper than %d levels", DEPTH_MOST);
+    return compile_report_fault(c, "is nested deeper than %d levels", DEPTH_MOST);
 }
 
 static bool compile_brackets(struct compile *c)
@@ -129,20 +130,20 @@ static bool compile_brackets(struct compile *c)
 
 static bool apply_function(struct compile *c, const struct function *f, const char *at)
 {
-    struct quantity unit = operand_from_top(c, 0)->q;
+    struct quantity unit = compile_operand_from_top(c, 0)->q;
     const bool two = f->rule == SAME || f->rule == ANGLE;
-    if (two && !equal_units(c, f->name, at)) return false;
-    if (two) unit = operand_from_top(c, 1)->q;
-    if (f->rule == PLAIN && !is_dimensionless(&unit))
-        return compile_fail(c, "applies %s to %s (character %d); a plain number is expected, as (t/5us)", f->name,
-                            quantity_unit_name(&unit).text, character_of(c, at));
+    if (two && !compile_check_equal_units(c, f->name, at)) return false;
+    if (two) unit = compile_operand_from_top(c, 1)->q;
+    if (f->rule == PLAIN && !quantity_is_dimensionless(&unit))
+        return compile_report_fault(c, "applies %s to %s (character %d); a plain number is expected, as (t/5us)",
+                                    f->name, quantity_unit_name(&unit).text, compile_character_number(c, at));
     for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
         if (f->rule == ROOT && unit.twice[k] % 2 != 0)
-            return compile_fail(c, "takes the square root of %s (character %d), whose unit has no square root",
-                                quantity_unit_name(&unit).text, character_of(c, at));
+            return compile_report_fault(c, "takes the square root of %s (character %d), whose unit has no square root",
+                                        quantity_unit_name(&unit).text, compile_character_number(c, at));
         unit.twice[k] = f->rule == ROOT ? unit.twice[k] / 2 : 0;
     }
-    return add_operation(c, f->op, &unit);
+    return compile_add_operation(c, f->op, &unit);
 }
 
 /* Compiles a call of the function f with its operands in brackets; c->at is at the opening bracket. min and max have
@@ -180,17 +181,17 @@ static bool compile_coordinate(struct compile *c, char name)
     struct quantity q = {.twice = {2, 0, 0}};
     if (name == 't') q.twice[0] = 0, q.twice[2] = 2;
     if (!(c->of & (name == 't' ? EXPRESS_TIME : EXPRESS_SPACE)))
-        return compile_fail(c, "contains %c, which has no meaning in this key", name);
+        return compile_report_fault(c, "contains %c, which has no meaning in this key", name);
     if (name != 't' && name - 'x' >= c->r->dim)
-        return compile_fail(c, "contains %c; space %s does not have it", name, space_names[c->r->scene->space]);
-    return add_leaf(c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
+        return compile_report_fault(c, "contains %c; space %s does not have it", name, space_names[c->r->scene->space]);
+    return compile_add_operand(c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
 }
 
 static bool compile_variable(struct compile *c, const char *name, const char *at)
 {
     const struct quantity *q = variable_value(c->r, name, c->what, c->room);
     if (!q) return false;
-    return deeper(c, 2) && keep_value(c, at, q) && add_leaf(c, EXPRESSION_NUMBER, q);
+    return deeper(c, 2) && keep_value(c, at, q) && compile_add_operand(c, EXPRESSION_NUMBER, q);
 }
 
 static bool compile_name(struct compile *c)
@@ -199,20 +200,21 @@ static bool compile_name(struct compile *c)
     const char *at = c->at;
     const size_t length = name_length(at);
     char name[NAME_MOST + 1];
-    if (length > NAME_MOST) return compile_fail(c, "has a name of more than %d letters", NAME_MOST);
+    if (length > NAME_MOST) return compile_report_fault(c, "has a name of more than %d letters", NAME_MOST);
     snprintf(name, sizeof name, "%.*s", (int)length, at);
     c->at += length;
     skip(c);
     const struct function *f = function_named(name);
     if (*c->at == '(' && f) return compile_call(c, f, at);
     if (*c->at == '(')
-        return compile_fail(c, "has an unknown function %s (character %d); `cleave help expression` lists them", name,
-                            character_of(c, at));
+        return compile_report_fault(c, "has an unknown function %s (character %d); `cleave help expression` lists them",
+                                    name, compile_character_number(c, at));
     if (f) return missing(c, "( and what it is of");
     if (length == 1 && strchr("xyzt", *name)) return compile_coordinate(c, *name);
-    if (strcmp(name, "pi") == 0) return add_leaf(c, EXPRESSION_NUMBER, &q);
+    if (strcmp(name, "pi") == 0) return compile_add_operand(c, EXPRESSION_NUMBER, &q);
     c->at = at + length;
-    return quantity_read_unit(&q, name) == length ? add_leaf(c, EXPRESSION_NUMBER, &q) : compile_variable(c, name, at);
+    return quantity_read_unit(&q, name) == length ? compile_add_operand(c, EXPRESSION_NUMBER, &q)
+                                                  : compile_variable(c, name, at);
 }
 
 /* Compiles the number at c->at with its unit. power: true for an exponent, which has no unit. Returns false, with a
@@ -222,15 +224,16 @@ static bool compile_number(struct compile *c, bool power)
     struct quantity q;
     const char *why = NULL;
     const size_t length = quantity_read(&q, c->at, !power, &why);
-    if (length == 0) return compile_fail(c, "has no number at character %d: %s", character_of(c, c->at), why);
+    if (length == 0)
+        return compile_report_fault(c, "has no number at character %d: %s", compile_character_number(c, c->at), why);
     c->at += length;
     const char *rest = c->at + strspn(c->at, " ");
     const int letters = (int)name_length(rest);
-    if (letters == 0) return add_leaf(c, EXPRESSION_NUMBER, &q);
-    return compile_fail(c,
-                        "has an unknown unit %.*s (character %d); between a number and a name an operation is "
-                        "expected",
-                        letters < 30 ? letters : 30, rest, character_of(c, rest));
+    if (letters == 0) return compile_add_operand(c, EXPRESSION_NUMBER, &q);
+    return compile_report_fault(c,
+                                "has an unknown unit %.*s (character %d); between a number and a name an operation is "
+                                "expected",
+                                letters < 30 ? letters : 30, rest, compile_character_number(c, rest));
 }
 
 /* Compiles what is at c->at: a number, a variable, a function call or an expression in brackets. power: true in an
@@ -244,7 +247,7 @@ static bool compile_primary(struct compile *c, bool power)
     if (isdigit((unsigned char)*c->at) || *c->at == '.') return compile_number(c, power);
     const size_t unit = quantity_read_unit(&q, c->at); /* the sign micro is no ASCII letter */
     c->at += unit;
-    return unit ? add_leaf(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
+    return unit ? compile_add_operand(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
 }
 
 /* Compiles an operand with its power, if any. Powers are right-associative: a^b^c is a^(b^c). An exponent may have a
@@ -261,7 +264,7 @@ static bool compile_power(struct compile *c, bool power)
     c->depth++;
     if (!deeper(c, 0) || !compile_power(c, true)) return false;
     c->depth--;
-    return (!minus || add_minus(c)) && add_power(c, at);
+    return (!minus || compile_add_negation(c)) && compile_add_power(c, at);
 }
 
 static bool compile_product(struct compile *c)
@@ -270,13 +273,14 @@ static bool compile_product(struct compile *c)
     const bool minus = *c->at == '-';
     if (minus || *c->at == '+') c->at++;
     if (!compile_power(c, false)) return false;
-    if (minus && !add_minus(c)) return false;
+    if (minus && !compile_add_negation(c)) return false;
     for (skip(c); *c->at == '*' || *c->at == '/'; skip(c)) {
         const char *at = c->at++;
         skip(c);
         const bool negative = *c->at == '-';
         if (negative) c->at++;
-        if (!compile_power(c, false) || (negative && !add_minus(c)) || !add_product(c, *at, at)) return false;
+        if (!compile_power(c, false) || (negative && !compile_add_negation(c)) || !compile_add_product(c, *at, at))
+            return false;
     }
     return true;
 }
@@ -286,7 +290,7 @@ static bool compile_sum(struct compile *c)
     if (!compile_product(c)) return false;
     for (skip(c); *c->at == '+' || *c->at == '-'; skip(c)) {
         const char *at = c->at++;
-        if (!compile_product(c) || !add_sum(c, *at, at)) return false;
+        if (!compile_product(c) || !compile_add_sum(c, *at, at)) return false;
     }
     return true;
 }
@@ -296,7 +300,8 @@ static bool compile_sum(struct compile *c)
 static bool compile_text(struct compile *c)
 {
     c->at = c->copied = c->text;
-    if (strlen(c->text) > EXPRESSION_TEXT) return compile_fail(c, "is longer than %d characters", EXPRESSION_TEXT);
+    if (strlen(c->text) > EXPRESSION_TEXT)
+        return compile_report_fault(c, "is longer than %d characters", EXPRESSION_TEXT);
     if (!compile_sum(c)) return false;
     return *c->at == '\0' ? keep_to(c, c->at) : missing(c, "an operation");
 }

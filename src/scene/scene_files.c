@@ -12,10 +12,10 @@
 
 enum { FILE_LONGEST = 16 * 1024 * 1024 }; /* [byte]; a scene of 1e5 entries is far smaller */
 
-status file_bytes(const char *path, char **bytes, size_t *length)
+status file_read_bytes(const char *path, char **bytes, size_t *length)
 {
     FILE *in;
-    TRY(input_open(&in, path, "a scene file"));
+    TRY(input_file_open(&in, path, "a scene file"));
     size_t room = 65536, used = 0, got;
     char *text = NEW("scene file", room, char);
     while ((got = fread(text + used, 1, room - used, in)) > 0 && used <= FILE_LONGEST) {

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "scene_shapes.h"
 
-int path_order(const void *a, const void *b) { return strverscmp(*(char *const *)a, *(char *const *)b); }
+int compare_paths(const void *a, const void *b) { return strverscmp(*(char *const *)a, *(char *const *)b); }
 
 /* ---- grey values ------------------------------------------------------------------------------------------------- */
 
@@ -67,7 +67,7 @@ status read_grey_materials(struct reader *r, const struct yaml_node *n, const st
     if (!r->bounded || r->cutting)
         return fault(r, n,
                      "belongs to an image that is the shape of a body; here values, such as 100-255, is expected");
-    TRY(expect_kind(r, n, NODE_MAP, "a mapping of grey values to materials, as {0: void, 1-255: rock}"));
+    TRY(expect_node_kind(r, n, NODE_MAP, "a mapping of grey values to materials, as {0: void, 1-255: rock}"));
     bool *in = NEW("grey values", GREY_MAX + 1, bool);
     status s = OK;
     p->ranges = 0;

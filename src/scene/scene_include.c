@@ -21,7 +21,7 @@ struct chain {
 
 /* Returns true if the value of the key at `path` is a mapping that is merged key by key with an included one. Other
  * values replace the included value as a whole. path "": the whole scene. */
-bool group_is_merged(const char *path)
+bool key_is_merged_mapping(const char *path)
 {
     if (*path == '\0') return true;
     const struct key *k = key_find("", path);
@@ -45,9 +45,9 @@ static status check_twins(const struct reader *r, const struct yaml_node *map)
     return OK;
 }
 
-/* Merges the mapping `over` into `under`. Values of `over` take precedence, mappings for which group_is_merged is true
- * are merged entry by entry, and an empty value removes the entry. group: path of both mappings in the scene. Returns
- * REFUSED for a key given twice. */
+/* Merges the mapping `over` into `under`. Values of `over` take precedence, mappings for which key_is_merged_mapping is
+ * true are merged entry by entry, and an empty value removes the entry. group: path of both mappings in the scene.
+ * Returns REFUSED for a key given twice. */
 static status merge(struct reader *r, struct yaml_node *under, struct yaml_node *over, const char *group)
 {
     char path[64];
@@ -58,7 +58,7 @@ static status merge(struct reader *r, struct yaml_node *under, struct yaml_node 
         struct yaml_node *old = yaml_node_find(under, n->key);
         next = n->next;
         snprintf(path, sizeof path, "%.30s%s%.30s", group, *group ? "." : "", n->key);
-        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && group_is_merged(path)) {
+        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && key_is_merged_mapping(path)) {
             TRY(merge(r, old, n, path));
             continue;
         }
@@ -121,12 +121,12 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     if (r->includes == INCLUDED_MOST) return fault(r, n, "more than %d scenes are included", INCLUDED_MOST);
     const int origin = ORIGIN_INCLUDED - r->includes;
     r->included[r->includes++] = path;
-    TRY(file_bytes(path, &text, &length));
-    const status read = tree_read(r, text, length, origin, root);
+    TRY(file_read_bytes(path, &text, &length));
+    const status read = tree_parse_yaml(r, text, length, origin, root);
     memory_free(text);
     TRY(read);
     if (!*root) return fault_at_location(r, origin, 1, 1, "empty; a scene begins with keys such as space and duration");
-    TRY(expect_kind(r, *root, NODE_MAP, "a mapping of keys to values, as a scene is"));
+    TRY(expect_node_kind(r, *root, NODE_MAP, "a mapping of keys to values, as a scene is"));
     TRY(tree_rename_old_keys(r, *root));
     struct yaml_node *name = yaml_node_find(*root, "name");
     if (name) yaml_node_remove(*root, name);
@@ -157,7 +157,7 @@ static status include_all(struct reader *r, struct yaml_node *root, const struct
     return OK;
 }
 
-status tree_include(struct reader *r, struct yaml_node *root)
+status tree_merge_included_files(struct reader *r, struct yaml_node *root)
 {
     struct stat file = {0};
     r->includes = 0;

@@ -12,7 +12,7 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
 {
     const struct scene *s = r->scene;
     const struct yaml_node *names = yaml_node_find(n, "bodies");
-    if (!names) return fault_key_missing(r, n, key_find("interfaces", "bodies"));
+    if (!names) return fault_missing_key(r, n, key_find("interfaces", "bodies"));
     if (names->kind != NODE_LIST || names->n != 2)
         return fault(r, names, "names of two bodies are expected, as [plate, layer]");
     const struct yaml_node *name = names->first;
@@ -72,7 +72,7 @@ static status interface_strength(struct reader *r, const struct yaml_node *n, st
     struct material between = a->young < b->young ? *a : *b;
     between.young = 2 * a->young * b->young / (a->young + b->young);
     between.energy_release_rate = face->energy_release_rate;
-    material_compute_constants(&between, s->space);
+    material_compute_derived_constants(&between, s->space);
     face->critical_stretch = scene_critical_stretch(s, &between);
     return OK;
 }
@@ -112,7 +112,7 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-status check_joined(struct reader *r, const struct yaml_node *root)
+status check_joined_bodies(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *n = yaml_node_find(root, "boundary");

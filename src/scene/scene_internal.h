@@ -72,7 +72,7 @@ void arena_free(struct reader *r);
 
 /* Parses a YAML text to a tree of nodes in the arena. origin: as in struct yaml_node. Sets *root to NULL if the text
  * contains no value. REFUSED for invalid YAML. */
-status tree_read(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root);
+status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root);
 
 /* Appends a node to the entries of a list or map. */
 void yaml_node_append(struct yaml_node *parent, struct yaml_node *child);
@@ -84,14 +84,14 @@ struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 void yaml_node_remove(struct yaml_node *parent, struct yaml_node *child);
 
 /* Reads the files that the tree includes, and merges the tree over theirs (scene_include.c). */
-status tree_include(struct reader *r, struct yaml_node *root);
+status tree_merge_included_files(struct reader *r, struct yaml_node *root);
 
 /* Returns true if the value of the key at `path` ("": the whole scene) is a mapping that is merged key by key. Other
  * values, such as solids, are replaced as a whole. */
-bool group_is_merged(const char *path);
+bool key_is_merged_mapping(const char *path);
 
 /* Applies the overrides of the reader to the tree (scene_override.c). */
-status tree_override(struct reader *r, struct yaml_node *root);
+status tree_apply_all_overrides(struct reader *r, struct yaml_node *root);
 
 /* Replaces keys of earlier versions in the tree by their present names, and notes them in the scene (scene_renamed.c).
  * REFUSED if both names are given, and for keys that no longer exist. */
@@ -99,7 +99,7 @@ status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
 /* Returns the present name of the key at `path`, as an override gives it: `path` itself if it is current. Replacing a
  * name of an earlier version is noted in the scene. */
-const char *path_present_name(struct reader *r, const char *path);
+const char *key_path_present_name(struct reader *r, const char *path);
 
 /* Returns the present name of a key of an earlier version; NULL if `path` is no such key. */
 const char *key_present_name(const char *path);
@@ -111,7 +111,7 @@ const char *origin_file_name(const struct reader *r, int origin);
 int folder_length(const char *path);
 
 /* Reads a whole file to *bytes [*length]; the caller releases it with memory_free. */
-status file_bytes(const char *path, char **bytes, size_t *length);
+status file_read_bytes(const char *path, char **bytes, size_t *length);
 
 /* Applies one more override, as from the command line. An empty value removes the key; REFUSED if it is not there. */
 status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value);
@@ -156,7 +156,7 @@ size_t quantity_read_unit(struct quantity *q, const char *text);
 
 /* Returns true if the text is a unit with kelvin of this kind. Kelvin is no symbol of its own, since variables may be
  * called K. */
-static inline bool is_kelvin(const char *text, enum unit unit)
+static inline bool unit_is_kelvin(const char *text, enum unit unit)
 {
     if (unit == UNIT_TEMPERATURE) return strcmp(text, "K") == 0;
     return unit == UNIT_SPECIFIC_HEAT && (strcmp(text, "J/(kg K)") == 0 || strcmp(text, "J/kg/K") == 0);
@@ -323,20 +323,20 @@ status fault_at_location(const struct reader *r, int origin, int line, int colum
 /* Writes a place to text[capacity]: file, line and column, or the override that gives it. origin: as in struct
  * yaml_node.
  */
-void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity);
+void location_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity);
 
-/* Stores the places of the keys of a scene, r->scene, in two levels below `root`; scene_locate reads them. */
-void scene_places_make(const struct reader *r, const struct yaml_node *root);
+/* Stores the places of the keys of a scene, r->scene, in two levels below `root`; scene_prepend_location reads them. */
+void scene_key_locations_make(const struct reader *r, const struct yaml_node *root);
 
 /* Writes the beginning of a message of fault to text[capacity], for messages that follow after the reading. */
 void fault_write_location(const struct reader *r, const struct yaml_node *at, char *text, size_t capacity);
 
 /* Returns REFUSED with the message that the required key k is missing in `map`. */
-status fault_key_missing(struct reader *r, const struct yaml_node *map, const struct key *k);
+status fault_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k);
 
 /* Returns REFUSED with the message that the keys a and b exclude each other. The message gives the location of the key
  * that was set last: by an override, else in the scene file. */
-status fault_keys_exclude(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b);
+status fault_exclusive_keys(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b);
 
 /* Returns the value of a node as one short, printable line for messages, in the arena or static. */
 const char *node_text(struct reader *r, const struct yaml_node *n);
@@ -348,10 +348,10 @@ const char *text_for_message(struct reader *r, const char *text);
 const char *words_for_message(struct reader *r, const char *words);
 
 /* REFUSED for keys of `map` that are unknown in `group` or given twice. */
-status check_keys(struct reader *r, const struct yaml_node *map, const char *group);
+status check_keys_known(struct reader *r, const struct yaml_node *map, const char *group);
 
 /* REFUSED if n is not of this kind; `what` completes the sentence "... is not ". */
-status expect_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what);
+status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what);
 
 /* Reads all keys of a group that the table alone can read into the struct `base`. `map` NULL: defaults only; missing
  * keys are reported at `where`. */
@@ -399,7 +399,7 @@ status read_image(struct reader *r, const struct yaml_node *n, struct solid *s);
 status read_grey_parts(struct reader *r, const struct yaml_node *shape, struct scene_body *b);
 
 /* Returns true for a key that moves, turns or repeats a solid (scene_motions.c). */
-bool is_motion(const struct yaml_node *n);
+bool node_is_solid_motion(const struct yaml_node *n);
 
 /* Moves, turns and repeats a solid by the keys of `n` (scene_motions.c). */
 status read_motions(struct reader *r, const struct yaml_node *n, struct solid *s);
@@ -412,7 +412,7 @@ extern const char *const flow_words[FLOW_LAWS];
 /* Reads the flow law, kinematic hardening and heating of a material; n: its node. Call it after the keys of linear
  * hardening are read (scene_laws.c). REFUSED for invalid constants, contradictions, and where the method or solver has
  * no laws. */
-status read_law(struct reader *r, const struct yaml_node *n, struct material *m);
+status read_flow_law(struct reader *r, const struct yaml_node *n, struct material *m);
 
 status read_bodies(struct reader *r, const struct yaml_node *root);
 
@@ -420,14 +420,14 @@ status read_bodies(struct reader *r, const struct yaml_node *root);
 status read_body_parts(struct reader *r, const struct yaml_node *list, const struct key *k, struct scene_body *b);
 
 status read_cracks(struct reader *r, const struct yaml_node *root);
-status read_growths(struct reader *r, const struct yaml_node *root);
-status read_initials(struct reader *r, const struct yaml_node *root);
+status read_crack_growths(struct reader *r, const struct yaml_node *root);
+status read_initial_states(struct reader *r, const struct yaml_node *root);
 
 /* Reads the function of time of a boundary; n NULL or `constant`: the function is 1 (scene_time.c). */
-status read_time(struct reader *r, const struct yaml_node *n, struct boundary *b);
+status read_time_function(struct reader *r, const struct yaml_node *n, struct boundary *b);
 
 /* Reads the axis of a rotation from the mapping `n`: a unit vector in space, z in the plane (scene_loads.c). */
-status read_axis_of(struct reader *r, const struct yaml_node *n, const char *group, real *axis);
+status read_rotation_axis(struct reader *r, const struct yaml_node *n, const char *group, real *axis);
 
 /* Reads the components of a vector: numbers to value[dim], or formulas of x, y, z and the arguments in `of` to
  * formula[dim]. The value of a component with a formula is 1 (scene_loads.c). */
@@ -443,7 +443,7 @@ status check_scene(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of the safety factor on the critical time step, which depends on whether bonds can break. Call it
  * after the materials are read. */
-void resolve_safety(struct reader *r, const struct yaml_node *root);
+void resolve_safety_factor(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of contact.between. REFUSED for contact with a static solver, and for friction without contact. */
 status resolve_contact(struct reader *r, const struct yaml_node *root);
@@ -455,7 +455,7 @@ status check_particle_count(struct reader *r, const struct yaml_node *root);
 status read_interfaces(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED for a boundary on one of several joined bodies (scene_interfaces.c). */
-status check_joined(struct reader *r, const struct yaml_node *root);
+status check_joined_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns the critical stretch that follows from the energy release rate of a material, for the model, horizon and
  * space of the scene [1]. */
@@ -490,11 +490,11 @@ status check_supported_loads(struct reader *r, const struct yaml_node *root);
 /* Decides the frame of bodies for which the scene leaves it at `auto`: the current frame if the body cannot use the
  * reference frame, with the reason in body.frame_reason; else `auto` remains, and the choice is made when the particles
  * exist. Call it after the bodies are read. */
-void resolve_frames(struct scene *s);
+void resolve_reference_frames(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and determines the default correction of bonds near faces again, which
  * depends on that. Call it after the bodies are read. */
-void resolve_lists(struct reader *r, const struct yaml_node *root);
+void resolve_particle_lists(struct reader *r, const struct yaml_node *root);
 
 /* REFUSED for keys that the static solvers do not support. Call it after materials and probes are read. */
 status check_solver(struct reader *r, const struct yaml_node *root);
@@ -506,7 +506,7 @@ status check_load_steps(struct reader *r, const struct yaml_node *root);
 bool steps_soften(const struct scene *s);
 
 /* REFUSED for keys of load steps with another solver, unless they all have their defaults (scene_steps.c). */
-status check_steps_given(struct reader *r, const struct yaml_node *root);
+status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root);
 
 /* Words of enum space. */
 extern const char *const space_names[];

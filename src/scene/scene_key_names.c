@@ -47,7 +47,7 @@ const struct key *key_find_in_any_group(const char *leaf, int *keys_of_name)
     return first;
 }
 
-int word_index(const char *words, const char *text)
+int word_index_in_list(const char *words, const char *text)
 {
     size_t length = strlen(text);
     int place = 0;

@@ -50,7 +50,7 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
                                .type = KEY_REAL,
                                .unit = UNIT_PRESSURE,
                                .range = {0, INFINITY, true, true}};
-    TRY(expect_kind(r, n, NODE_LIST, "a list of points [plastic strain, stress]"));
+    TRY(expect_node_kind(r, n, NODE_LIST, "a list of points [plastic strain, stress]"));
     if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; 2 to %d are expected", n->n, FLOW_POINTS);
     for (const struct yaml_node *point = n->first; point; point = point->next, c->points++) {
         if (point->kind != NODE_LIST || point->n != 2)
@@ -72,11 +72,11 @@ static status read_hardening_law(struct reader *r, const struct yaml_node *mater
     TRY(read_group(r, n, n, "material.hardening", law));
     for (int flow = 0; flow < FLOW_LAWS; flow++) {
         const struct yaml_node *one = flow_words[flow] ? yaml_node_find(n, flow_words[flow]) : NULL;
-        if (one && given) return fault_keys_exclude(r, given, one);
+        if (one && given) return fault_exclusive_keys(r, given, one);
         if (one) given = one, law->flow = flow;
     }
     if (!given) return fault(r, n, "has no law; linear, voce, power or table is expected");
-    if (modulus) return fault_keys_exclude(r, modulus, n);
+    if (modulus) return fault_exclusive_keys(r, modulus, n);
     law->given = true;
     if (law->flow == FLOW_TABLE) return read_curve(r, given, &law->table);
     snprintf(group, sizeof group, "material.hardening.%s", flow_words[law->flow]);
@@ -90,7 +90,7 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
 {
     const struct yaml_node *hardening = yaml_node_find(material, "hardening"),
                            *modulus = yaml_node_find(material, "yield_hardening");
-    if (hardening || modulus) return fault_keys_exclude(r, hardening ? hardening : modulus, n);
+    if (hardening || modulus) return fault_exclusive_keys(r, hardening ? hardening : modulus, n);
     TRY(read_group(r, n, n, "material.johnson_cook", law));
     law->given = true, law->flow = FLOW_JOHNSON_COOK;
     if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
@@ -121,10 +121,10 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
                            *tangent = yaml_node_find(material, "yield_tangent");
     const bool own = m->law.flow == FLOW_TABLE || m->law.flow == FLOW_JOHNSON_COOK;
     const bool linear = m->law.flow == FLOW_LINEAR && !yaml_node_find(material, "hardening");
-    if (own && isfinite(m->yield_stress)) return fault_keys_exclude(r, yield, law_node);
+    if (own && isfinite(m->yield_stress)) return fault_exclusive_keys(r, yield, law_node);
     if (!own && !isfinite(m->yield_stress))
         return fault(r, law_node, "needs the yield stress at no plastic strain; yield_stress is expected beside it");
-    if (!linear && m->yield_tangent > 0) return fault_keys_exclude(r, tangent, law_node);
+    if (!linear && m->yield_tangent > 0) return fault_exclusive_keys(r, tangent, law_node);
     return OK;
 }
 
@@ -138,7 +138,7 @@ static status check_law_place(struct reader *r, const struct yaml_node *law_node
                  "bonds have");
 }
 
-status read_law(struct reader *r, const struct yaml_node *n, struct material *m)
+status read_flow_law(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct law *law = &m->law;
     const struct yaml_node *hardening = yaml_node_find(n, "hardening"), *kinematic = yaml_node_find(n, "kinematic"),

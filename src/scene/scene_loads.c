@@ -18,7 +18,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
     if (n->kind != NODE_MAP)
         return fault(r, n, "%s is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected",
                      node_text(r, n));
-    TRY(check_keys(r, n, "boundary.profile"));
+    TRY(check_keys_known(r, n, "boundary.profile"));
     if (n->n != 1) return fault(r, n, "has %d keys; sine is expected", n->n);
     f->kind = PROFILE_SINE;
     TRY(read_group(r, n->first, n->first, "boundary.profile.sine", f));
@@ -34,7 +34,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
  * messages. Returns REFUSED for axes that the space does not have. */
 static status read_axis(struct reader *r, const struct yaml_node *n, const char *text, int *axis)
 {
-    *axis = word_index("x|y|z", text);
+    *axis = word_index_in_list("x|y|z", text);
     if (n->kind != NODE_SCALAR || *axis < 0 || *axis >= r->dim)
         return fault(r, n, "%s is no axis of space %s; %s is expected", node_text(r, n), space_names[r->scene->space],
                      r->dim == 1   ? "x"
@@ -101,7 +101,7 @@ static status read_pressure(struct reader *r, const struct yaml_node *n, struct 
 {
     TRY(read_load_value(r, key_find("boundary", "pressure"), n, b, 0));
     for (int d = 1; d < r->dim; d++) b->value[d] = b->value[0];
-    b->section = scene_section_factor(r->scene);
+    b->section = scene_section_or_thickness(r->scene);
     return OK;
 }
 
@@ -135,7 +135,7 @@ static status read_velocity(struct reader *r, const struct yaml_node *n, struct 
                                  b->displaces ? "displacement" : "velocity");
 }
 
-status read_axis_of(struct reader *r, const struct yaml_node *n, const char *group, real *axis)
+status read_rotation_axis(struct reader *r, const struct yaml_node *n, const char *group, real *axis)
 {
     const struct key *k = key_find(group, "axis");
     const struct yaml_node *list = yaml_node_find(n, "axis");
@@ -143,7 +143,7 @@ status read_axis_of(struct reader *r, const struct yaml_node *n, const char *gro
     if (r->dim == 1) return fault(r, n, "space line does not turn; a plane space or solid is expected");
     axis[2] = 1;
     if (!list && r->dim == 2) return OK;
-    if (!list) return fault_key_missing(r, n, k);
+    if (!list) return fault_missing_key(r, n, k);
     if (r->dim == 2) return fault(r, list, "is z in a plane space; leave it out");
     if (list->kind != NODE_LIST || list->n != DIM_MAX)
         return fault(r, list, "%s is no axis; three numbers such as [0, 0, 1] are expected", node_text(r, list));
@@ -161,7 +161,7 @@ status read_axis_of(struct reader *r, const struct yaml_node *n, const char *gro
 static status read_rotation(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     TRY(read_group(r, n, n, "boundary.rotation", b));
-    TRY(read_axis_of(r, n, "boundary.rotation", b->axis_of));
+    TRY(read_rotation_axis(r, n, "boundary.rotation", b->axis_of));
     b->rotates = true;
     b->components = (uint8_t)((1 << r->dim) - 1);
     for (int d = 0; d < r->dim; d++) b->value[d] = 1; /* a rotation moves all components */
@@ -200,8 +200,8 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
 {
     const struct yaml_node *n = yaml_node_find(map, "face");
     const struct key *k = key_find("boundary", "face");
-    if (!n) return fault_key_missing(r, map, k);
-    int face = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
+    if (!n) return fault_missing_key(r, map, k);
+    int face = n->kind == NODE_SCALAR ? word_index_in_list(k->words, n->text) : -1;
     if (face < 0 || face >= 2 * r->dim)
         return fault(r, n, "%s is not the name of a face in space %s; %s is expected", node_text(r, n),
                      space_names[r->scene->space],
@@ -210,7 +210,7 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
                                    : words_for_message(r, k->words));
     b->face = face / 2;
     b->side = face % 2 == 0 ? 1 : -1;
-    b->section = scene_section_factor(r->scene);
+    b->section = scene_section_or_thickness(r->scene);
     return OK;
 }
 
@@ -234,7 +234,7 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
     const char *const words = "fixed|velocity|displacement|rotation|traction|pressure|body_force|mirror|absorbing";
     *kind = NULL;
     for (const struct yaml_node *n = map->first; n; n = n->next) {
-        if (word_index(words, n->key) < 0) continue;
+        if (word_index_in_list(words, n->key) < 0) continue;
         if (*kind)
             return fault(r, n,
                          "is given together with %s in one item; write each boundary condition as an item of its own "
@@ -319,12 +319,12 @@ static status read_kind(struct reader *r, const struct yaml_node *n, const struc
 static status read_boundary(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     const struct yaml_node *kind;
-    TRY(expect_kind(r, n, NODE_MAP, "a mapping of keys to values"));
-    TRY(check_keys(r, n, "boundary"));
+    TRY(expect_node_kind(r, n, NODE_MAP, "a mapping of keys to values"));
+    TRY(check_keys_known(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
     TRY(read_group(r, n, n, "boundary", b));
     TRY(read_kind(r, n, kind, b));
-    TRY(read_time(r, yaml_node_find(n, "time"), b));
+    TRY(read_time_function(r, yaml_node_find(n, "time"), b));
     return check_time_unit(r, kind, b);
 }
 
@@ -381,10 +381,10 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
     *map = NULL;
     if (n->kind == NODE_SCALAR) {
         word.key = n->text, word.next = NULL;
-        TRY(check_keys(r, &list, "probes"));
+        TRY(check_keys_known(r, &list, "probes"));
     } else {
-        TRY(expect_kind(r, n, NODE_MAP, "a probe such as tip or point: {at: [..]}"));
-        TRY(check_keys(r, n, "probes"));
+        TRY(expect_node_kind(r, n, NODE_MAP, "a probe such as tip or point: {at: [..]}"));
+        TRY(check_keys_known(r, n, "probes"));
         if (n->n != 1) return fault(r, n, "has %d keys; a probe is one kind with its keys below it", n->n);
         if (n->first->kind != NODE_SCALAR || *n->first->text) *map = n->first;
     }
@@ -428,7 +428,7 @@ static status check_exact(struct reader *r, const struct yaml_node *n, const str
         if (given && p->form != EXACT_MANUFACTURED)
             return fault(r, given, "has no meaning without form: manufactured; leave it out");
         if (!given && p->form == EXACT_MANUFACTURED)
-            return fault_key_missing(r, map, key_find("probes.exact", numbers[k]));
+            return fault_missing_key(r, map, key_find("probes.exact", numbers[k]));
     }
     return OK;
 }

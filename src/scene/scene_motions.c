@@ -6,7 +6,7 @@
 
 static const char *const motion_words[] = {"move", "rotate", "mirror", "pattern"};
 
-bool is_motion(const struct yaml_node *n)
+bool node_is_solid_motion(const struct yaml_node *n)
 {
     bool is = false;
     for (size_t k = 0; k < COUNT_OF(motion_words); k++) is |= strcmp(n->key, motion_words[k]) == 0;
@@ -33,9 +33,9 @@ static status read_about(struct reader *r, const struct yaml_node *n, const stru
     for (int d = 0; d < r->dim && !m->has_about; d++) {
         real along[DIM_MAX] = {0};
         along[d] = -1;
-        const real low = -solid_support(s, along, r->dim);
+        const real low = -solid_support_function(s, along, r->dim);
         along[d] = 1;
-        const real high = solid_support(s, along, r->dim);
+        const real high = solid_support_function(s, along, r->dim);
         m->about[d] = 0.5 * (low + high);
         if (!isfinite(m->about[d])) return fault(r, n, "turns what has no end; a point `about` is expected");
     }
@@ -61,8 +61,8 @@ static status read_mirror_image(struct reader *r, const struct yaml_node *n, str
 
 static status read_pattern(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
-    TRY(expect_kind(r, n, NODE_MAP, "a pattern such as grid: {count: [..], step: [..]}"));
-    TRY(check_keys(r, n, "solid.pattern"));
+    TRY(expect_node_kind(r, n, NODE_MAP, "a pattern such as grid: {count: [..], step: [..]}"));
+    TRY(check_keys_known(r, n, "solid.pattern"));
     if (n->n != 1) return fault(r, n, "has %d keys; a pattern is one of grid and ring", n->n);
     const struct yaml_node *form = n->first;
     const bool ring = strcmp(form->key, "ring") == 0;
@@ -79,7 +79,7 @@ static status read_pattern(struct reader *r, const struct yaml_node *n, struct s
 
 static status read_motion(struct reader *r, const struct yaml_node *n, const struct solid *s, struct solid_motion *m)
 {
-    const int word = word_index("move|rotate|mirror|pattern", n->key);
+    const int word = word_index_in_list("move|rotate|mirror|pattern", n->key);
     switch (word) {
     case 0:
         m->kind = MOTION_MOVE;
@@ -97,7 +97,7 @@ status read_motions(struct reader *r, const struct yaml_node *n, struct solid *s
 {
     for (const struct yaml_node *c = n->first; c; c = c->next) {
         struct solid_motion m = {0};
-        if (!is_motion(c)) continue;
+        if (!node_is_solid_motion(c)) continue;
         TRY(read_motion(r, c, s, &m));
         if (!solid_add_motion(s, &m, r->dim))
             return fault(r, c, "makes more than %d copies; fewer are fine", IMAGES_MOST);

@@ -132,12 +132,12 @@ status read_variables(struct reader *r, const struct yaml_node *root)
     char what[256];
     r->variables = 0;
     if (!map || (map->kind == NODE_SCALAR && *map->text == '\0')) return OK;
-    TRY(expect_kind(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
+    TRY(expect_node_kind(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
     if (map->n > k->range.most) return fault(r, map, "has %d variables; up to %g are expected", map->n, k->range.most);
     r->variable = arena_new(r, (size_t)(map->n + 1) * sizeof *r->variable);
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         TRY(check_variable_name(r, n));
-        TRY(expect_kind(r, n, NODE_SCALAR, "a number or an expression"));
+        TRY(expect_node_kind(r, n, NODE_SCALAR, "a number or an expression"));
         for (int v = 0; v < r->variables; v++)
             if (strcmp(r->variable[v].n->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", r->variable[v].n->line);

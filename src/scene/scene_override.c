@@ -187,11 +187,11 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];
-    const char *path = path_present_name(r, o->key), *key = NULL;
+    const char *path = key_path_present_name(r, o->key), *key = NULL;
     size_t length = 0;
     int index;
     struct yaml_node *n = root, *value;
-    TRY(tree_read(r, o->value, strlen(o->value), origin, &value));
+    TRY(tree_parse_yaml(r, o->value, strlen(o->value), origin, &value));
     while (*path) {
         if (!step_of_path(&path, &key, &length, &index))
             return fault_at_location(r, origin, 0, 0,
@@ -209,7 +209,7 @@ static status override_one(struct reader *r, struct yaml_node *root, int origin)
     return OK;
 }
 
-status tree_override(struct reader *r, struct yaml_node *root)
+status tree_apply_all_overrides(struct reader *r, struct yaml_node *root)
 {
     for (int k = 0; k < r->overrides; k++) TRY(override_one(r, root, k));
     return OK;

@@ -79,9 +79,9 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
     if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
     struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
-    const struct state_modulus modulus = state_modulus_of(m, s->space, true);
-    family_make(&f, s->space, s->spacing, s->horizon, scene_section_factor(s));
-    return sqrt(m->energy_release_rate / family_separation_work(&f, &modulus, !s->bulk));
+    const struct state_modulus modulus = state_modulus_of_material(m, s->space, true);
+    family_make(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    return sqrt(m->energy_release_rate / family_separation_work_per_area(&f, &modulus, !s->bulk));
 }
 
 /* Reads the random scatter of the strength of material m. n: node of `scatter`; NULL: none. Returns REFUSED for a
@@ -95,7 +95,7 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     s->given = true;
     const char *const own[] = {[SCATTER_WEIBULL] = "modulus", [SCATTER_LOGNORMAL] = "variation"};
     const struct yaml_node *other = yaml_node_find(n, own[!s->form]);
-    if (!yaml_node_find(n, own[s->form])) return fault_key_missing(r, n, key_find("material.scatter", own[s->form]));
+    if (!yaml_node_find(n, own[s->form])) return fault_missing_key(r, n, key_find("material.scatter", own[s->form]));
     if (other)
         return fault(r, other, "is the parameter of the other distribution of strength; this one has %s", own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
@@ -140,7 +140,7 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
     TRY(check_poisson(r, n, m));
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
-    TRY(read_law(r, n, m));
+    TRY(read_flow_law(r, n, m));
     TRY(read_scatter(r, yaml_node_find(n, "scatter"), m));
     TRY(read_viscosity(r, yaml_node_find(n, "viscosity"), m));
     const struct yaml_node *yield = yaml_node_find(n, "yield_stress");
@@ -149,7 +149,7 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
                      "model %s does not yield; `model: bond` does, or, with any Poisson's ratio, `method: mpm` without "
                      "the key model",
                      s->model == MODEL_OSPD ? "ospd" : "mospd");
-    material_compute_constants(m, s->space);
+    material_compute_derived_constants(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return read_softening(r, n, m);
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
@@ -159,15 +159,15 @@ status read_materials(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
-    if (!one && !many) return fault_key_missing(r, root, key_find("", "material"));
-    if (one && many) return fault_keys_exclude(r, one, many);
+    if (!one && !many) return fault_missing_key(r, root, key_find("", "material"));
+    if (one && many) return fault_exclusive_keys(r, one, many);
     if (many) TRY(expect_list(r, key_find("", "materials"), many));
     s->materials = many ? many->n : 1;
     s->material = NEW("materials", s->materials, struct material);
     const struct yaml_node *n = many ? many->first : one;
     for (int k = 0; k < s->materials; k++, n = n->next) {
         TRY(scene_parts_read_material(r, n, &s->material[k]));
-        if (many && !yaml_node_find(n, "name")) return fault_key_missing(r, n, key_find("material", "name"));
+        if (many && !yaml_node_find(n, "name")) return fault_missing_key(r, n, key_find("material", "name"));
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
                 return fault(r, yaml_node_find(n, "name"), "%s is the name of another material", s->material[k].name);
@@ -209,7 +209,7 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     const struct yaml_node *columns = mapping ? yaml_node_find(n, "columns") : NULL;
     fault_write_location(r, n, b->place, sizeof b->place);
     if (mapping) TRY(read_group(r, n, n, "bodies.particles", b));
-    if (!file) return fault_key_missing(r, n, key_find("bodies.particles", "file"));
+    if (!file) return fault_missing_key(r, n, key_find("bodies.particles", "file"));
     if (file->kind != NODE_SCALAR || !is_particle_list_name(file->text))
         return fault(r, file, "%s is no particle list; a file name that ends in .csv, .h5 or .exo is expected",
                      node_text(r, file));
@@ -236,7 +236,7 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
             return fault(r, yaml_node_find(n, others[k]),
                          "a rigid body has none; a shape is expected, and a mass if "
                          "it flies");
-    if (b->rigid && region_has_endless_box(&b->shape, r->scene->dim))
+    if (b->rigid && region_has_infinite_box(&b->shape, r->scene->dim))
         return fault(r, yaml_node_find(n, "shape"), "a box without end; a half-space is expected");
     return OK;
 }
@@ -254,11 +254,11 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     TRY(check_rigid_body(r, n, b));
     TRY(read_grey_parts(r, shape, b));
     TRY(read_body_parts(r, yaml_node_find(n, "parts"), key_find("bodies", "parts"), b));
-    if (!shape && !file) return fault_key_missing(r, n, key_find("bodies", "shape"));
-    if (shape && file) return fault_keys_exclude(r, shape, file);
+    if (!shape && !file) return fault_missing_key(r, n, key_find("bodies", "shape"));
+    if (shape && file) return fault_exclusive_keys(r, shape, file);
     if (file) TRY(read_particle_list(r, file, b));
     if (!b->rigid && b->material < 0 && r->scene->materials > 1 && !b->list.material)
-        return fault_key_missing(r, n, key_find("bodies", "material"));
+        return fault_missing_key(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;
     if (!yaml_node_find(n, "frame")) b->frame = r->scene->frame;
     for (int j = 0; j < number; j++)
@@ -285,8 +285,8 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *one = yaml_node_find(root, "body"), *many = yaml_node_find(root, "bodies");
-    if (!one && !many) return fault_key_missing(r, root, key_find("", "body"));
-    if (one && many) return fault_keys_exclude(r, one, many);
+    if (!one && !many) return fault_missing_key(r, root, key_find("", "body"));
+    if (one && many) return fault_exclusive_keys(r, one, many);
     const struct yaml_node *parts = yaml_node_find(root, "parts");
     if (many && parts) return fault(r, parts, "of which body is it; bodies have parts of their own");
     if (many) TRY(expect_list(r, key_find("", "bodies"), many));
@@ -375,10 +375,10 @@ static status read_initial_rotation(struct reader *r, const struct yaml_node *ma
                            *centre = yaml_node_find(map, "centre");
     real w[DIM_MAX] = {0}, rate;
     if (!n) return OK;
-    if (gradient || centre) return fault_keys_exclude(r, n, gradient ? gradient : centre);
+    if (gradient || centre) return fault_exclusive_keys(r, n, gradient ? gradient : centre);
     TRY(read_group(r, n, n, "initial.rotation", initial));
-    TRY(read_axis_of(r, n, "initial.rotation", w));
-    if (!yaml_node_find(n, "rate")) return fault_key_missing(r, n, key_find("initial.rotation", "rate"));
+    TRY(read_rotation_axis(r, n, "initial.rotation", w));
+    if (!yaml_node_find(n, "rate")) return fault_missing_key(r, n, key_find("initial.rotation", "rate"));
     TRY(read_number(r, key_find("initial.rotation", "rate"), yaml_node_find(n, "rate"), &rate));
     const real scale = rate / sqrt(dot(w, w, DIM_MAX));
     for (int a = 0; a < r->dim; a++)
@@ -412,7 +412,7 @@ static status read_initial(struct reader *r, const struct yaml_node *n, struct s
                  "expected");
 }
 
-status read_initials(struct reader *r, const struct yaml_node *root)
+status read_initial_states(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "initial");
@@ -472,7 +472,7 @@ static status check_growth_probes(struct reader *r, const struct yaml_node *root
 
 /* Reads the list `growth`, the rules of crack growth, after the probes that they can name. root: tree of the scene.
  * Returns REFUSED for invalid rules, outside plane spaces and with method mpm. */
-status read_growths(struct reader *r, const struct yaml_node *root)
+status read_crack_growths(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "growth");

@@ -44,7 +44,7 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
         return fault(r, method,
                      "auto is resolved by the pilot runs of `cleave run`; write a method and "
                      "particles.spacing, or take the scene.yaml that such a run leaves");
-    scene_places_make(r, root);
+    scene_key_locations_make(r, root);
     TRY(scene_from_tree(r, root));
     s->text = scene_to_yaml(s);
     return s->text
@@ -90,7 +90,7 @@ static status scene_file_read(struct scene *s, const char *path, const struct sc
     size_t length = 0;
     struct reader r = {.name = path, .override = override, .overrides = overrides, .scene = s, .files = true};
     *s = (struct scene){0};
-    TRY(file_bytes(path, &text, &length));
+    TRY(file_read_bytes(path, &text, &length));
     status result = read_scene(&r, text, length, wish);
     memory_free(text);
     return result;

@@ -42,7 +42,7 @@ const char *key_present_name(const char *path)
     return NULL;
 }
 
-const char *path_present_name(struct reader *r, const char *path)
+const char *key_path_present_name(struct reader *r, const char *path)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
         if (strcmp(path, renamed[k].old) != 0) continue;
@@ -58,7 +58,7 @@ status tree_rename_old_keys(struct reader *r, struct yaml_node *root)
         struct yaml_node *old = (struct yaml_node *)tree_find(root, renamed[k].old);
         const struct yaml_node *now = tree_find(root, renamed[k].now);
         if (!old) continue;
-        if (now) return fault_keys_exclude(r, now, old);
+        if (now) return fault_exclusive_keys(r, now, old);
         const char *dot = strrchr(renamed[k].now, '.'), *leaf = dot ? dot + 1 : renamed[k].now;
         old->key = arena_text(r, leaf, strlen(leaf));
         renamed_note(r->scene, k);

@@ -194,7 +194,7 @@ static bool is_in_merged(const struct key *k)
     snprintf(group, sizeof group, "%s", k->path);
     char *dot = strrchr(group, '.');
     *(dot ? dot : group) = '\0';
-    return group_is_merged(group);
+    return key_is_merged_mapping(group);
 }
 
 static void write_property(FILE *out, const struct key *k)
@@ -224,7 +224,7 @@ static void write_members(FILE *out, const char *group)
         between = ",";
     }
     fputs("}", out);
-    if (!group_is_merged(group)) write_required(out, group, ", \"required\": [");
+    if (!key_is_merged_mapping(group)) write_required(out, group, ", \"required\": [");
 }
 
 static void write_object(FILE *out, const char *group)

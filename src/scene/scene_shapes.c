@@ -54,7 +54,7 @@ static status pattern_add(struct reader *r, const struct yaml_node *n, struct sh
         return fault(r, n, "no file is called so; slices such as slice_*.png are expected");
     }
     if (found.gl_pathc > SLICES_MOST) s = fault(r, n, "more than %d files", SLICES_MOST);
-    array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, path_order);
+    array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, compare_paths);
     for (size_t k = 0; k < found.gl_pathc && s == OK; k++) {
         struct yaml_node one = *n;
         one.text = found.gl_pathv[k];
@@ -162,7 +162,7 @@ status read_file_unit(struct reader *r, const struct yaml_node *n, bool required
 {
     const struct yaml_node *unit = yaml_node_find(n, "unit"), *scale = yaml_node_find(n, "scale");
     char text[48], what[256];
-    if (unit && scale) return fault_keys_exclude(r, unit, scale);
+    if (unit && scale) return fault_exclusive_keys(r, unit, scale);
     if (!unit && !scale && required)
         return fault(r, n, "unit is missing: its numbers have none; unit: mm, or scale: 25.4 mm, is expected");
     if (!unit) return OK;
@@ -208,7 +208,7 @@ static status read_geometry(struct reader *r, const struct yaml_node *n, enum sh
     struct shape_words words = {.scale = NAN, .within = NAN};
     struct shape_file *f = NULL;
     TRY(read_group(r, n, n, group, &words));
-    if (!file) return fault_key_missing(r, n, key_find(group, "file"));
+    if (!file) return fault_missing_key(r, n, key_find(group, "file"));
     TRY(read_file_unit(r, n, true, &words.scale));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
     f = NEW("shape files", 1, struct shape_file);
@@ -242,7 +242,7 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
     const struct yaml_node *file = yaml_node_find(n, "file"), *slice = yaml_node_find(n, "slice");
     struct shape_words words = {.pixel = NAN, .slice = NAN};
     TRY(read_group(r, n, n, "solid.image", &words));
-    if (!file) return fault_key_missing(r, n, key_find("solid.image", "file"));
+    if (!file) return fault_missing_key(r, n, key_find("solid.image", "file"));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
     if (slice && r->dim == 2) return fault(r, slice, "has no meaning in the plane, where there is one image");
     struct shape_file *f = NEW("shape files", 1, struct shape_file);
@@ -280,7 +280,7 @@ status read_image(struct reader *r, const struct yaml_node *n, struct solid *s)
     struct voxel_part wanted = {.ranges = 1, .range = {{1, GREY_MAX}}};
     struct shape_file *f = NULL;
     TRY(read_voxels(r, n, &f));
-    if (values && materials) return fault_keys_exclude(r, values, materials);
+    if (values && materials) return fault_exclusive_keys(r, values, materials);
     if (values) TRY(read_grey_values(r, values, &wanted));
     if (materials) TRY(read_grey_materials(r, materials, &f->voxels, &wanted));
     s->kind = SOLID_VOXELS;

@@ -25,6 +25,6 @@ status read_grey_materials(struct reader *r, const struct yaml_node *n, const st
                            struct voxel_part *part);
 
 /* Compares two file names for sorting; numbers in them are compared by value. */
-int path_order(const void *a, const void *b);
+int compare_paths(const void *a, const void *b);
 
 #endif

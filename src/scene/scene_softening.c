@@ -9,18 +9,18 @@
 static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
-    const real strain = m->tensile_strength / material_tension_modulus(m, s->space);
+    const real strain = m->tensile_strength / material_uniaxial_tension_modulus(m, s->space);
     const real most = s->horizon * s->spacing * square(m->critical_stretch / strain);
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
         return fault(r, n,
                      "bonds break at a stretch of %.4g, which is a stress of %.4g Pa; less, or a larger "
                      "critical_stretch, is expected",
-                     m->critical_stretch, m->critical_stretch * material_tension_modulus(m, s->space));
+                     m->critical_stretch, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space));
     return fault(r, n,
                  "bonds of this horizon, %.4g m, break at %.4g Pa by the energy release rate, before this strength is "
                  "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
-                 s->horizon * s->spacing, m->critical_stretch * material_tension_modulus(m, s->space), most,
+                 s->horizon * s->spacing, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space), most,
                  most / s->horizon);
 }
 
@@ -60,7 +60,7 @@ status read_softening(struct reader *r, const struct yaml_node *n, struct materi
         return fault(r, yaml_node_find(scatter, "of"),
                      "with tensile_strength, `of: strength` (at one energy) or critical_stretch (with it) is expected");
     TRY(check_strength_size(r, strength, m, m->tensile_strength));
-    m->onset_stretch = softening_onset_of(m, s->space);
+    m->onset_stretch = softening_onset_from_strength(m, s->space);
     TRY(read_surface(r, n, m));
     return material_has_surface(m) ? OK : check_reachable(r, strength, m);
 }

@@ -77,13 +77,13 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
     corner.range.given = false;
     s->polygon = NEW("solids.polygon", 1, struct polygon);
     TRY(read_group(r, n, n, "solid.polygon", s->polygon));
-    if (!list) return fault_key_missing(r, n, k);
+    if (!list) return fault_missing_key(r, n, k);
     TRY(expect_list(r, k, list));
     s->polygon->n = list->n;
     s->polygon->corner = memory_new("solids.corner", list->n, sizeof *s->polygon->corner);
     for (const struct yaml_node *p = list->first; p; p = p->next)
         TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
-    switch (polygon_make(s->polygon, &at)) {
+    switch (polygon_check_and_complete(s->polygon, &at)) {
     case POLYGON_SHORT:
         return fault(r, list, "corner %d and the next one are at the same position; remove one of them", at);
     case POLYGON_FLAT:
@@ -110,7 +110,7 @@ static status read_extrusion(struct reader *r, const struct yaml_node *n, struct
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape");
     TRY(read_group(r, n, n, "solid.extrude", s));
-    if (!shape) return fault_key_missing(r, n, key_find("solid.extrude", "shape"));
+    if (!shape) return fault_missing_key(r, n, key_find("solid.extrude", "shape"));
     if (!(s->begin < s->end)) return fault(r, n, "from is not below to; from is the lower end");
     r->dim = 2;
     const status read = read_region(r, shape, &s->region);
@@ -218,7 +218,7 @@ static status names_find(struct reader *r, const struct yaml_node *root, const c
 {
     *map = yaml_node_find(root, key);
     if (!*map) return OK;
-    TRY(expect_kind(r, *map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
+    TRY(expect_node_kind(r, *map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
     return (*map)->n > 0 ? OK : fault(r, *map, "has no region; a name and its solids are expected");
 }
 
@@ -281,10 +281,10 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     const struct yaml_node *child = NULL;
     const struct solid_word *word = NULL;
     int solids = 0;
-    TRY(expect_kind(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
-    TRY(check_keys(r, n, "solid"));
+    TRY(expect_node_kind(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
+    TRY(check_keys_known(r, n, "solid"));
     for (const struct yaml_node *c = n->first; c; c = c->next)
-        if (!is_motion(c)) child = c, solids++;
+        if (!node_is_solid_motion(c)) child = c, solids++;
     if (solids != 1)
         return fault(r, n, "has %d solids; it is one of box, disc, ball, cylinder, polygon, .. (`cleave help solid`)",
                      solids);
@@ -320,7 +320,7 @@ static status read_solids(struct reader *r, const struct yaml_node *n, struct re
     }
     if (region->solid[0].subtract)
         return fault(r, n, "subtracts from nothing; the first solid must be added, for a region perhaps all: true");
-    region_build_index(region, r->dim);
+    region_build_search_trees(region, r->dim);
     return OK;
 }
 
@@ -391,14 +391,14 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
     const char *word = first[r->dim - 1];
-    TRY(expect_kind(r, n, NODE_MAP, "a crack such as {from: [..], to: [..]}"));
-    TRY(check_keys(r, n, "cracks"));
+    TRY(expect_node_kind(r, n, NODE_MAP, "a crack such as {from: [..], to: [..]}"));
+    TRY(check_keys_known(r, n, "cracks"));
     for (const struct yaml_node *k = n->first; k; k = k->next)
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
             return fault(r, k, "not in space %s; a crack there has %s", space_names[r->scene->space], form[r->dim - 1]);
     const struct yaml_node *a = yaml_node_find(n, word), *b = yaml_node_find(n, "to");
-    if (!a) return fault_key_missing(r, n, key_find("cracks", word));
-    if (r->dim == 2 && !b) return fault_key_missing(r, n, key_find("cracks", "to"));
+    if (!a) return fault_missing_key(r, n, key_find("cracks", word));
+    if (r->dim == 2 && !b) return fault_missing_key(r, n, key_find("cracks", "to"));
     if (r->dim == 3) return read_polygon(r, a, c);
     crack_make(c, r->dim);
     TRY(read_point(r, key_find("cracks", word), a, c->corner[0]));

@@ -45,7 +45,7 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
         if (s->boundary[b].follow)
             return fault(r, yaml_node_find(n, "follow"),
                          "load steps have loads on the reference state only; false, or solver: explicit, is expected");
-        TRY(status_prepend_location(s->boundary[b].place, load_check_displacement_known(&s->boundary[b])));
+        TRY(status_prepend_location(s->boundary[b].place, boundary_check_displacement_known(&s->boundary[b])));
     }
     return OK;
 }
@@ -125,7 +125,7 @@ status check_load_steps(struct reader *r, const struct yaml_node *root)
 
 /* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because the
  * echo of every scene writes all keys. root: tree of the scene. */
-status check_steps_given(struct reader *r, const struct yaml_node *root)
+status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root)
 {
     const struct scene_steps *s = &r->scene->steps;
     const struct yaml_node *steps = yaml_node_find(root, "steps");

@@ -67,8 +67,8 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
 {
     const struct scene *s = r->scene;
     const struct softening_curve curve = softening_curve_of(m->softening);
-    const real own = material_tension_modulus(m, s->space) * m->onset_stretch *
-                     softening_strength_of(&curve, s->space, OWN_RATIO).tension;
+    const real own = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch *
+                     softening_curve_strength(&curve, s->space, OWN_RATIO).tension;
     const real most = s->horizon * s->spacing * square(own / material_surface_strengths(m, s->space).tension);
     if (most >= s->horizon * s->spacing) return OK;
     return fault(r, n,
@@ -85,7 +85,7 @@ status read_surface(struct reader *r, const struct yaml_node *n, struct material
     const char *key = NULL;
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         const struct yaml_node *next = yaml_node_find(n, names[k]);
-        if (next && given) return fault_keys_exclude(r, given, next);
+        if (next && given) return fault_exclusive_keys(r, given, next);
         if (next) given = next, key = names[k];
     }
     if (!given && radius)

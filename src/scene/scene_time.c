@@ -72,15 +72,15 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
     char *unit = csv_cut_unit(name), number[UNIT_LONGEST_NAME + 2];
     const bool time = strcasecmp(name, "time") == 0 || strcasecmp(name, "t") == 0;
     if (!time && *wanted && strcmp(name, wanted) != 0) return OK;
-    if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_fault(&c->in, name, "its unit is too long");
-    if (time && c->time >= 0) return csv_fault(&c->in, name, "column %.40s is given twice", name);
+    if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_report_fault(&c->in, name, "its unit is too long");
+    if (time && c->time >= 0) return csv_report_fault(&c->in, name, "column %.40s is given twice", name);
     if (!time && c->value >= 0) {
         c->second = name;
         return OK;
     }
     snprintf(number, sizeof number, "1 %s", unit);
     if (!number_read(&one, number, time ? UNIT_TIME : *unit ? c->unit : UNIT_NONE, false, what, sizeof what))
-        return csv_fault(&c->in, unit, "column %.40s: [%s] %s", name, unit, what);
+        return csv_report_fault(&c->in, unit, "column %.40s: [%s] %s", name, unit, what);
     snprintf(time ? c->time_unit : c->value_unit, UNIT_LONGEST_NAME, "%s", unit);
     *(time ? &c->time : &c->value) = k;
     return OK;
@@ -100,24 +100,26 @@ static status time_columns_find(struct time_columns *c, const char *wanted)
     for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL; k++) TRY(column_take(c, k, name, wanted));
     c->all = k;
     if (c->time < 0)
-        return csv_fault(&c->in, c->in.text, "no column is called time; a header such as time [us], value is expected");
+        return csv_report_fault(&c->in, c->in.text,
+                                "no column is called time; a header such as time [us], value is expected");
     if (c->second)
-        return csv_fault(&c->in, c->second,
-                         "column %.40s is a second column of values; give column: NAME to choose one", c->second);
+        return csv_report_fault(
+            &c->in, c->second, "column %.40s is a second column of values; give column: NAME to choose one", c->second);
     if (c->value >= 0) return OK;
-    if (*wanted) return csv_fault(&c->in, c->in.text, "no column is called %.40s", wanted);
-    return csv_fault(&c->in, c->in.text,
-                     "only one column; time and value, with a comma, semicolon or tab between them, are expected");
+    if (*wanted) return csv_report_fault(&c->in, c->in.text, "no column is called %.40s", wanted);
+    return csv_report_fault(
+        &c->in, c->in.text,
+        "only one column; time and value, with a comma, semicolon or tab between them, are expected");
 }
 
 static status time_number(const struct time_columns *c, const char *field, const char *unit_text, enum unit unit,
                           real *value)
 {
     char text[100], what[160];
-    if (strlen(field) > 50) return csv_fault(&c->in, field, "'%.20s..' is not a number", field);
+    if (strlen(field) > 50) return csv_report_fault(&c->in, field, "'%.20s..' is not a number", field);
     snprintf(text, sizeof text, *unit_text ? "%s %s" : "%s", field, unit_text);
     if (number_read(value, text, unit, false, what, sizeof what)) return OK;
-    return csv_fault(&c->in, field, "'%s' %s", field, what);
+    return csv_report_fault(&c->in, field, "'%s' %s", field, what);
 }
 
 /* Reads the text `line` as entry f->n of time and value; does not change f->n. Returns REFUSED for a wrong number of
@@ -128,10 +130,10 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
     char *rest = line, *time = line;
     for (char *field; (field = csv_cut_field(&c->in, &rest)) != NULL; k++) {
         if (k == c->all)
-            return csv_fault(&c->in, field,
-                             "more values than the %d columns of the header; numbers have a point, not "
-                             "a comma",
-                             c->all);
+            return csv_report_fault(&c->in, field,
+                                    "more values than the %d columns of the header; numbers have a point, not "
+                                    "a comma",
+                                    c->all);
         if (k != c->time && k != c->value) continue;
         found++;
         if (k == c->time) {
@@ -142,12 +144,12 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
         }
     }
     if (found < 2)
-        return csv_fault(&c->in, line,
-                         "this line has %d values, but the value of column %d is needed; add the missing values", k,
-                         1 + (c->time > c->value ? c->time : c->value));
+        return csv_report_fault(&c->in, line,
+                                "this line has %d values, but the value of column %d is needed; add the missing values",
+                                k, 1 + (c->time > c->value ? c->time : c->value));
     if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
-        return csv_fault(&c->in, time,
-                         "time %s is not later than the previous one; times in ascending order are expected", time);
+        return csv_report_fault(
+            &c->in, time, "time %s is not later than the previous one; times in ascending order are expected", time);
     return OK;
 }
 
@@ -157,7 +159,7 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
     for (bool more;; f->n++) {
         TRY(csv_read_data_line(&c->in, &more));
         if (!more) break;
-        if (f->n == TIMES_MAX) return csv_fault(&c->in, c->in.text, "more than %d times", TIMES_MAX);
+        if (f->n == TIMES_MAX) return csv_report_fault(&c->in, c->in.text, "more than %d times", TIMES_MAX);
         GROW("time table", f->t, f->n + 1);
         GROW("time table", f->value, f->n + 1);
         TRY(time_entry(c, c->in.text, f));
@@ -191,23 +193,23 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
 
 /* Reads the factor of time of boundary b. n: node of `time`; NULL or `constant`: the factor is 1. Returns REFUSED for
  * an unknown form or invalid values. */
-status read_time(struct reader *r, const struct yaml_node *n, struct boundary *b)
+status read_time_function(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};
     const char *forms = "constant, step, pulse, ramp, table or file";
     struct time_function *f = &b->time;
     if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "constant") == 0)) return OK;
     if (n->kind != NODE_MAP) return fault(r, n, "%s is no function of time; %s is expected", node_text(r, n), forms);
-    TRY(check_keys(r, n, "boundary.time"));
+    TRY(check_keys_known(r, n, "boundary.time"));
     if (yaml_node_find(n, "file") || yaml_node_find(n, "column")) {
         for (const struct yaml_node *other = n->first; other; other = other->next)
-            if (word_index("file|column", other->key) < 0)
+            if (word_index_in_list("file|column", other->key) < 0)
                 return fault(r, other, "is given together with file; only one of %s is expected", forms);
         return read_time_file(r, n, b);
     }
     if (n->n != 1) return fault(r, n, "has %d keys; one of %s is expected", n->n, forms);
     const struct yaml_node *form = n->first;
-    int kind = word_index("step|pulse|ramp", form->key);
+    int kind = word_index_in_list("step|pulse|ramp", form->key);
     if (kind < 0) return read_table(r, form, f);
     f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
     TRY(read_group(r, form, form, groups[kind], f));

@@ -407,7 +407,7 @@ bool number_read(real *value, const char *text, enum unit unit, bool allow_infin
     const int clock = clock_seconds(rest, unit);
     const real radians = unit == UNIT_ANGLE ? angle_radians(rest) : 1;
     if (radians == 0) return complain(c, *rest ? "has another unit" : "has no unit", unit);
-    if (unit == UNIT_ANGLE || is_kelvin(rest, unit)) rest = "";
+    if (unit == UNIT_ANGLE || unit_is_kelvin(rest, unit)) rest = "";
     if (!clock && !unit_fits(c, rest, unit, &ten)) return false;
     if (divisor == 0) return complain(c, "divides by 0", unit);
     *value = number_scaled(text, length, ten, clock, divisor) * radians;

@@ -51,7 +51,7 @@ static void node_name(const struct yaml_node *n, char *name, size_t capacity)
     }
 }
 
-void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity)
+void location_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity)
 {
     if (origin < 0) {
         snprintf(text, capacity, "%.300s:%d:%d", origin_file_name(r, origin), line, column);
@@ -67,7 +67,7 @@ status fault_at_location(const struct reader *r, int origin, int line, int colum
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    place_text(r, origin, line, column, place, sizeof place);
+    location_text(r, origin, line, column, place, sizeof place);
     return status_set(REFUSED, "%s: %s", place, what);
 }
 
@@ -75,7 +75,7 @@ void fault_write_location(const struct reader *r, const struct yaml_node *at, ch
 {
     char name[100];
     node_name(at, name, sizeof name);
-    place_text(r, at->origin, at->line, at->column, text, capacity);
+    location_text(r, at->origin, at->line, at->column, text, capacity);
     snprintf(text + strlen(text), capacity - strlen(text), ": %s%s", name, *name ? ": " : "");
 }
 
@@ -90,7 +90,7 @@ status fault(const struct reader *r, const struct yaml_node *at, const char *for
     return status_set(REFUSED, "%s%s", place, what);
 }
 
-status fault_keys_exclude(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b)
+status fault_exclusive_keys(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b)
 {
     const struct yaml_node *late = a->origin > b->origin ? a : b;
     return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
@@ -115,7 +115,7 @@ static const char *form_text(struct reader *r, const struct key *k)
     }
 }
 
-status fault_key_missing(struct reader *r, const struct yaml_node *map, const struct key *k)
+status fault_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k)
 {
     char group[64];
     snprintf(group, sizeof group, "%s", k->path);
@@ -163,7 +163,7 @@ static status fault_unknown(const struct reader *r, const struct yaml_node *n, c
 }
 
 /* Returns REFUSED if a key of the mapping `map` is unknown in the group with this path, or is given twice. */
-status check_keys(struct reader *r, const struct yaml_node *map, const char *group)
+status check_keys_known(struct reader *r, const struct yaml_node *map, const char *group)
 {
     for (const struct yaml_node *n = map->first; n; n = n->next) {
         const struct key *k = key_find(group, n->key);
@@ -175,7 +175,7 @@ status check_keys(struct reader *r, const struct yaml_node *map, const char *gro
     return OK;
 }
 
-status expect_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what)
+status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what)
 {
     const bool top = n->key && n->parent && !n->parent->key;
     const char *advice = top ? foreign_value_advice(n->key, n->text) : NULL;
@@ -186,7 +186,7 @@ status expect_kind(struct reader *r, const struct yaml_node *n, enum node_kind k
 status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n)
 {
     int least = (int)k->range.least, most = (int)k->range.most;
-    TRY(expect_kind(r, n, NODE_LIST, "a list"));
+    TRY(expect_node_kind(r, n, NODE_LIST, "a list"));
     if (n->n >= least && n->n <= most) return OK;
     return fault(r, n, "has %d items; %d to %d are expected", n->n, least, most);
 }
@@ -283,7 +283,7 @@ static status read_seed(struct reader *r, const struct yaml_node *n, uint64_t *v
 
 static status read_flag(struct reader *r, const struct yaml_node *n, bool *value)
 {
-    int word = n->kind == NODE_SCALAR ? word_index("false|true", n->text) : -1;
+    int word = n->kind == NODE_SCALAR ? word_index_in_list("false|true", n->text) : -1;
     if (word < 0) return fault(r, n, "%s is neither true nor false; write true or false", node_text(r, n));
     *value = word == 1;
     return OK;
@@ -292,7 +292,7 @@ static status read_flag(struct reader *r, const struct yaml_node *n, bool *value
 static status read_choice(struct reader *r, const struct key *k, const struct yaml_node *n, void *place)
 {
     const char *words = words_for_message(r, k->words);
-    int word = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
+    int word = n->kind == NODE_SCALAR ? word_index_in_list(k->words, n->text) : -1;
     const char *advice = foreign_value_advice(k->path, n->text);
     if (word < 0)
         return fault(r, n, "%s is unknown; %s is expected%s%s", node_text(r, n), words, advice ? "; " : "",
@@ -327,7 +327,7 @@ static status read_set(struct reader *r, const struct key *k, const struct yaml_
     if (n->kind != NODE_LIST || n->n == 0)
         return fault(r, n, "%s is unknown; none, all or a list of %s is expected", node_text(r, n), words);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
-        int word = c->kind == NODE_SCALAR ? word_index(k->words, c->text) : -1;
+        int word = c->kind == NODE_SCALAR ? word_index_in_list(k->words, c->text) : -1;
         if (word < 0) {
             const char *near = word_near(r, k->words, c->text);
             return fault(r, c, "%s is unknown%s%s; %s is expected", node_text(r, c), near ? "; the nearest is " : "",
@@ -401,7 +401,7 @@ enum { SERIES_MOST = 100000 };
 /* Reads a list of ascending numbers from node n in the unit and range of key k. Returns REFUSED for another form. */
 static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
-    TRY(expect_kind(r, n, NODE_LIST, "a list"));
+    TRY(expect_node_kind(r, n, NODE_LIST, "a list"));
     if (n->n < 1 || n->n > SERIES_MOST) return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
     series->value = NEW("scene series", n->n, real);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
@@ -498,7 +498,7 @@ static status read_fallback(struct reader *r, const struct yaml_node *where, con
 {
     struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};
     if (k->type >= KEY_MAP || *k->fallback == '-' || *k->fallback == '(') return OK;
-    if (strcmp(k->fallback, "required") == 0) return fault_key_missing(r, where, k);
+    if (strcmp(k->fallback, "required") == 0) return fault_missing_key(r, where, k);
     n.key = (char *)key_leaf(k);
     n.text = (char *)k->fallback;
     return read_key(r, k, &n, base);
@@ -507,8 +507,8 @@ static status read_fallback(struct reader *r, const struct yaml_node *where, con
 status read_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map, const char *group,
                   void *base)
 {
-    if (map) TRY(expect_kind(r, map, NODE_MAP, "a mapping of keys to values"));
-    if (map) TRY(check_keys(r, map, group));
+    if (map) TRY(expect_node_kind(r, map, NODE_MAP, "a mapping of keys to values"));
+    if (map) TRY(check_keys_known(r, map, group));
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
         if (!key_is_directly_below(k, group)) continue;

@@ -32,7 +32,7 @@ static status accuracy_read(struct reader *r, const struct yaml_node *root, stru
     w->within = WITHIN_USUAL, w->budget = BUDGET_USUAL, w->figure[0] = '\0';
     if (!n) return OK;
     if (n->kind != NODE_MAP) return read_number(r, key_find("accuracy", "within"), n, &w->within);
-    TRY(check_keys(r, n, "accuracy"));
+    TRY(check_keys_known(r, n, "accuracy"));
     const struct yaml_node *of = yaml_node_find(n, "of"), *within = yaml_node_find(n, "within"),
                            *budget = yaml_node_find(n, "budget");
     if (of) TRY(figure_read(r, of, w->figure, sizeof w->figure));

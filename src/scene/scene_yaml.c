@@ -273,7 +273,7 @@ static status read_document(struct parse *p, struct yaml_node **root)
     return OK;
 }
 
-status tree_read(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root)
+status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root)
 {
     struct parse p = {.r = r, .text = text, .length = length, .origin = origin};
     const char *nul = memchr(text, 0, length);

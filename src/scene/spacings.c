@@ -120,11 +120,11 @@ static double body_spacing(const struct scene *s, const struct region *shape)
 {
     real from[DIM_MAX], to[DIM_MAX];
     double least = INFINITY;
-    if (!region_bounds(shape, s->dim, from, to)) return least;
+    if (!region_bounding_box(shape, s->dim, from, to)) return least;
     for (int d = 0; d < s->dim; d++) least = fmin(least, (to[d] - from[d]) / ACROSS_BODY);
     for (int k = 0; k < shape->n; k++) {
         const struct solid *a = &shape->solid[k];
-        least = fmin(least, solid_radius(a, s->dim) / IN_HOLE);
+        least = fmin(least, solid_radius_if_round(a, s->dim) / IN_HOLE);
     }
     return least;
 }
@@ -135,7 +135,7 @@ static double distance_to_face(const struct scene *s, const real *X)
 {
     real from[DIM_MAX], to[DIM_MAX];
     double least = INFINITY;
-    if (!region_bounds(&s->body[0].shape, s->dim, from, to)) return least;
+    if (!region_bounding_box(&s->body[0].shape, s->dim, from, to)) return least;
     for (int d = 0; d < s->dim; d++) {
         if (X[d] > from[d]) least = fmin(least, X[d] - from[d]);
         if (X[d] < to[d]) least = fmin(least, to[d] - X[d]);
@@ -193,7 +193,7 @@ static double spacing_for(const struct scene *s, double particles)
     double volume = 0;
     for (int b = 0; b < s->bodies; b++) {
         double box = 1;
-        if (!region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
+        if (!region_bounding_box(&s->body[b].shape, s->dim, from, to)) continue;
         for (int d = 0; d < s->dim; d++) box *= to[d] - from[d];
         volume += box;
     }

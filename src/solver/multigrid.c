@@ -124,7 +124,7 @@ static bool coarsen(struct multigrid *m)
     multigrid_aggregate_nodes(l);
     if (l->coarse == 0 || l->coarse > 0.7 * (real)l->n) return false;
     *next = (struct multigrid_level){0};
-    multigrid_make_modes(l, next);
+    multigrid_make_coarse_modes(l, next);
     multigrid_make_transfer(l);
     multigrid_make_coarse_matrix(l, next);
     multigrid_find_unconstrained(l, next);
@@ -154,7 +154,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *a, real
         if (!coarsen(m)) break;
     }
     const struct multigrid_level *last = &m->level[m->levels - 1];
-    if (m->levels > 1 && last->n * last->width <= 4 * DENSE) dense_make(&m->dense, last);
+    if (m->levels > 1 && last->n * last->width <= 4 * DENSE) dense_factorise(&m->dense, last);
     return OK;
 }
 

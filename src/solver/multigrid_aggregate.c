@@ -166,7 +166,7 @@ static void members_list(const struct multigrid_level *l, int64_t *first, int32_
     memory_free(at);
 }
 
-void multigrid_make_modes(struct multigrid_level *l, struct multigrid_level *next)
+void multigrid_make_coarse_modes(struct multigrid_level *l, struct multigrid_level *next)
 {
     const int w = l->width, m = l->modes;
     int64_t *first = NEW("multigrid.members", l->coarse + 1, int64_t);

@@ -24,7 +24,7 @@ static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t 
  * that of the row's node: entries 0 and 1 belong to the first component of force. */
 static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, pair own, const real *x)
 {
-    const two u = __builtin_convertvector(pair_load(x + (int64_t)l->column[q] * 2) - own, two);
+    const two u = __builtin_convertvector(lane_pair_load(x + (int64_t)l->column[q] * 2) - own, two);
     return four_load(l->single + q * 4) * (four){u[0], u[1], u[0], u[1]};
 }
 
@@ -33,7 +33,7 @@ static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, p
 static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const int64_t end = l->first[i + 1];
-    const pair own = pair_load(x + i * 2);
+    const pair own = lane_pair_load(x + i * 2);
     four even = {0}, odd = {0};
     int64_t q = l->first[i];
     for (; q + 2 <= end; q += 2) even += single_2(l, q, own, x), odd += single_2(l, q + 1, own, x);
@@ -49,14 +49,14 @@ static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t 
  * displacements; l->rest is the stiffness that is not from bonds. */
 static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
-    const pair own = pair_load(x + i * 3);
+    const pair own = lane_pair_load(x + i * 3);
     const real own_z = x[i * 3 + 2];
     four head = {0}, middle = {0};
     float tail = 0;
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
         const real *to = x + (int64_t)l->column[q] * 3;
         const float *k = l->single + q * 9;
-        const two u = __builtin_convertvector(pair_load(to) - own, two);
+        const two u = __builtin_convertvector(lane_pair_load(to) - own, two);
         const float z = (float)(to[2] - own_z);
         head += four_load(k) * (four){u[0], u[1], z, u[0]};
         middle += four_load(k + 4) * (four){u[1], z, u[0], u[1]};

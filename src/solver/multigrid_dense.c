@@ -15,7 +15,7 @@ static void dense_eliminate(real *u, int64_t n, int64_t j, real inverse)
     }
 }
 
-void dense_make(struct dense *d, const struct multigrid_level *l)
+void dense_factorise(struct dense *d, const struct multigrid_level *l)
 {
     const int w = l->width;
     const int64_t n = l->n * w;

@@ -92,9 +92,9 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
     for (int x = 0; x < r; x++) {
         if (c == 6) {
             pair sum[3];
-            for (int z = 0; z < 3; z++) sum[z] = pair_load(out + x * c + 2 * z);
+            for (int z = 0; z < 3; z++) sum[z] = lane_pair_load(out + x * c + 2 * z);
             for (int y = 0; y < k; y++)
-                for (int z = 0; z < 3; z++) sum[z] += a[x * k + y] * pair_load(b + y * c + 2 * z);
+                for (int z = 0; z < 3; z++) sum[z] += a[x * k + y] * lane_pair_load(b + y * c + 2 * z);
             for (int z = 0; z < 3; z++) memcpy(out + x * c + 2 * z, &sum[z], sizeof sum[z]);
         } else
             for (int y = 0; y < k; y++)

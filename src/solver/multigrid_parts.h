@@ -51,7 +51,7 @@ struct multigrid {
 typedef real pair __attribute__((vector_size(16)));
 
 /* Returns two consecutive values from memory as a vector; `from` need not be aligned. */
-static ALWAYS_INLINE pair pair_load(const real *from)
+static ALWAYS_INLINE pair lane_pair_load(const real *from)
 {
     pair a;
     memcpy(&a, from, sizeof a);
@@ -121,7 +121,7 @@ void multigrid_aggregate_nodes(struct multigrid_level *l);
 
 /* Makes the rigid motions of the nodes of level l orthonormal within each aggregate (l->tentative), and sets number,
  * width, scale and rigid motions of the nodes of the next coarser level. */
-void multigrid_make_modes(struct multigrid_level *l, struct multigrid_level *next);
+void multigrid_make_coarse_modes(struct multigrid_level *l, struct multigrid_level *next);
 
 /* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction:
  * the orthonormal rigid motions of aggregates, smoothed by one step with the matrix scaled by its diagonal. */
@@ -133,9 +133,9 @@ void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multig
 
 /* Factorises the matrix K of level l as U'DU into d. Pivots without stiffness are replaced by the mean stiffness
  * l->scale. Release with dense_free. */
-void dense_make(struct dense *d, const struct multigrid_level *l);
+void dense_factorise(struct dense *d, const struct multigrid_level *l);
 
-/* Solves K x = b with the factorisation d of dense_make. b: d->n loads; x: receives d->n values. */
+/* Solves K x = b with the factorisation d of dense_factorise. b: d->n loads; x: receives d->n values. */
 void dense_solve(const struct dense *d, const real *b, real *x);
 
 /* Frees the arrays of a factorisation. */

@@ -4,9 +4,9 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-void static_body_bond_forces(const struct static_body *body)
+void static_body_compute_bond_forces(const struct static_body *body)
 {
-    loads_update_images(body->loads, body->part);
+    loads_update_mirror_images(body->loads, body->part);
     bond_forces(body->force, body->bonds, body->part, &bond_limit_never, NULL);
 }
 
@@ -36,7 +36,7 @@ void static_body_tangent_product(const struct static_body *body, const struct fi
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] + sign * s * in->of[d][i];
-        static_body_bond_forces(body);
+        static_body_compute_bond_forces(body);
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++)
@@ -59,7 +59,7 @@ static void solver_force_block(const void *context, int64_t first, int64_t end, 
         for (int64_t i = first; i < end; i++) sum[f->held[i] >> d & 1] += square(f->part->f[d][i]);
 }
 
-void static_solver_force_norms(const struct static_solver *s, const struct particles *p, real *norm)
+void static_solver_compute_force_norms(const struct static_solver *s, const struct particles *p, real *norm)
 {
     reproducible_sums(p->n, 2, solver_force_block, &(struct constrained_forces){p, s->held}, norm);
     norm[0] = sqrt(norm[0]), norm[1] = sqrt(norm[1]);
@@ -77,6 +77,6 @@ void static_solver_set_residual(struct static_solver *s, real reaction, real unb
 void static_solver_compute_residual(struct static_solver *s, const struct particles *p)
 {
     real norm[2];
-    static_solver_force_norms(s, p, norm);
+    static_solver_compute_force_norms(s, p, norm);
     static_solver_set_residual(s, norm[1], norm[0]);
 }

@@ -128,7 +128,7 @@ static void solver_cg_displace(const struct static_solver *s, const struct stati
     struct particles *p = body->part;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->x[d][i] = p->X[d][i] + s->u.of[d][i];
-    static_body_bond_forces(body);
+    static_body_compute_bond_forces(body);
 }
 
 /* Computes the true residual and sets *done to true if it is at most the tolerance, else to false. If the recursive

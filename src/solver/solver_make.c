@@ -56,7 +56,7 @@ static void make_diagonal(struct static_solver *s, const struct static_body *bod
     real most = 0;
     struct field kept = {{0}};
     for (int64_t r = 0; r < b->rows; r++) {
-        s->diagonal[b->particle[r]] = 0.25 * bonds_row_stiffness_bound(b, p, r);
+        s->diagonal[b->particle[r]] = 0.25 * bonds_row_largest_eigenvalue_bound(b, p, r);
         most = real_max(most, s->diagonal[b->particle[r]]);
     }
     for (int64_t i = 0; i < p->n; i++)
@@ -67,7 +67,7 @@ static void make_diagonal(struct static_solver *s, const struct static_body *bod
     const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, solver_scaled_stiffness, &scaled) / 4;
     for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
     for (int d = 0; d < p->dim; d++) array_copy(p->x[d], kept.of[d], p->n, sizeof(real));
-    static_body_bond_forces(body); /* energies of state-based models use the dilatation at X */
+    static_body_compute_bond_forces(body); /* energies of state-based models use the dilatation at X */
     for (int d = 0; d < p->dim; d++) {
         array_fill_bytes(p->v[d], 0, p->n, sizeof(real));
         array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
@@ -98,7 +98,7 @@ static void make_weights(struct static_solver *s, const struct static_body *body
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
     const real most = field_largest_component(&s->driven, s->dim, s->n);
-    return most > 0 ? 1 + (int64_t)(particles_longest_edge(body->part) / body->spacing) : 0;
+    return most > 0 ? 1 + (int64_t)(particles_bounding_box_longest_edge(body->part) / body->spacing) : 0;
 }
 
 /* Computes the norm of the applied forces on free components, s->applied [N]. */
@@ -108,7 +108,7 @@ static void make_applied(struct static_solver *s, const struct static_body *body
     real norm[2];
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
     loads_add_static_forces(body->loads, p);
-    static_solver_force_norms(s, p, norm);
+    static_solver_compute_force_norms(s, p, norm);
     s->applied = norm[0];
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
 }
@@ -180,7 +180,7 @@ status static_solver_make(struct static_solver *s, const struct static_body *bod
     s->held = NEW("solver.held", s->n, uint8_t);
     for (int d = 0; d < s->dim; d++) array_fill_bytes(p->v[d], 0, s->n, sizeof(real));
     field_make(&s->driven, s->dim, s->n);
-    static_displacements_compute(body->loads, p, s->ramp_time, s->driven.of, s->held);
+    loads_compute_static_displacements(body->loads, p, s->ramp_time, s->driven.of, s->held);
     TRY(loads_balanced(body));
     make_applied(s, body);
     return OK;

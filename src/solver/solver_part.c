@@ -10,10 +10,10 @@ static void put_solver(const struct run *e, struct json *j)
     static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
     if (!scene_is_single_equilibrium(e->scene)) return;
     json_open(j, "solver", '{');
-    json_text(j, "name", name[e->scene->solver]);
-    json_count(j, "steps", e->clock.step);
-    json_real(j, "residual", e->solver->residual);
-    json_count(j, "bonds_past_limit", e->solver->past_limit);
+    json_write_text(j, "name", name[e->scene->solver]);
+    json_write_integer(j, "steps", e->clock.step);
+    json_write_real(j, "residual", e->solver->residual);
+    json_write_integer(j, "bonds_past_limit", e->solver->past_limit);
     json_close(j, '}');
 }
 

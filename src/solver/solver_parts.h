@@ -6,7 +6,7 @@
 
 /* Computes the bond forces at the present positions of the particles, mirror images updated first, into part.f [N]. No
  * bond breaks. */
-void static_body_bond_forces(const struct static_body *body);
+void static_body_compute_bond_forces(const struct static_body *body);
 
 /* Computes out = K in, the product of the tangent stiffness K of the bonds at the reference positions with a
  * displacement [N]: the decrease of the bond forces along `in`, by central differences. in: a vector for each particle
@@ -17,7 +17,7 @@ void static_body_tangent_product(const struct static_body *body, const struct fi
 
 /* Computes the Euclidean norms of the forces p->f [N]: norm[0] over free components, norm[1] over constrained
  * components. */
-void static_solver_force_norms(const struct static_solver *s, const struct particles *p, real *norm);
+void static_solver_compute_force_norms(const struct static_solver *s, const struct particles *p, real *norm);
 
 /* Computes residual and scale of a static solution (static_solver_set_residual) from the forces p->f: the norm over
  * free components is the residual force, over constrained components the reaction. */

@@ -71,7 +71,7 @@ status relaxation_step(struct static_solver *s, const struct static_body *body, 
     struct particles *p = body->part;
     real sum[3];
     supports_move(s, p, step);
-    static_body_bond_forces(body);
+    static_body_compute_bond_forces(body);
     loads_add_static_forces(body->loads, p);
     static_solver_compute_residual(s, p);
     loads_collect_static_reactions(body->loads, p);

@@ -65,7 +65,7 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
 /* Returns c dt of bulk damping in a step (`decay`), limited to EXPONENT_MOST [1]. */
 static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
-real damping_factor(real decay) { return exp(-0.5 * capped(decay)); }
+real damping_increment_factor(real decay) { return exp(-0.5 * capped(decay)); }
 
 /* Describes what is damped: the particles in all[0], the nodes of the mesh in all[1]. factor: factor on their
  * velocities [1]. Returns the number of entries used: 2, or 1 if the mesh has no points. */
@@ -91,13 +91,13 @@ static real slow_all(struct particles *p, const struct mesh *mesh, struct loads 
     }
     for (int c = 0; c < square(p->dim) && p->gradient[c]; c++) /* velocity gradients of APIC */
         for (int64_t i = 0; i < p->n; i++) p->gradient[c][i] *= factor;
-    loads_update_images(l, p);
+    loads_update_mirror_images(l, p);
     return kinetic;
 }
 
-real damping_apply_first(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
+real damping_apply_first_half_step(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
 {
-    const real share = damping_factor(decay);
+    const real share = damping_increment_factor(decay);
     return (1 - share) * slow_all(p, mesh, l, share);
 }
 
@@ -112,7 +112,7 @@ void damping_store_velocities(struct damping_state *s, const struct particles *p
         }
 }
 
-real damping_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay)
+real damping_energy_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay)
 {
     struct damped all[2];
     real loss = 0, sum;
@@ -121,16 +121,16 @@ real damping_loss(const struct damping_state *s, const struct particles *p, cons
         all[k].before = s->before[k];
         reproducible_sums(all[k].n, 1, loss_block, &all[k], &sum), loss += sum;
     }
-    return loss / damping_factor(decay);
+    return loss / damping_increment_factor(decay);
 }
 
-real damping_last_loss(real decay, real kinetic_before, real kinetic)
+real damping_final_energy_loss(real decay, real kinetic_before, real kinetic)
 {
     const real grown = exp(capped(decay));
-    return (grown - 1) * (grown * kinetic_before + kinetic) / damping_factor(decay);
+    return (grown - 1) * (grown * kinetic_before + kinetic) / damping_increment_factor(decay);
 }
 
-void damping_apply(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
+void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
 {
     slow_all(p, mesh, l, exp(-capped(decay)));
 }

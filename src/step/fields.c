@@ -152,7 +152,8 @@ static real *damage_make(const struct particles *p, const struct bonds *bonds)
     if (!bonds->soft.curve) return NULL;
     real *damage = NEW("report.damage", p->n, real);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) damage[i] = p->damage[i] + bonds_row_softening(bonds, p, bonds->row_of[i]);
+    for (int64_t i = 0; i < p->n; i++)
+        damage[i] = p->damage[i] + bonds_row_softening_damage(bonds, p, bonds->row_of[i]);
     return damage;
 }
 

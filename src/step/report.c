@@ -89,7 +89,7 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
                       (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
-struct run_seconds report_seconds(const struct run_report *r, const struct timers *timers)
+struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers)
 {
     struct run_seconds s = r->before;
     s.wall += wall_clock() - r->began;

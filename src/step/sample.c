@@ -56,7 +56,7 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
 }
 
 /* Returns true if angular momentum must be conserved: nothing acts on the bodies, i.e. no boundary, rigid body or
- * damping. Returns false also with coarse cells, whose nodes diagnostics_angular_momentum does not read. */
+ * damping. Returns false also with coarse cells, whose nodes diagnostics_update_angular_momentum does not read. */
 static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
     return s->dim > 1 && scene_is_dynamic(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
@@ -159,7 +159,7 @@ static bool wants_stress(const struct scene *s)
 void run_update_particles(struct run *e)
 {
     frame_update_points(e->frame, &e->part, &e->loads);
-    compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
 }
 
 /* Returns true if a probe of scene s reads positions or velocities of particles, so that points of a mesh must be
@@ -212,12 +212,12 @@ static void sample_state(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(e->frame, nodes);
-    if (wants_stress(e->scene)) compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    rigids_store_motion(e->rigid, e->clock.t);
-    diagnostics_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
+    if (wants_stress(e->scene)) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    rigids_store_motion_for_sample(e->rigid, e->clock.t);
+    diagnostics_update_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
     if (is_free(e->scene, e->frame))
-        diagnostics_angular_momentum(e->diagnostics, &e->part, e->frame->mesh.points > 0 ? &e->frame->mesh : NULL,
-                                     e->scene->bodies);
+        diagnostics_update_angular_momentum(e->diagnostics, &e->part,
+                                            e->frame->mesh.points > 0 ? &e->frame->mesh : NULL, e->scene->bodies);
     tips_update(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
     struct observed_run o = observed_run_of(e);
     probes_sample_begin(&e->probing->probes, &o);
@@ -262,7 +262,7 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
     sampling->energy.kinetic = kinetic;
     e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
     if (e->stability->lost) return; /* no line is written; energy_check reports the failure */
-    diagnostics_energy_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
+    diagnostics_update_energy_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
     if (e->report->out && e->report->history_status == OK)
         e->report->history_status = output_write_history(e->report->out, e->report->record);
@@ -301,7 +301,7 @@ void sample_begin(struct run *e)
     if (sampling->due)
         sample_state(e), rigids_warn_of_overlap(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
     else if (wants_stress(e->scene))
-        compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+        bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     struct observed_run o = observed_run_of(e);
     probes_store_motion(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
@@ -311,14 +311,14 @@ void sample_begin(struct run *e)
     else
         momentum_now(&e->part, e->frame, sampling->momentum);
     sampling->kinetic = kinetic_now(&e->part, e->frame);
-    sampling->rigid = rigids_energy(e->rigid, e->clock.dt).before;
+    sampling->rigid = rigids_compute_energy(e->rigid, e->clock.dt).before;
 }
 
 void sample_compute_energies(struct run *e)
 {
     if (!e->report->sampling.due) return;
     sample_energies(e);
-    e->report->sampling.rigid_work = rigids_energy(e->rigid, e->clock.dt).work;
+    e->report->sampling.rigid_work = rigids_compute_energy(e->rigid, e->clock.dt).work;
 }
 
 /* Returns true if a boundary of scene s prescribes a velocity other than 0, so that velocities jump in the first
@@ -343,7 +343,7 @@ void sample_end(struct run *e)
 {
     struct sampling *sampling = &e->report->sampling;
     const bool first = e->clock.step == 0;
-    const real share = damping_factor(e->scene->damping * e->clock.dt);
+    const real share = damping_increment_factor(e->scene->damping * e->clock.dt);
     const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / share};
     if (!sampling->due) return;
     if (first) { /* the stored velocities are of t = 0, and nothing is damped yet */
@@ -356,7 +356,7 @@ void sample_end(struct run *e)
     real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, e->frame)) - kick_now(e);
     sampling->energy.damped += e->grid->contact.begun;
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
-    const struct rigid_energy rigid = rigids_energy(e->rigid, e->clock.dt);
+    const struct rigid_energy rigid = rigids_compute_energy(e->rigid, e->clock.dt);
     rigids_average_velocities(e->rigid);
     sample_write(e, &now, kinetic / share + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
@@ -367,7 +367,7 @@ void sample_take_in_equilibrium(struct run *e)
     sample_state(e);
     sample_energies(e);
     sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0,
-                 e->loads.work + e->loads.constraint_work + rigids_energy(e->rigid, e->clock.dt).work);
+                 e->loads.work + e->loads.constraint_work + rigids_compute_energy(e->rigid, e->clock.dt).work);
 }
 
 /* Returns the power v . f of the forces on particles that bonds move and on nodes of the reference frame [W]. */
@@ -381,7 +381,7 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     }
     for (int64_t I = 0; I < g->n && reference->mesh.points > 0; I++)
         for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
-    return power + levels_power(&reference->levels);
+    return power + levels_power_of_forces(&reference->levels);
 }
 
 /* Returns the part of power_now on nodes whose motion loads prescribe [W], which is work of the loads. */
@@ -415,7 +415,7 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
     for (int k = 0; grid && k < grid->fields; k++) loads_add_grid_reactions(l, &grid->field[k].grid, clock->dt);
     if (frame->mesh.points == 0) return;
     reactions_add(l, &frame->mesh.grid);
-    for (int level = 1; level <= levels_highest_acting(&frame->levels, clock->step); level++)
+    for (int level = 1; level <= levels_highest_due_in_step(&frame->levels, clock->step); level++)
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
@@ -426,16 +426,16 @@ static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
     const real before = e->loads.constraint_work, kick = e->loads.absorbing.kick;
-    const real dt_velocity = e->clock.dt * damping_factor(e->scene->damping * e->clock.dt);
+    const real dt_velocity = e->clock.dt * damping_increment_factor(e->scene->damping * e->clock.dt);
     memory_archive_make(&accounts, ARCHIVE_ACCOUNTS);
     INVARIANT(loads_save_or_load(&e->loads, &accounts.archive) == OK);
     e->loads.absorbing.idle = e->loads.ended = true;
     loads_clear_forces(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_force(e->contact, &e->part, 0);
-    loads_finish_particle_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
+    contact_compute_forces(e->contact, &e->part, 0);
+    loads_complete_particle_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
     if (e->frame->mesh.points > 0) frame_compute_forces(e->frame, &e->part, e->clock.step);
-    const real power = power_now(&e->part, e->frame) + grid_power(e, e->clock.t + 0.5 * e->clock.dt);
+    const real power = power_now(&e->part, e->frame) + grid_power_of_forces(e, e->clock.t + 0.5 * e->clock.dt);
     const real walls = power_of_walls(e->frame);
     *held = e->loads.constraint_work - before - e->clock.dt * walls;
     const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
@@ -459,11 +459,12 @@ void sample_take_final(struct run *e)
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame);
     const real before = kinetic;
-    const real decay = e->scene->damping * e->clock.dt, share = damping_factor(decay), kick = e->clock.dt * share;
+    const real decay = e->scene->damping * e->clock.dt, share = damping_increment_factor(decay),
+               kick = e->clock.dt * share;
     if (scene_is_dynamic(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
-    if (e->clock.step > 0) e->report->sampling.energy.damped += damping_last_loss(decay, before, kinetic);
+    if (e->clock.step > 0) e->report->sampling.energy.damped += damping_final_energy_loss(decay, before, kinetic);
     e->report->sampling.energy.damped += e->grid->contact.begun;
-    const struct rigid_energy rigid = rigids_energy(e->rigid, e->clock.dt);
+    const struct rigid_energy rigid = rigids_compute_energy(e->rigid, e->clock.dt);
     const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(share)};
     rigids_extrapolate_velocities(e->rigid, e->clock.t, e->clock.dt);
     sample_write(e, &now, kinetic / share + rigid.last,

@@ -24,7 +24,7 @@
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
-    const real released = energy_released_in_excess(w);
+    const real released = diagnostics_excess_released_energy(w);
     if (scene_is_single_equilibrium(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
     snprintf(text, sizeof text,
              "broken bonds released %.3g J more than they had stored (energy.fracture %.3g): with model %s, particles "
@@ -74,8 +74,9 @@ static void say_damped(real share, struct warnings *to)
  * oscillate. Returns false, without text, if no such collision was expected, no bond broke, or the scene accepts it. */
 static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t capacity)
 {
-    const struct shock shock = fastest_collision_expected(s);
-    if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM || scene_accepts(s, ACCEPT_SHOCK))
+    const struct shock shock = scene_fastest_collision(s);
+    if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM ||
+        scene_silences_warning(s, ACCEPT_SHOCK))
         return false;
     snprintf(text, capacity,
              "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the front of "
@@ -91,7 +92,7 @@ void warn_of_fast_tips(const struct crack_tips *t, const struct scene *s, struct
     char text[500];
     real limit = 0;
     for (int m = 0; m < s->materials; m++) limit = real_max(limit, s->material[m].rayleigh_speed);
-    if (limit == 0 || !scene_is_dynamic(s) || scene_accepts(s, ACCEPT_RAYLEIGH)) return;
+    if (limit == 0 || !scene_is_dynamic(s) || scene_silences_warning(s, ACCEPT_RAYLEIGH)) return;
     for (int k = 0; k < t->n; k++) {
         const struct crack_tip *tip = &t->tip[k];
         if (tip->growth < FAST_TIP * t->spacing || !(tip->speed_max > limit + t->spacing / t->window)) continue;
@@ -127,7 +128,7 @@ void warn_of_imbalance(struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
-    const bool round_off = energy_is_round_off(w, e->mass, e->tables.wave_speed);
+    const bool round_off = diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed);
     const real error = w->now.balance_error;
     char text[640];
     if (e->report->excerpt) return;
@@ -142,7 +143,7 @@ void warn_of_imbalance(struct run *e)
         "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows the time at which it began: do not "
         "trust later results",
         100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error,
-        error < 0 && apic ? scene_frame_obstacle(e->scene)
+        error < 0 && apic ? scene_why_reference_frame_no_remedy(e->scene)
                                 ? ": APIC damps motion that its grid does not resolve; mpm.transfer: flip keeps it"
                                 : ": APIC damps motion that its grid does not resolve; mpm.transfer: flip and "
                                   "mpm.frame: reference keep it"
@@ -158,6 +159,6 @@ void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const st
     if (!yields) return;
     const int known = to->n;
     r->yield_said = true;
-    warn_of_yielding(s, to);
-    warnings_print_new(to, known);
+    warn_of_bond_plasticity(s, to);
+    warnings_print_to_stderr(to, known);
 }

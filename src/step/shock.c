@@ -13,7 +13,7 @@ static real speed_limit(const struct scene *s)
     for (int m = 0; m < s->materials; m++) {
         const struct material *own = &s->material[m];
         real strain = s->method == METHOD_MPM ? INFINITY : own->onset_stretch;
-        if (material_yields(own)) strain = real_min(strain, material_first_yield(own) / own->young);
+        if (material_yields(own)) strain = real_min(strain, material_initial_yield_stress(own) / own->young);
         least = real_min(least, strain * own->wave_speed);
     }
     return least;
@@ -45,7 +45,7 @@ static real closing_speed(const struct scene *s, int a, int b)
     for (int k = 0; k < 2; k++) {
         const struct scene_body *own = &s->body[body[k]];
         real centre[DIM_MAX] = {0};
-        if (own->file || !region_bounds(&own->shape, s->dim, from[k], to[k])) return 0;
+        if (own->file || !region_bounding_box(&own->shape, s->dim, from[k], to[k])) return 0;
         for (int d = 0; d < s->dim; d++) centre[d] = 0.5 * (from[k][d] + to[k][d]);
         start_speed(s, body[k], centre, v[k]);
     }
@@ -73,11 +73,11 @@ static const char *remedy_of(const struct scene *s)
     return "material.viscosity: {} spreads the front so that it does not oscillate";
 }
 
-struct shock fastest_collision_expected(const struct scene *s)
+struct shock scene_fastest_collision(const struct scene *s)
 {
     struct shock shock = {0};
     bool viscous = true;
-    for (int m = 0; m < s->materials; m++) viscous = viscous && material_viscous(&s->material[m]);
+    for (int m = 0; m < s->materials; m++) viscous = viscous && material_has_viscosity(&s->material[m]);
     for (int a = 0; a < s->bodies; a++)
         for (int b = a + 1; b < s->bodies + s->rigids; b++)
             if (b >= s->bodies || s->contact_between != CONTACT_NONE)

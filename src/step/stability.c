@@ -45,7 +45,7 @@ void stability_store_start_speed(struct stability *s, const struct particles *p)
 {
     s->start_speed = real_max(diagnostics_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
                               diagnostics_largest_speed(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
-    growth_rate_add_sample(&s->speed, 0, square(s->start_speed));
+    growth_samples_add(&s->speed, 0, square(s->start_speed));
 }
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
@@ -72,7 +72,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     real most, mean, fast2 = 0;
     if (b->kind == BOUNDARY_MIRROR || b->kind == BOUNDARY_ABSORBING) return 0;
     factors(&b->time, from, clock->t, &most, &mean);
-    if (b->displaces) return load_displacement_speed(load, p, clock->t + clock->dt);
+    if (b->displaces) return load_largest_displacement_speed(load, p, clock->t + clock->dt);
     if (drives) return most * sqrt(dot(b->value, b->value, p->dim));
     for (int64_t k = 0; k < load->n; k++) {
         real a2 = 0;
@@ -180,7 +180,7 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
     if (s->method == METHOD_ADAPTIVE) other[n++] = "method: pd";
     if (s->method != METHOD_PD && reference->mesh.points > 0)
         other[n++] = "mpm.frame: current";
-    else if (!scene_frame_obstacle(s))
+    else if (!scene_why_reference_frame_no_remedy(s))
         other[n++] = "mpm.frame: reference";
     if (coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE) other[n++] = "coupling: partial stress";
     if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
@@ -231,7 +231,7 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
 {
     real steps;
     char others[256];
-    const enum growth_rate rate = growth_rate_classify(earlier, e->clock.step, value, &steps);
+    const enum growth_rate rate = growth_samples_classify(earlier, e->clock.step, value, &steps);
     if (scene_has_load_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, capacity,
                  "this occurred in an equilibrium: use more load steps (steps.number) or a smaller solver_tolerance to "
@@ -276,7 +276,7 @@ status divergence_check(const struct run *e, bool peridynamic, bool meshed)
 {
     char remedy[REMEDY_LENGTH];
     const status s =
-        diagnostics_divergence(&e->part, peridynamic, meshed, e->tables.wave_speed, e->clock.step, e->clock.t);
+        diagnostics_check_divergence(&e->part, peridynamic, meshed, e->tables.wave_speed, e->clock.step, e->clock.t);
     if (s == OK) return OK;
     const real speed = fastest_now(&e->part, e->frame), limit = e->tables.wave_speed;
     stability_describe_remedy(e, &e->stability->speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
@@ -323,10 +323,10 @@ status stability_check(struct run *e)
     if (diverged) frame_update_point_motion(e->frame, &e->part, &e->loads);
     TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
-    TRY(contact_overlap_check(e));
-    TRY(rigids_speed_check(e->rigid, e->scene, &e->clock));
+    TRY(contact_check_largest_overlap(e));
+    TRY(rigids_check_speed(e->rigid, e->scene, &e->clock));
     if (e->clock.step % RISE_STRIDE == 0)
-        growth_rate_add_sample(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
+        growth_samples_add(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
     return OK;
 }
 
@@ -345,7 +345,7 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
-bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed)
+bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed)
 {
     return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
 }
@@ -353,7 +353,7 @@ bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed
 /* Returns the energy that breaking bonds released beyond what they had stored [J], i.e. max(0, -fracture energy). It
  * can be positive in state-based models: a broken bond changes the dilatation of its particles, and their other bonds
  * may store more. */
-real energy_released_in_excess(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
+real diagnostics_excess_released_energy(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
 
 /* Returns true if the body has gained more energy than a stable run can: balance error > ENERGY_FROM_NOWHERE, or energy
  * released in excess > RELEASED_FROM_NOWHERE. The balance of the first ENERGY_STEPS steps is left out, since half a
@@ -362,7 +362,7 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
     return (counts && w->now.balance_error > ENERGY_FROM_NOWHERE) ||
-           energy_released_in_excess(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
+           diagnostics_excess_released_energy(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
 }
 
 /* Returns true if the time step is above the critical one and velocities change sign in every step: kinetic energy <
@@ -391,7 +391,7 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
 static void warn_of_stretched(const struct scene *s, real strain, real t, real x, struct warnings *to)
 {
     char text[560], remedy[200] = "use mpm.frame: reference";
-    const char *why = scene_frame_obstacle(s);
+    const char *why = scene_why_reference_frame_no_remedy(s);
     if (why)
         snprintf(remedy, sizeof remedy, "use method: pd or lower loads and speeds (mpm.frame: reference: %s)", why);
     snprintf(text, sizeof text,
@@ -407,7 +407,7 @@ static void warn_of_stretched(const struct scene *s, real strain, real t, real x
 static bool say_stretched(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
     const int n = symmetric_component_count(p->dim);
-    for (int64_t i = 0; i < p->n && p->n_free > 0 && !scene_accepts(s, ACCEPT_STRAIN); i++) {
+    for (int64_t i = 0; i < p->n && p->n_free > 0 && !scene_silences_warning(s, ACCEPT_STRAIN); i++) {
         const struct material *m = &s->material[p->material[i]];
         real stress[SYM_MAX], sum = 0;
         if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
@@ -478,16 +478,16 @@ status energy_check(struct run *e)
                           "supports and initial state (`cleave check`)",
                           (long long)e->clock.step, e->clock.t);
     const struct diagnostics *w = e->diagnostics;
-    const real excess = w->now.balance_error * w->energy_scale + energy_released_in_excess(w);
+    const real excess = w->now.balance_error * w->energy_scale + diagnostics_excess_released_energy(w);
     const bool last = e->clock.step == e->clock.steps && !scene_is_single_equilibrium(e->scene);
     char what[96], remedy[REMEDY_LENGTH];
     if (!e->report->sampling.due && !last) return OK;
-    growth_rate_add_sample(&e->stability->excess, e->clock.step, excess);
+    growth_samples_add(&e->stability->excess, e->clock.step, excess);
     if (!e->stability->stretched)
         e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings) ||
                                   say_flowed(&e->part, e->clock.t, &e->warnings) ||
                                   say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
-    if (energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
+    if (diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);
         return unstable(&e->part, &e->clock, "whose velocities change sign in every step", remedy);

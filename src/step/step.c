@@ -30,7 +30,7 @@ struct step {
  * velocity update, which is also stored in *transfer. damping: decay rate of the bulk [1/s]. */
 static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
-    const real dt = clock->dt, decay = damping * dt, share = damping_factor(decay);
+    const real dt = clock->dt, decay = damping * dt, share = damping_increment_factor(decay);
     const real dt_velocity = (clock->step == 0 ? 0.5 : 1) * dt * share;
     transfer->dt_velocity = dt_velocity;
     return (struct step){.middle = clock->t + 0.5 * dt, decay, share, dt_velocity};
@@ -40,7 +40,7 @@ static struct step step_begin(const struct run_clock *clock, real damping, struc
  * now->converted: receives their number. */
 static void conversion(struct run *e, struct step *now)
 {
-    const bool marked = conversion_prepare(e);
+    const bool marked = conversion_flag_points(e);
     sample_record_breaks(e, now->broken);
     now->converted = conversion_apply(e, now->broken, marked, cracks_have_fading_bonds(e->fracture));
     timer_add_elapsed(&e->timers, TIMER_CONVERT);
@@ -50,9 +50,9 @@ static void conversion(struct run *e, struct step *now)
  * step. */
 static void motion_begin(struct run *e, struct step *now)
 {
-    contact_update_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                        e->diagnostics->bonds_broken,
-                        e->coupling->conversion.converted + e->coupling->conversion.reverted);
+    contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                             e->diagnostics->bonds_broken,
+                             e->coupling->conversion.converted + e->coupling->conversion.reverted);
     now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
     e->grid->transfer.bonded = e->coupling->bonded; /* reversion may have reallocated the list */
     timer_add_elapsed(&e->timers, TIMER_CONVERT);
@@ -63,7 +63,7 @@ static void motion_begin(struct run *e, struct step *now)
 static status sort(struct run *e)
 {
     bool lost;
-    TRY(grid_sort_points(e, &lost));
+    TRY(grid_sort_points_into_cells(e, &lost));
     return lost ? divergence_check(e, true, false) : OK;
 }
 
@@ -74,7 +74,7 @@ static void zone_damp(struct run *e, struct step *now)
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
     if (!now->damps) return;
     e->damped += interface_zone_damp_velocities(&e->coupling->zone, &e->part, e->coupling->damping_share);
-    loads_update_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
+    loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
 }
 
 /* Stores the velocities before bulk damping, from which its loss is computed. In the first step velocities are also
@@ -84,7 +84,7 @@ static void damping_begin(struct run *e, const struct step *now)
     real *const *before = e->report->sampling.before;
     if (!(now->decay > 0)) return;
     if (e->clock.step == 0) {
-        e->damped += damping_apply_first(&e->part, &e->frame->mesh, &e->loads, now->decay);
+        e->damped += damping_apply_first_half_step(&e->part, &e->frame->mesh, &e->loads, now->decay);
         for (int d = 0; d < e->part.dim && before[d]; d++)
             for (int64_t i = 0; i < e->part.n; i++) before[d][i] *= now->share;
     }
@@ -97,7 +97,7 @@ static void damping_begin(struct run *e, const struct step *now)
  * which exceed the cache. */
 static bool sweep_moves(const struct scene *s, const struct run_report *report)
 {
-    return !report->sampling.due && s->growths == 0 && !scene_viscous(s);
+    return !report->sampling.due && s->growths == 0 && !scene_has_viscosity(s);
 }
 
 /* Returns the number of time steps between two looks at strength surfaces: those in which a wave crosses half a
@@ -124,8 +124,8 @@ static void push_contact(struct run *e)
 {
     e->contact->recorded =
         e->contact->push[0] && report_frame_series_due(e->report->out, e->scene, &e->clock, e->clock.step + 1) != 0;
-    contact_force(e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
-    contact_update_times(e->contact, e->clock.t);
+    contact_compute_forces(e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
+    contact_record_first_and_last_time(e->contact, e->clock.t);
 }
 
 /* Moves the peridynamic particles that the sweep of bond forces has not moved: the loaded ones, or all if sweep_moves
@@ -145,15 +145,15 @@ static void move_peridynamic(struct run *e, struct pd_motion *motion)
 static void move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
-    viscosity_apply_to_stress(e->viscosity, &e->part, true);
-    grid_map_points(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
-    viscosity_apply_to_stress(e->viscosity, &e->part, false);
+    viscosity_subtract_or_restore_pressure(e->viscosity, &e->part, true);
+    grid_map_points_to_nodes(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
+    viscosity_subtract_or_restore_pressure(e->viscosity, &e->part, false);
     if (e->clock.step == 0) patch_residual_store(e->probing, e->scene, &e->part, e->grid);
-    grid_step(e, now->middle); /* 3, 4, 6, 7 */
+    grid_advance_points(e, now->middle); /* 3, 4, 6, 7 */
     if (any && e->part.end_strain)
         bonded_points_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
     if (any) timer_add_elapsed(&e->timers, TIMER_GATHER);
-    if (now->damps) e->damped += interface_damped_second_half(&e->coupling->zone, &e->part);
+    if (now->damps) e->damped += interface_zone_damped_energy_second_half(&e->coupling->zone, &e->part);
 }
 
 /* Computes the forces on nodes of bodies in the reference frame and moves these nodes. Does nothing without such
@@ -173,8 +173,8 @@ static void step_hold(struct run *e, const struct step *now)
 {
     for (int k = 0; k < e->grid->fields; k++)
         loads_add_grid_reactions(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
-    if (loads_impose_motion(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = true;
-    loads_update_images(&e->loads, &e->part);
+    if (loads_impose_prescribed_motion(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = true;
+    loads_update_mirror_images(&e->loads, &e->part);
     timer_add_elapsed(&e->timers, TIMER_GRID);
 }
 
@@ -182,11 +182,12 @@ static void step_hold(struct run *e, const struct step *now)
 static void finish(struct run *e, const struct step *now)
 {
     const bool damps = now->decay > 0;
-    const real loss = damps && e->clock.step > 0 ? damping_loss(e->damping, &e->part, &e->frame->mesh, now->decay) : 0;
+    const real loss =
+        damps && e->clock.step > 0 ? damping_energy_loss(e->damping, &e->part, &e->frame->mesh, now->decay) : 0;
     e->damped += loss;
     e->report->sampling.energy.damped += loss;
     sample_end(e);
-    if (damps) damping_apply(&e->part, &e->frame->mesh, &e->loads, now->decay);
+    if (damps) damping_apply_full_step(&e->part, &e->frame->mesh, &e->loads, now->decay);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
     timer_add_elapsed(&e->timers, TIMER_SAMPLE);
@@ -229,7 +230,7 @@ status step(struct run *e)
     viscosity_add_forces(e);
     push_contact(e);
     rigids_add_impulse(e->rigid, now.dt_velocity, e->loads.impulse);
-    loads_finish_particle_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
+    loads_complete_particle_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
     timer_add_elapsed(&e->timers, TIMER_BONDS);
     sample_compute_energies(e);
     now.broken += cracks_grow_one_step(e);

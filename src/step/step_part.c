@@ -46,7 +46,7 @@ static void put_figure(void *context, const char *probe, const char *quantity, r
         snprintf(sink->name, sizeof sink->name, "%s", probe);
         sink->open = true;
     }
-    json_real(sink->json, quantity, value);
+    json_write_real(sink->json, quantity, value);
 }
 
 static void put_probes(struct json *j, const struct probes *s, const struct observed_run *o)
@@ -64,7 +64,7 @@ static void put_error_bars(struct json *j, const struct run_report *r)
 {
     if (r->bars == 0) return;
     json_open(j, "uncertainty", '{');
-    for (int k = 0; k < r->bars; k++) json_number(j, r->bar[k].figure, r->bar[k].half_width, 3);
+    for (int k = 0; k < r->bars; k++) json_write_rounded(j, r->bar[k].figure, r->bar[k].half_width, 3);
     json_close(j, '}');
 }
 
@@ -83,7 +83,7 @@ static status report_state(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "engine/bond_visits", r->bond_visits);
     ARCHIVE_VALUE(a, "engine/inactive", r->inactive);
     ARCHIVE_VALUE(a, "engine/sampled", r->sampled);
-    struct run_seconds seconds = a->saving ? report_seconds(r, &e->timers) : (struct run_seconds){0};
+    struct run_seconds seconds = a->saving ? report_wall_clock_times(r, &e->timers) : (struct run_seconds){0};
     ARCHIVE_VALUE(a, "engine/seconds", seconds);
     if (!a->saving) r->before = seconds;
     return output_save_or_load(r->out, a);

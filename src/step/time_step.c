@@ -60,7 +60,7 @@ static real fastest_driven(const struct scene *s, const struct loads *l, const s
 {
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].displaces && s->solver == SOLVER_EXPLICIT)
-            speed = real_max(speed, load_displacement_speed(&l->load[b], p, s->duration));
+            speed = real_max(speed, load_largest_displacement_speed(&l->load[b], p, s->duration));
         else if (s->boundary[b].kind == BOUNDARY_VELOCITY && !s->boundary[b].displaces)
             speed = real_max(speed, sqrt(dot(s->boundary[b].value, s->boundary[b].value, s->dim)));
     return speed;
@@ -114,7 +114,7 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
         one.material = &all->material[m], one.materials = 1;
         if (all->modulus) one.modulus = &all->modulus[m];
         one.yield = (struct bond_yield){0};
-        step = real_min(step, critical_step_of_lattice(&one, force, all->material[m].density, longest, &its_bound));
+        step = real_min(step, lattice_critical_time_step(&one, force, all->material[m].density, longest, &its_bound));
         *bound = real_min(*bound, its_bound);
     }
     return step;
@@ -134,12 +134,12 @@ static real critical_of_bonds(struct run *e)
     real bound;
     if (s->method == METHOD_MPM) return INFINITY;
     if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
-        const real step = critical_step_of_bonds(&e->bonds, &e->part, force, &e->loads, s->spacing);
+        const real step = bonds_critical_time_step_by_iteration(&e->bonds, &e->part, force, &e->loads, s->spacing);
         /* without bonds the wave speed limits the step */
         return isfinite(step) ? step : s->spacing / e->tables.wave_speed;
     }
     const real step = critical_of_lattices(&e->source, &e->part, force, &bound);
-    const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
+    const real share = real_min(1, bonds_critical_time_step(&e->part, &e->source) / bound);
     return share * step * share_of_coupling(e->scene, e->coupling_kind);
 }
 
@@ -209,11 +209,12 @@ status time_step_choose(struct run *e)
     if (on_grid)
         points = critical_of_points(s, &e->tables, e->grid->field[0].grid.h,
                                     fastest_driven(s, &e->loads, &e->part, e->stability->start_speed));
-    e->clock.dt_critical =
-        real_min(real_min(critical_of_bonds(e), points), reference_frame_critical_step(e->frame, s, e->coupling_kind)) *
-        sqrt(lightest_share(s, &e->part)) * viscosity_step_factor(s, &e->loads, &e->part, e->stability->start_speed);
-    const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
-    const int levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical).levels;
+    e->clock.dt_critical = real_min(real_min(critical_of_bonds(e), points),
+                                    reference_frame_critical_time_step(e->frame, s, e->coupling_kind)) *
+                           sqrt(lightest_share(s, &e->part)) *
+                           viscosity_time_step_factor(s, &e->loads, &e->part, e->stability->start_speed);
+    const real contact = contact_critical_time_step(e->contact, &e->part, s->material, e->clock.dt_critical);
+    const int levels = frame_levels_choose_count(e->frame, &e->part, s, e->clock.dt_critical).levels;
     const real safety = levels > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =
         real_min(damping_step(s), real_min(safety * e->clock.dt_critical, contact_safety(s) * contact));

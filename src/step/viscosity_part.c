@@ -14,7 +14,7 @@
  * of the mesh. Returns true if the arrays exist. */
 static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n, int64_t nodes)
 {
-    if (v->work || !scene_viscous(s)) return v->work != NULL;
+    if (v->work || !scene_has_viscosity(s)) return v->work != NULL;
     v->material = s->material, v->cell = s->cell * s->spacing, v->small_strain = s->small_strain;
     for (int d = 0; d < s->dim; d++) {
         v->bonds[d] = NEW("viscosity.bonds", n, real), v->stress[d] = NEW("viscosity.stress", n, real);
@@ -101,7 +101,7 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
         if (!on_grid || volume == 0) continue;
         const real growth = p->volume[i] - volume, rate = growth / (0.5 * (p->volume[i] + volume) * dt);
         v->pressure[i] = viscous_pressure(&v->material[p->material[i]], v->cell, rate);
-        v->work[i] = -0.5 * point_mpm_fraction(partial, p->dim, i) * (before + v->pressure[i]) * growth;
+        v->work[i] = -0.5 * point_mpm_energy_fraction(partial, p->dim, i) * (before + v->pressure[i]) * growth;
     }
     v->taken += reproducible_sum(p->n, taken_by, v->work);
 }
@@ -117,7 +117,7 @@ void viscosity_add_forces(struct run *e)
     points_pressure(e->viscosity, &e->part, &e->coupling->partial, e->clock.dt);
 }
 
-void viscosity_apply_to_stress(struct viscosity *v, const struct particles *p, bool subtract)
+void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract)
 {
     for (int d = 0; d < p->dim && v->work; d++) {
 #pragma omp parallel for schedule(static)
@@ -169,7 +169,8 @@ static void viscous_stress(const struct viscosity *v, const struct particles *p,
     const real J = invert_gradient(F, dim, inverse);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) rate += G[a * dim + b][i] * inverse[b * dim + a];
-    const real q = viscous_pressure(&v->material[p->material[i]], v->cell, rate) * point_mpm_fraction(partial, dim, i);
+    const real q =
+        viscous_pressure(&v->material[p->material[i]], v->cell, rate) * point_mpm_energy_fraction(partial, dim, i);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
 }
@@ -185,7 +186,7 @@ static void cell_push(const struct mesh *mesh, int64_t I, real *const *P, real *
             const int64_t node = mesh_cell_corner_node(mesh, I, c);
             for (int a = 0; a < dim; a++)
                 for (int b = 0; b < dim; b++)
-                    f[a][node] += P[a * dim + b][i] * mesh_shape_function_slope(dim, c, slot, b) / mesh->grid.h;
+                    f[a][node] += P[a * dim + b][i] * mesh_shape_function_derivative(dim, c, slot, b) / mesh->grid.h;
         }
     }
 }
@@ -263,7 +264,7 @@ static real speed_of_load(const struct load *l, const struct particles *p, real 
     const struct boundary *b = l->boundary;
     const real size = sqrt(dot(b->value, b->value, p->dim));
     if (b->kind == BOUNDARY_VELOCITY) {
-        const real speed = real_max(load_driven_speed(l, p, duration), b->displaces ? 0 : size);
+        const real speed = real_max(load_largest_driven_speed(l, p, duration), b->displaces ? 0 : size);
         return isfinite(speed) ? speed : 0;
     }
     real most = b->time.n > 0 ? 0 : 1;
@@ -271,12 +272,12 @@ static real speed_of_load(const struct load *l, const struct particles *p, real 
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_PRESSURE ? most * size / impedance : 0;
 }
 
-real viscosity_step_factor(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
+real viscosity_time_step_factor(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
 {
     real impedance = INFINITY;
     for (int m = 0; m < s->materials; m++)
         impedance = real_min(impedance, s->material[m].density * s->material[m].wave_speed);
-    for (int b = 0; b < l->n && scene_viscous(s); b++)
+    for (int b = 0; b < l->n && scene_has_viscosity(s); b++)
         speed = real_max(speed, speed_of_load(&l->load[b], p, s->duration, impedance));
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         speed = real_max(speed, sqrt(dot(s->body[b].velocity, s->body[b].velocity, s->dim)));

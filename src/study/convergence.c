@@ -13,7 +13,7 @@ const char *const verdict_name[VERDICTS] = {
     [VERDICT_SLOW] = "slow",           [VERDICT_DIVERGES] = "does not converge",
 };
 
-double student_quantile(int degrees_of_freedom)
+double student_t_quantile_975(int degrees_of_freedom)
 {
     static const double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
                                    2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086};
@@ -62,7 +62,7 @@ static void errors_find(struct convergence *c, const double *resolution)
         const bool alone = l->runs == 1;
         if (alone) l->deviation = freedom > 0 ? sqrt(sum / freedom) : 0;
         const int own = alone ? freedom : l->runs - 1;
-        l->error = own > 0 ? student_quantile(own) * l->deviation / sqrt(l->runs) : 0;
+        l->error = own > 0 ? student_t_quantile_975(own) * l->deviation / sqrt(l->runs) : 0;
         if (resolution) l->error = hypot(l->error, resolution[k]);
     }
 }
@@ -140,8 +140,8 @@ static void convergence_judge(struct convergence *c)
     c->index = SAFETY * near / (pow(l[1].spacing / l[0].spacing, fmin(o.seen, ORDER_MOST)) - 1);
 }
 
-bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
-                      int levels, const double *resolution)
+bool convergence_evaluate(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
+                          int levels, const double *resolution)
 {
     INVARIANT(levels >= LEVELS_LEAST && levels <= LEVELS_MOST);
     *c = (struct convergence){.levels = levels};

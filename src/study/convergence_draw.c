@@ -36,7 +36,7 @@ status scalar_results_check_replaceable(const char *folder)
 /* Returns the unit in which a figure (a number in summary.json of the runs) is drawn. */
 static struct unit figure_unit(const struct scalar_result_study *f)
 {
-    return unit_of_figure(f->unit, fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
+    return unit_with_allowed_prefix(f->unit, fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
 }
 
 /* Sends three data blocks for the figure f in panel number `panel`: $r, its value in every run over the spacing; $m,
@@ -154,9 +154,9 @@ static void longest_find(struct longest *l, const struct history *h, double spac
                           .grown = NEW("study.grown", h->rows, double),
                           .tip = NEW("study.tip", h->rows, int)};
     for (int64_t i = 0; i < h->rows; i++) {
-        const double grown = history_at(h, i, length), last = l->n > 0 ? l->grown[l->n - 1] : 0;
-        if (!(grown > last) || !isfinite(history_at(h, i, x)) || !isfinite(history_at(h, i, y))) continue;
-        l->x[l->n] = history_at(h, i, x), l->y[l->n] = history_at(h, i, y), l->grown[l->n] = grown;
+        const double grown = history_value_at(h, i, length), last = l->n > 0 ? l->grown[l->n - 1] : 0;
+        if (!(grown > last) || !isfinite(history_value_at(h, i, x)) || !isfinite(history_value_at(h, i, y))) continue;
+        l->x[l->n] = history_value_at(h, i, x), l->y[l->n] = history_value_at(h, i, y), l->grown[l->n] = grown;
         l->tip[l->n] = tip_drawn(l, l->n, spacing);
         if (l->tip[l->n] == l->tips) l->tips++;
         l->n++;

@@ -85,8 +85,8 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     *f = (struct scalar_result_study){.name = s->table.figure[at]};
     double resolution[LEVELS_MOST];
     const bool steps = resolution_find(resolution, s, f->name);
-    const bool known = convergence_find(&f->c, spacing, s->table.value[at], level, s->study.n, s->spacings.levels,
-                                        steps ? resolution : NULL);
+    const bool known = convergence_evaluate(&f->c, spacing, s->table.value[at], level, s->study.n, s->spacings.levels,
+                                            steps ? resolution : NULL);
     memory_free(level);
     memory_free(spacing);
     if (!known) return false;

@@ -44,7 +44,7 @@ static void places_find(struct places *p, const struct scene *s)
     bool first = true;
     for (int b = 0; b < s->bodies; b++) {
         const struct region *shape = &s->body[b].shape;
-        if (s->body[b].file || !region_bounds(shape, s->dim, low, high)) continue;
+        if (s->body[b].file || !region_bounding_box(shape, s->dim, low, high)) continue;
         for (int d = 0; d < s->dim; d++) {
             place_add(p, high[d] - low[d], s->spacing);
             for (int k = 0; k < shape->n; k++) {

@@ -80,7 +80,7 @@ static void point_add(struct convergence_study *s, struct study_point p)
              p.run);
     GROW("study.points", s->point, s->study.n + 1);
     s->point[s->study.n] = p;
-    study_add(&s->study, name, all, s->overrides + n);
+    study_add_case(&s->study, name, all, s->overrides + n);
     memory_free(all);
 }
 
@@ -167,7 +167,7 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     options.quiet = true;
     options.until = s->begun + s->budget;
     level_run_add(s, s->spacings.levels - 1, 0, w->runs);
-    TRY(study_check(&s->study, false));
+    TRY(study_check_scenes(&s->study, false));
     TRY(study_run(&s->study, options));
     const struct study_case *run = &s->study.at[s->first];
     *refused = run->state == CASE_FAILED && run->ended == REFUSED;
@@ -177,7 +177,7 @@ static status first_run(struct convergence_study *s, const struct convergence_re
                           s->budget, 1e3 * s->point[s->first].spacing);
     if (run->state == CASE_FAILED)
         return status_set(FAILED, "the coarsest run has failed: the reason is in %s/logs", s->study.folder);
-    return summary_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
+    return summary_read_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
 /* Prints a warning for each requested figure that the first run lacks, because its name may be wrong. It is no error,
@@ -187,7 +187,7 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
     const struct path folder = study_case_folder(&s->study, &s->study.at[s->first]);
     double value;
     for (int k = 0; k < w->wanteds; k++)
-        if (summary_number(folder.text, w->wanted[k], &value) != OK)
+        if (summary_read_number(folder.text, w->wanted[k], &value) != OK)
             fprintf(stderr, "warning: the first run has no figure %s; choose one of %s/summary.json\n", w->wanted[k],
                     printable_name(folder.text).text);
 }
@@ -306,7 +306,7 @@ static status study_go(struct convergence_study *s, const struct convergence_req
     runs_add_all(s);
     if (!options.quiet)
         fprintf(stderr, "[1/%d] %s: done in %.3g s\n", s->study.n, s->study.at[s->first].name, s->spent);
-    TRY(study_check(&s->study, false));
+    TRY(study_check_scenes(&s->study, false));
     options.until = s->begun + s->budget;
     TRY(study_run(&s->study, options));
     int failed = 0;

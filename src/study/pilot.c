@@ -69,7 +69,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
         .options = {.threads = 1, .quiet = true, .overwrite = true, .stop = p->options.stop}};
     status done = convergence_study_run(&s, &w);
     if (done == OK) {
-        done = pilot_judge(p, c, &s);
+        done = pilot_judge_candidate(p, c, &s);
         c->unknown = done == REFUSED;
         convergence_study_free(&s);
     }
@@ -211,7 +211,7 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
 static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 {
     TRY(folder_make(p->folder));
-    TRY(study_folder_claim(p->folder));
+    TRY(study_folder_mark(p->folder));
     TRY(scalar_results_check_replaceable(p->folder));
     if (!p->options.quiet)
         fprintf(stderr,
@@ -226,7 +226,7 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     TRY(search_finer(p));
     const struct pilot_candidate *best = cheapest(p);
     TRY(search_end(to, p, best));
-    return pilot_store(to, p, best);
+    return pilot_store_choice(to, p, best);
 }
 
 /* Chooses the overrides of a scene with `method: auto`: reads a stored choice for the same scene, or makes pilot runs

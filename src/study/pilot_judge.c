@@ -82,7 +82,7 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     c->expected = p->wish.within;
 }
 
-status pilot_judge(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s)
+status pilot_judge_candidate(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s)
 {
     struct scalar_result_study *figure = NULL;
     int figures = 0;

@@ -74,7 +74,7 @@ static status bars_keep(const struct pilot *to, const struct pilot_search *p, co
     return file_copy(p->folder, table, "converge.csv");
 }
 
-status pilot_store(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
+status pilot_store_choice(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     char *asked = question_text(p), *text = NULL;
     size_t length = 0;

@@ -58,7 +58,8 @@ void pilot_set_overrides(struct pilot *to, const struct scene_override *override
 /* Determines, from the convergence study s of the method `candidate`, the particle spacing that the method requires for
  * the requested accuracy, and stores it with its cost in *candidate (pilot_judge.c). Returns REFUSED if no accuracy can
  * be attributed to the figure (it is missing or zero), FAILED if no figure has values at every spacing. */
-status pilot_judge(struct pilot_search *p, struct pilot_candidate *candidate, const struct convergence_study *s);
+status pilot_judge_candidate(struct pilot_search *p, struct pilot_candidate *candidate,
+                             const struct convergence_study *s);
 
 /* Prints the results of the pilot runs of the method `candidate`: spacing, accuracy, and expected time of the run. */
 void pilot_print(const struct pilot_search *p, const struct pilot_candidate *candidate);
@@ -66,10 +67,11 @@ void pilot_print(const struct pilot_search *p, const struct pilot_candidate *can
 /* Stores the choice *to, the scene and overrides for which it was made, and the error bars of the chosen method *best
  * as files in the folder of the pilot runs (pilot_keep.c). Returns FAILED if the scene cannot be read or a file cannot
  * be written. */
-status pilot_store(const struct pilot *to, const struct pilot_search *search, const struct pilot_candidate *best);
+status pilot_store_choice(const struct pilot *to, const struct pilot_search *search,
+                          const struct pilot_candidate *best);
 
-/* Reads the choice that an earlier pilot_store stored for the same scene and overrides into *to. Returns false if there
- * is none. */
+/* Reads the choice that an earlier pilot_store_choice stored for the same scene and overrides into *to. Returns false
+ * if there is none. */
 bool pilot_read_stored(struct pilot *to, const struct pilot_search *search);
 
 #endif

@@ -17,7 +17,7 @@
 
 /* Writes the path of the default folder of a study, results/NAME_KIND with the name of the scene and KIND = kind, into
  * folder[capacity]. */
-void study_folder_default(char *folder, size_t capacity, const struct scene *scene, const char *kind)
+void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *kind)
 {
     snprintf(folder, capacity, "results/%s_%s", scene->name, kind);
 }
@@ -28,7 +28,7 @@ static status place_read(char *to, size_t capacity, const char *path, const char
 {
     struct scene scene;
     TRY(scene_read(&scene, path, NULL, 0));
-    study_folder_default(to, capacity, &scene, kind);
+    study_compose_default_folder(to, capacity, &scene, kind);
     scene_free(&scene);
     return OK;
 }
@@ -87,7 +87,7 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
         done = scene_unread(&text, scene, fixed, n);
     }
     if (read) {
-        study_folder_default(place, sizeof place, &is, kind);
+        study_compose_default_folder(place, sizeof place, &is, kind);
         scene_free(&is);
     }
     if (done == OK) done = study_make(s, scene, folder ? folder : place, kind);
@@ -113,7 +113,7 @@ static char *study_scene_read(const char *path)
         memmove(text, text + mark, length - mark + 1);
         return text;
     }
-    if (scene_text_is_echo(text)) return text;
+    if (scene_text_is_from_cleave(text)) return text;
     memory_free(text);
     return NULL;
 }
@@ -166,7 +166,7 @@ status study_folder_check(const char *folder)
     return folder_check_writable(&study_kind, folder, NULL, &there);
 }
 
-status study_folder_claim(const char *folder)
+status study_folder_mark(const char *folder)
 {
     bool there;
     TRY(folder_check_writable(&study_kind, folder, NULL, &there));
@@ -225,7 +225,8 @@ static struct scene_override override_copy(struct scene_override o)
     return (struct scene_override){both, both + key};
 }
 
-struct study_case *study_add(struct study *s, const char *name, const struct scene_override *override, int overrides)
+struct study_case *study_add_case(struct study *s, const char *name, const struct scene_override *override,
+                                  int overrides)
 {
     GROW("study.cases", s->at, s->n + 1);
     study_grow_name_table(s);
@@ -251,7 +252,7 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
         char name[CASE_NAME_ROOM];
         for (int k = 0; k < keys; k++) override[k] = (struct scene_override){key[k].key, key[k].value[at[k]]};
         study_name_compose(name, key, keys, order, varied, at);
-        study_add(s, name, override, keys);
+        study_add_case(s, name, override, keys);
         for (int k = keys - 1; k >= 0 && ++at[k] == key[k].values; k--) at[k] = 0;
     }
     memory_free(override);
@@ -267,7 +268,7 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 static void ended_as(char *ended, size_t capacity, const char *folder, const char *scene_text)
 {
     if (!path_is_file(path_join(folder, "summary.json").text) ||
-        summary_string(folder, "status", ended, capacity) != OK ||
+        summary_read_string(folder, "status", ended, capacity) != OK ||
         !scene_file_has_text(path_join(folder, "scene.yaml").text, scene_text))
         ended[0] = '\0';
 }
@@ -333,7 +334,7 @@ static status case_check(struct study *s, int number, bool collect, struct scene
     return looked;
 }
 
-status study_check(struct study *s, bool collect)
+status study_check_scenes(struct study *s, bool collect)
 {
     const int room = 2 * s->n + 1;
     struct scenes_seen seen = {NEW("study.seen", room, int), room, NEW("study.hashes", room, uint64_t)};
@@ -344,7 +345,7 @@ status study_check(struct study *s, bool collect)
     return checked;
 }
 
-void study_print_same(const struct study *s, FILE *out)
+void study_print_equal_scene_count(const struct study *s, FILE *out)
 {
     int same = 0;
     const struct study_case *one = NULL;

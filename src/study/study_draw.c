@@ -325,7 +325,7 @@ static struct unit panel_unit(const struct study_picture *p, int panel)
     for (int c = 0; c < p->table->cases; c++)
         if (isfinite(value[c])) largest = fmax(largest, fabs(value[c]));
     study_result_unit(unit, sizeof unit, p->header, p->table->figure[p->figure[panel]]);
-    return unit_of_figure(unit, largest);
+    return unit_with_allowed_prefix(unit, largest);
 }
 
 /* Sends margins, title and axis labels of panel number `panel`. up: label of the vertical axis, NULL for numbers. */

@@ -323,7 +323,7 @@ static struct study_options options_filled(struct study_options how, const struc
  * without `overwrite`, the study of another scene. FAILED if it cannot be written. */
 static status scene_put(const struct study *s, bool overwrite)
 {
-    TRY(study_folder_claim(s->folder));
+    TRY(study_folder_mark(s->folder));
     if (!s->text) return OK;
     if (!overwrite) TRY(study_folder_check_scene(s->folder, s->text));
     return study_has_scene(s->folder, s->text) ? OK : study_write_scene(s->folder, s->text);

@@ -54,7 +54,7 @@ status study_table_read(struct study_table *t, const struct study *s)
         /* A stopped run also has a summary, but with figures of a part of the scene. */
         if (s->at[k].state != CASE_DONE && s->at[k].state != CASE_DONE_BEFORE) continue;
         if (!path_is_file(path_join(folder.text, "summary.json").text)) continue;
-        const status read = summary_numbers(folder.text, number_take, &f);
+        const status read = summary_visit_numbers(folder.text, number_take, &f);
         if (read == OK) continue;
         study_table_free(t);
         return read;
@@ -118,7 +118,7 @@ static const char *state_of(const struct study *s, const struct study_case *c, c
     const struct path folder = study_case_folder(s, c);
     if (!path_is_file(path_join(folder.text, "summary.json").text))
         return study_case_with_results(s, c)->state == CASE_FAILED ? "failed" : "missing";
-    return summary_string(folder.text, "status", text, capacity) == OK ? text : "unknown";
+    return summary_read_string(folder.text, "status", text, capacity) == OK ? text : "unknown";
 }
 
 static void table_print(FILE *to, const struct study_table *t, const struct study *s, const struct varied_key *key,

@@ -56,7 +56,7 @@ void study_print_warnings(const struct study *s, FILE *out)
         char key[32] = "warnings.0", text[WARNING_ROOM];
         if (s->at[k].state == CASE_SAME || !path_is_file(path_join(folder.text, "summary.json").text)) continue;
         runs++;
-        for (int w = 0; summary_string(folder.text, key, text, sizeof text) == OK; w++) {
+        for (int w = 0; summary_read_string(folder.text, key, text, sizeof text) == OK; w++) {
             warning_book(kind, &kinds, text, k);
             snprintf(key, sizeof key, "warnings.%d", w + 1);
         }

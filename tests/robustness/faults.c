@@ -258,7 +258,7 @@ PLACE(void, partial_stress_make,
       (struct partial_stress *partial, const struct particles *p, const struct bonds *b,
        const struct bond_source *source, const int32_t *changed, int64_t n),
       (partial, p, b, source, changed, n), AT_COUPLING)
-PLACE(real, largest_stretch_ratio,
+PLACE(real, bonds_largest_stretch_ratio,
       (const struct bonds *b, const struct particles *p, const struct bond_limit *limit), (b, p, limit), AT_EQUILIBRIUM)
 /* clang-format on */
 

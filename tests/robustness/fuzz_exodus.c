@@ -50,28 +50,29 @@ static void seed_write(FILE *to, bool spheres)
 {
     struct netcdf_writer w = {.to = to};
     const int elements = spheres ? 4 : 2, each = spheres ? 1 : 4;
-    netcdf_dimension(&w, "num_dim", 0, 2), netcdf_dimension(&w, "num_el_blk", 0, 1);
-    netcdf_dimension(&w, "num_side_sets", 0, 1), netcdf_dimension(&w, "num_node_sets", 0, 1);
-    const int nodes = netcdf_dimension(&w, "num_nodes", 0, 6), two = netcdf_dimension(&w, "two", 0, 2);
-    const int block[2] = {netcdf_dimension(&w, "num_el_in_blk", 1, elements),
-                          netcdf_dimension(&w, "num_nod_per_el", 1, each)};
-    const int side = netcdf_dimension(&w, "num_side_ss", 1, 1), node = netcdf_dimension(&w, "num_nod_ns", 1, 2);
-    netcdf_dimension(&w, "num_att_in_blk", 1, 2);
-    netcdf_array(&w, "coordx", 0, NETCDF_DOUBLE, 1, &nodes, NULL, NULL);
-    netcdf_array(&w, "coordy", 0, NETCDF_DOUBLE, 1, &nodes, NULL, NULL);
-    netcdf_array(&w, "connect", 1, NETCDF_INT, 2, block, "elem_type", spheres ? "SPHERE" : "QUAD4");
-    netcdf_array(&w, "elem_ss", 1, NETCDF_INT, 1, &side, NULL, NULL);
-    netcdf_array(&w, "side_ss", 1, NETCDF_INT, 1, &side, NULL, NULL);
-    netcdf_array(&w, "node_ns", 1, NETCDF_INT, 1, &node, NULL, NULL);
-    netcdf_array(&w, "attrib", 1, NETCDF_DOUBLE, 2, (const int[]){block[0], two}, NULL, NULL);
-    netcdf_begin(&w);
-    netcdf_reals(&w, 6, (const real[]){0, 2, 6, 0, 2, 6});
-    netcdf_reals(&w, 6, (const real[]){0, 0, 0, 3, 3, 3});
-    netcdf_integers(&w, elements * each, (const int32_t[]){1, 2, 5, 4, 2, 3, 6, 5});
-    netcdf_integers(&w, 1, (const int32_t[]){2});
-    netcdf_integers(&w, 1, (const int32_t[]){2});
-    netcdf_integers(&w, 2, (const int32_t[]){1, 4});
-    netcdf_reals(&w, 2 * elements, (const real[]){1, 2, 1, 2, 1, 2, 1, 2});
+    netcdf_define_dimension(&w, "num_dim", 0, 2), netcdf_define_dimension(&w, "num_el_blk", 0, 1);
+    netcdf_define_dimension(&w, "num_side_sets", 0, 1), netcdf_define_dimension(&w, "num_node_sets", 0, 1);
+    const int nodes = netcdf_define_dimension(&w, "num_nodes", 0, 6), two = netcdf_define_dimension(&w, "two", 0, 2);
+    const int block[2] = {netcdf_define_dimension(&w, "num_el_in_blk", 1, elements),
+                          netcdf_define_dimension(&w, "num_nod_per_el", 1, each)};
+    const int side = netcdf_define_dimension(&w, "num_side_ss", 1, 1),
+              node = netcdf_define_dimension(&w, "num_nod_ns", 1, 2);
+    netcdf_define_dimension(&w, "num_att_in_blk", 1, 2);
+    netcdf_define_array(&w, "coordx", 0, NETCDF_DOUBLE, 1, &nodes, NULL, NULL);
+    netcdf_define_array(&w, "coordy", 0, NETCDF_DOUBLE, 1, &nodes, NULL, NULL);
+    netcdf_define_array(&w, "connect", 1, NETCDF_INT, 2, block, "elem_type", spheres ? "SPHERE" : "QUAD4");
+    netcdf_define_array(&w, "elem_ss", 1, NETCDF_INT, 1, &side, NULL, NULL);
+    netcdf_define_array(&w, "side_ss", 1, NETCDF_INT, 1, &side, NULL, NULL);
+    netcdf_define_array(&w, "node_ns", 1, NETCDF_INT, 1, &node, NULL, NULL);
+    netcdf_define_array(&w, "attrib", 1, NETCDF_DOUBLE, 2, (const int[]){block[0], two}, NULL, NULL);
+    netcdf_write_header(&w);
+    netcdf_write_reals(&w, 6, (const real[]){0, 2, 6, 0, 2, 6});
+    netcdf_write_reals(&w, 6, (const real[]){0, 0, 0, 3, 3, 3});
+    netcdf_write_integers(&w, elements * each, (const int32_t[]){1, 2, 5, 4, 2, 3, 6, 5});
+    netcdf_write_integers(&w, 1, (const int32_t[]){2});
+    netcdf_write_integers(&w, 1, (const int32_t[]){2});
+    netcdf_write_integers(&w, 2, (const int32_t[]){1, 4});
+    netcdf_write_reals(&w, 2 * elements, (const real[]){1, 2, 1, 2, 1, 2, 1, 2});
     netcdf_free(&w);
 }
 

@@ -87,7 +87,7 @@ static const char *words_of(const struct key *k)
 static void word_seen(const struct key *k, const char *word)
 {
     const char *words = words_of(k);
-    const int w = word_index(words, word);
+    const int w = word_index_in_list(words, word);
     if (w >= 0 && *words) seen[k - keys][1 + w] = true;
     for (int all = 0; k->type == KEY_SET && strcmp(word, "all") == 0 && all < WORDS_MOST; all++)
         seen[k - keys][1 + all] = true;
@@ -155,7 +155,7 @@ static void scene_note(const struct small_scene *small)
     struct reader r = {
         .name = small->file, .override = small->setting, .overrides = small->n, .scene = &s, .files = true};
     memset(here, 0, sizeof here);
-    if (file_bytes(small->file, &text, &length) != OK || tree_read(&r, text, length, -1, &plain) != OK ||
+    if (file_read_bytes(small->file, &text, &length) != OK || tree_parse_yaml(&r, text, length, -1, &plain) != OK ||
         scene_parse_tree(&r, text, length, &root) != OK)
         fail_msg("%s: %s", small->name, status_message());
     const struct key *include = key_find("", "include");

@@ -63,7 +63,7 @@ static inline void hurt(struct body *b, real x, real y, real z)
 {
     const int64_t i = particle_at(b, x, y, z);
     b->p.damage[i] = 0.5, b->p.kind[i] = KIND_PD;
-    particles_update_lists(&b->p);
+    particles_update_kind_lists(&b->p);
 }
 
 /* ---- archives in memory ------------------------------------------------------------------------------------------ */
@@ -124,7 +124,7 @@ static inline void notched_free(struct body *b, struct crack_tips *t)
 static inline struct material steel(enum space space)
 {
     struct material m = {.young = 200, .poisson = 0.25, .density = 1, .critical_stretch = 1};
-    material_compute_constants(&m, space);
+    material_compute_derived_constants(&m, space);
     return m;
 }
 

@@ -65,7 +65,7 @@ static inline void cloud_materials(struct plotted_particles *c, enum space space
         *k = (struct material){
             .young = young[m], .density = density[m], .energy_release_rate = NAN, .critical_stretch = INFINITY};
         k->poisson = space == SPACE_LINE ? 0 : bond_based_poisson_ratio(space);
-        material_compute_constants(k, space);
+        material_compute_derived_constants(k, space);
     }
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
 }
@@ -103,7 +103,7 @@ static inline void plotted_particles_make(struct plotted_particles *c, const str
         for (int d = 0; d < dim && plan->optional & WITH_STRETCH; d++) p->stretch[d][i] = 1;
         if (dim == 3 && plan->optional & WITH_ROTATIONS) p->end_rotation[ROTATION - 1][i] = 1;
     }
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
 }
 
 /* Rounds the positions of a regular lattice to exact multiples of half a spacing, as fill.c does. */
@@ -118,14 +118,14 @@ static inline void cloud_exact(struct plotted_particles *c)
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
-        if (b->implicit[g]) row_block_write_columns(b, g);
+        if (b->implicit[g]) row_block_expand_stencil(b, g);
 }
 
 /* Sets the source of bonds. Call after kinds, bodies and materials are set. */
 static inline void cloud_source(struct plotted_particles *c)
 {
     struct bond_source *s = &c->source;
-    particles_update_lists(&c->p);
+    particles_update_kind_lists(&c->p);
     cells_make(&c->cells, &c->p, s->family.cutoff);
     s->cells = &c->cells;
     s->material = c->material;
@@ -179,7 +179,7 @@ static inline void cloud_copy(struct particles *to, const struct particles *from
             memcpy(particle_field_array(to, field, k), particle_field_array(from, field, k),
                    (size_t)from->n * field->size);
     }
-    particles_update_lists(to);
+    particles_update_kind_lists(to);
 }
 
 /* Returns the largest difference of two arrays over the largest magnitude in the second. */

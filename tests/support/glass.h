@@ -9,7 +9,7 @@ static const real pi = 3.14159265358979323846;
 static inline struct crack_medium glass(enum space space)
 {
     struct material m = {.young = 75.629e9, .poisson = 0.286, .density = 2456};
-    material_compute_constants(&m, space);
+    material_compute_derived_constants(&m, space);
     return crack_medium_of(&m, space);
 }
 

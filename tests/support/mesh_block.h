@@ -82,7 +82,8 @@ static void shake(struct block *b, real by, uint64_t seed)
 
 static real node_place(const struct mesh *mesh, int64_t I, int d)
 {
-    return grid_position(&mesh->grid, d, mesh_regular_node_of(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
+    return grid_node_position(&mesh->grid, d,
+                              mesh_regular_node_of(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
 /* Sets u = (R - 1) X, with R a rotation by `angle` about z after an extension along x by `stretch`. */
@@ -201,7 +202,7 @@ static inline void partial_of(struct partial_stress *partial, const struct parti
     for (int64_t i = 0; i < p->n; i++) {
         real T[SYM_MAX * SYM_MAX];
         partial->index[i] = (int32_t)i;
-        material_compliance(&material[p->material[i]], p->dim, compliance);
+        material_compliance_matrix(&material[p->material[i]], p->dim, compliance);
         for (int a = 0; a < n; a++)
             for (int c = 0; c <= a; c++)
                 T[a * n + c] = T[c * n + a] = most > 0 ? material->young * cloud_between(&seed, -most, most) : 0;

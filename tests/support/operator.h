@@ -232,7 +232,7 @@ static inline void operator_dump(const struct operator* o, const char *path)
         for (int d = 0; d < DIM_MAX; d++)
             fprintf(to, " %.9g",
                     d >= o->e.part.dim ? 0
-                    : q.node           ? grid_position(g, d, q.at / g->stride[d] % g->count[d])
+                    : q.node           ? grid_node_position(g, d, q.at / g->stride[d] % g->count[d])
                                        : o->e.part.X[d][q.at]);
         fprintf(to, " %.17g\n", o->mass[k]);
     }

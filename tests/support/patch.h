@@ -57,7 +57,7 @@ static inline real patch_residual(const struct patch *s, const real *from, const
         real f2 = 0;
         bool in = true;
         for (int d = 0; d < s->g.dim; d++) {
-            real x = grid_position(&s->g, d, I / s->g.stride[d] % s->g.count[d]) / CLOUD_SPACING;
+            real x = grid_node_position(&s->g, d, I / s->g.stride[d] % s->g.count[d]) / CLOUD_SPACING;
             in = in && x > from[d] - 1e-6 && x < to[d] + 1e-6;
             f2 += square(s->g.force[d][I]);
         }

@@ -69,7 +69,7 @@ struct reference_step {
 static inline void reference_node_position(const struct grid *g, int64_t node, real *x)
 {
     for (int d = 0; d < g->dim; d++) {
-        x[d] = grid_position(g, d, node % g->count[d]);
+        x[d] = grid_node_position(g, d, node % g->count[d]);
         node /= g->count[d];
     }
 }

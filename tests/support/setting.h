@@ -31,7 +31,7 @@ static inline void setting_make(struct setting *s, enum space space, const real 
     c->initial = s->initial;
     for (int m = 0; m < 2; m++) {
         s->material[m] = (struct material){.young = 1e9 * (m + 1), .poisson = 0.25, .density = 1000 * (m + 1)};
-        material_compute_constants(&s->material[m], space);
+        material_compute_derived_constants(&s->material[m], space);
     }
     for (int b = 0; b < BODIES; b++) {
         s->body[b].shape = (struct region){.n = 1, .solid = s->solid[b]};

@@ -64,7 +64,8 @@ static void memory_grows(void **state)
         assert_memory_equal(text, "abcde\0\0\0\0", 10); /* twice as long, with new elements zero */
         memory_free(text);
     }
-    char *pages = memory_resize_uninitialised("test", memory_new_sparse("test", 2 << 20, 1), 2 << 20, 3 << 20, 1),
+    char *pages = memory_resize_uninitialised("test", memory_new_lazy_uninitialised("test", 2 << 20, 1), 2 << 20,
+                                              3 << 20, 1),
          *same = pages;
     GROW("test", pages, 3 << 20);
     assert_ptr_equal(pages, same);

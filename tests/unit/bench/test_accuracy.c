@@ -188,7 +188,7 @@ static void wave_motion(const void *context, const real *X, real t, real *u)
     const struct wave *w = context;
     struct wave_pulse moved = w->pulse;
     for (int d = 0; d < w->dim; d++) moved.at[d] += w->speed * t * moved.direction[d];
-    const struct wave_state s = wave_pulse_at(&moved, X, w->speed, w->dim);
+    const struct wave_state s = wave_pulse_initial_state(&moved, X, w->speed, w->dim);
     for (int d = 0; d < w->dim; d++) u[d] = s.displacement * moved.polarisation[d];
 }
 
@@ -234,7 +234,7 @@ static void particles_start_in_a_transverse_wave(void **state)
     const real speed = sqrt(2 / (2 * 1.2) / 1.3), *n = w->direction;
     for (int64_t i = 0; i < p.n; i++) {
         const real X[2] = {p.X[0][i], p.X[1][i]};
-        const struct wave_state wave = wave_pulse_at(w, X, speed, 2);
+        const struct wave_state wave = wave_pulse_initial_state(w, X, speed, 2);
         const real traction[2] = {p.stress[0][i] * n[0] + p.stress[2][i] * n[1],
                                   p.stress[2][i] * n[0] + p.stress[1][i] * n[1]};
         for (int d = 0; d < 2; d++) {

@@ -318,7 +318,7 @@ static void test_rows_inherit(void **state)
         real *before = reference_table(&c.bonds, p), energy = bonds_fracture_energy(&c.bonds);
         for (int64_t i = 0; i < p->n; i++)
             if (p->X[0][i] < 8e-3) p->kind[i] = KIND_PD;
-        particles_update_lists(p);
+        particles_update_kind_lists(p);
         struct bonds old = c.bonds;
         bonds_make(&c.bonds, &old, p, &c.source);
         real *after = reference_table(&c.bonds, p);
@@ -352,7 +352,7 @@ static void test_rows_again(void **state)
         plotted_particles_make(&c, &plan[k]);
         const int last = c.p.dim - 1;
         for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[last][i] < 2e-3 ? KIND_PD : KIND_MPM;
-        particles_update_lists(&c.p);
+        particles_update_kind_lists(&c.p);
         cloud_source(&c);
         c.source.yield = (struct bond_yield){NULL, NULL, 0}; /* bonds that may yield always move */
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
@@ -361,7 +361,7 @@ static void test_rows_again(void **state)
             const real *was = old.w;
             for (int64_t i = 0; i < c.p.n; i++)
                 if (c.p.X[last][i] < column * CLOUD_SPACING) c.p.kind[i] = KIND_PD;
-            particles_update_lists(&c.p);
+            particles_update_kind_lists(&c.p);
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             moved += c.bonds.w != was, stayed += c.bonds.w == was;
             assert_true(c.bonds.used <= c.bonds.room && c.bonds.used >= c.bonds.columns);
@@ -410,11 +410,12 @@ static void test_rows_of_lattice(void **state)
             memory_free(volume);
         }
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
-        const real step = bonds_critical_step_of_existing(&c.bonds, &c.p);
-        if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_step(&c.p, &c.source));
+        const real step = bonds_critical_time_step_of_rows(&c.bonds, &c.p);
+        if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_time_step(&c.p, &c.source));
         struct bond_source states = c.source; /* bonds between equal materials agree with states, others are stiffer */
         states.modulus = (const struct state_modulus[CLOUD_MATERIALS]){{0, 0}};
-        const real of_states = bonds_critical_step(&c.p, &states), of_bonds = bonds_critical_step(&c.p, &c.source);
+        const real of_states = bonds_critical_time_step(&c.p, &states),
+                   of_bonds = bonds_critical_time_step(&c.p, &c.source);
         if (k >= COUNT_OF(plan))
             assert_true(fabs(of_states - of_bonds) <= 1e-12 * of_bonds);
         else

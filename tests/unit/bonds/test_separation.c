@@ -27,8 +27,8 @@ static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enu
     plotted_particles_make(&b->c, &plan);
     for (int k = 0; k < CLOUD_MATERIALS; k++) {
         b->c.material[k].poisson = poisson;
-        material_compute_constants(&b->c.material[k], plan.space);
-        b->modulus[k] = state_modulus_of(&b->c.material[k], plan.space, model == PD_MOSPD);
+        material_compute_derived_constants(&b->c.material[k], plan.space);
+        b->modulus[k] = state_modulus_of_material(&b->c.material[k], plan.space, model == PD_MOSPD);
     }
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) b->c.limit[k] = STRETCH;
     b->c.source.modulus = b->modulus, b->c.source.local = local, b->c.source.rotates = model == PD_MOSPD;
@@ -68,7 +68,7 @@ static void test_rotations(void **state)
             for (int n = 0; n < 2; n++) {
                 struct pulled b;
                 pulled_make(&b, PD_MOSPD, n ? 0.45 : 0.2, influence[k], local);
-                real want = family_separation_work(&b.c.source.family, &b.modulus[0], local);
+                real want = family_separation_work_per_area(&b.c.source.family, &b.modulus[0], local);
                 assert_true(fabs(separation(&b) / want - 1) < 3e-3);
                 plotted_particles_free(&b.c);
             }
@@ -104,11 +104,11 @@ static void test_crossing(void **state)
     for (size_t k = 0; k < COUNT_OF(in); k++) {
         struct material m = {.young = 3.1e9, .poisson = k ? 1.0 / 3 : 0, .density = 1180, .critical_stretch = 0.013};
         struct family f = {.volume = VOLUME_RAMP, .calibration = CALIBRATION_LATTICE};
-        material_compute_constants(&m, in[k].space);
+        material_compute_derived_constants(&m, in[k].space);
         m.critical_stretch = 0.013;
         family_make(&f, in[k].space, 0.7e-3, 12.015, 0.37e-3);
         const real expected = in[k].over * 3.1e9 * 12.015 * 0.7e-3 * square(0.013);
-        const real off = family_crossing_energy(&f, &m) / expected - 1;
+        const real off = family_crack_energy_per_area(&f, &m) / expected - 1;
         if (!(fabs(off) < 0.05)) fail_msg("space %d: off by %g", (int)in[k].space, off);
     }
 }

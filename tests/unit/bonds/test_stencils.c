@@ -130,7 +130,8 @@ static void test_twins(void **state)
             alone.p.mass[0] *= 2;
             make_again(&alike), make_again(&alone);
             const struct bonds *a = &alike.bonds, *b = &alone.bonds;
-            assert_true(bonds_critical_step(&alike.p, &alike.source) == bonds_critical_step(&alone.p, &alone.source));
+            assert_true(bonds_critical_time_step(&alike.p, &alike.source) ==
+                        bonds_critical_time_step(&alone.p, &alone.source));
             if (surface)
                 assert_memory_equal(alike.neighbour_volume, alone.neighbour_volume, (size_t)alone.p.n * sizeof(real));
             assert_memory_equal(a->trigger, b->trigger, (size_t)b->rows * sizeof *b->trigger);
@@ -199,7 +200,7 @@ static void test_same_bits(void **state)
             assert_true(a.value[0] > 0);                    /* some bonds have broken, */
             assert_true(count_folded(&implicit.bonds) > 0); /* and some row blocks still follow a stencil */
             assert_true(weighed || count_units(&implicit.bonds) > 0);
-            assert_null(bonds_find_violation(&implicit.bonds)), assert_null(bonds_find_violation(&open.bonds));
+            assert_null(bonds_find_inconsistency(&implicit.bonds)), assert_null(bonds_find_inconsistency(&open.bonds));
             assert_int_equal(a.n, b.n);
             assert_memory_equal(a.value, b.value, (size_t)a.n * sizeof *a.value);
             memory_free(a.value), memory_free(b.value);
@@ -214,27 +215,27 @@ static void test_fault(void **state)
     struct plotted_particles c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     struct bonds *b = &c.bonds;
-    assert_null(bonds_find_violation(b));
-    const int64_t q = bond_index_for_writing(b, b->row_blocks / 2, 3, 4), column = q / LANES;
-    assert_null(bonds_find_violation(b)); /* stored explicitly, it still follows its stencil */
+    assert_null(bonds_find_inconsistency(b));
+    const int64_t q = bond_writable_index(b, b->row_blocks / 2, 3, 4), column = q / LANES;
+    assert_null(bonds_find_inconsistency(b)); /* stored explicitly, it still follows its stencil */
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
-    assert_null(bonds_find_violation(b));
+    assert_null(bonds_find_inconsistency(b));
     b->inverse_length[q] *= -1;
-    assert_string_equal(bonds_find_violation(b), "a bond with weight is broken or padding");
+    assert_string_equal(bonds_find_inconsistency(b), "a bond with weight is broken or padding");
     b->inverse_length[q] *= -1;
     b->common[column].intact ^= 1;
-    assert_string_equal(bonds_find_violation(b), "intact is not what the weights say");
+    assert_string_equal(bonds_find_inconsistency(b), "intact is not what the weights say");
     b->common[column].intact ^= 1;
     b->nbr[q]++;
-    assert_string_equal(bonds_find_violation(b), "neighbours are not consecutive");
+    assert_string_equal(bonds_find_inconsistency(b), "neighbours are not consecutive");
     b->nbr[q]--;
     b->common[column].first++;
-    assert_string_equal(bonds_find_violation(b), "first is not what a column shares");
+    assert_string_equal(bonds_find_inconsistency(b), "first is not what a column shares");
     b->common[column].first--;
     b->reach = 0;
-    assert_string_equal(bonds_find_violation(b), "a bond leads farther than reach");
+    assert_string_equal(bonds_find_inconsistency(b), "a bond leads farther than reach");
     b->row_of[b->particle[9]] = 3;
-    assert_string_equal(bonds_find_violation(b), "row_of does not lead back to the row of a particle");
+    assert_string_equal(bonds_find_inconsistency(b), "row_of does not lead back to the row of a particle");
     plotted_particles_free(&c);
 }
 
@@ -245,7 +246,7 @@ static void test_who_leaves(void **state)
     struct plotted_particles c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     const int64_t implicit = count_folded(&c.bonds), row_block = c.bonds.row_blocks / 2,
-                  q = bond_index_for_writing(&c.bonds, row_block, 3, 4);
+                  q = bond_writable_index(&c.bonds, row_block, 3, 4);
     bond_fade(&c.bonds, &c.p, row_block * LANES + 4, q, 0);
     for (int64_t g = 0; g < c.bonds.row_blocks; g++)
         assert_true(c.bonds.stencil[g] ? g != row_block : g == row_block || at_an_end(&c, g));
@@ -262,20 +263,20 @@ static void test_who_stays_out(void **state)
     bonds_free(&c.bonds);
     const int32_t point = (int32_t)c.p.n / 2 + 3;
     c.p.kind[point] = KIND_MPM;
-    particles_update_lists(&c.p);
+    particles_update_kind_lists(&c.p);
     bonds_make(&c.bonds, NULL, &c.p, &c.source);
     const int64_t row = c.bonds.row_of[point] + 1,
-                  q = bond_index_for_writing(&c.bonds, row / LANES, 5, (int)(row % LANES));
+                  q = bond_writable_index(&c.bonds, row / LANES, 5, (int)(row % LANES));
     const int32_t j = c.bonds.nbr[q];
     bond_fade(&c.bonds, &c.p, row, q, 0.5);
     c.p.kind[point] = KIND_PD;
     struct bonds old = c.bonds;
-    particles_update_lists(&c.p);
+    particles_update_kind_lists(&c.p);
     bonds_make(&c.bonds, &old, &c.p, &c.source);
     bonds_free(&old);
     int found = 0;
     for (int64_t k = 0; k < c.bonds.column_count[row / LANES]; k++) {
-        const int64_t at = bond_index_for_writing(&c.bonds, row / LANES, k, (int)(row % LANES));
+        const int64_t at = bond_writable_index(&c.bonds, row / LANES, k, (int)(row % LANES));
         if (c.bonds.nbr[at] == j && c.bonds.w[at] == 0.5) found++;
     }
     assert_int_equal(found, 1);
@@ -321,7 +322,7 @@ static void convert_tube(struct plotted_particles *c, real radius)
         for (int d = 0; d < p->dim; d++) r2 += d == 2 ? 0 : square(p->X[d][i] - p->X[d][p->n / 2]);
         p->kind[i] = r2 < square(radius * CLOUD_SPACING) ? KIND_PD : KIND_MPM;
     }
-    particles_update_lists(&c->p);
+    particles_update_kind_lists(&c->p);
 }
 
 /* Beside material points, too, the site map yields the bonds that a search finds; bonds that may yield are searched. */

@@ -322,7 +322,7 @@ static void half_is_as_the_whole(void **state)
     plan.count[0] = 7;
     plotted_particles_make(&half, &plan);
     assert_int_equal(loads_make(&loads, mirror, 1, &half.p, CLOUD_SPACING, half.source.family.cutoff, 0), OK);
-    loads_update_images(&loads, &half.p);
+    loads_update_mirror_images(&loads, &half.p);
     half.source.image = loads.image;
     cloud_source(&whole);
     cloud_source(&half);

@@ -199,7 +199,7 @@ static void contact_alone(struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
     contact_activate_particles(e->contact, &e->part, &e->bonds, &e->loads);
-    contact_force(e->contact, &e->part, 0);
+    contact_compute_forces(e->contact, &e->part, 0);
 }
 
 /* Checks the third law: sums of forces and moments vanish up to the round-off of up to a dozen pairs. */
@@ -392,7 +392,8 @@ static void test_account(void **state)
         real work = 0;
         for (int n = 1; n < gaps[k]; n++) {
             if (gap[k][n] < 0) work += 0.5 * K * gap[k][n] * 0.5 * (gap[k][n + 1] - gap[k][n - 1]);
-            assert_true(contact_energy_correction(&b, K, gap[k][n], true) == 0); /* the account is negative meanwhile */
+            assert_true(contact_energy_correction_force(&b, K, gap[k][n], true) ==
+                        0); /* the account is negative meanwhile */
         }
         assert_near(b.account, -work, 1e-14);
     }
@@ -470,7 +471,7 @@ static void test_beside_a_ball(void **state)
         for (int q = 0; q < 3; q++) assert_near(c[k].near[0].zero[q], -zero[k - 1] * h, 1e-12 * h);
     }
     const real wide = p.x[0][0] - p.x[0][2], high = p.x[1][2] - p.x[1][0];
-    assert_close(contact_patch_diameter(&c[4], &p, 0), hypot(wide, high), 1e-12);
+    assert_close(contact_patch_diagonal(&c[4], &p, 0), hypot(wide, high), 1e-12);
     for (int k = 1; k < 5; k++) {
         memory_free(c[k].near[0].row), memory_free(c[k].near[0].zero), memory_free(c[k].near[0].balance);
         memory_free(c[k].near);

@@ -69,7 +69,7 @@ static struct run *pressed_begin(struct scene *s, const char *text)
     assert_ok(engine_make(e, s, NULL));
     e->report->quiet = true;
     assert_ok(report_start(e));
-    contact_update_list(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    contact_update_pair_list(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
     for (int64_t i = 0; i < p->n; i++)
         if (p->body[i] == 1) p->x[p->dim - 1][i] -= 0.12e-3;
     body_rotate(p, 1, (const real[]){7e-3, 6e-3, 4e-3}, axis_of(p->dim), 0.013);
@@ -88,9 +88,9 @@ static void pressed_end(struct run *e, struct scene *s)
 static void forces_after(struct run *e, real dt)
 {
     struct particles *p = &e->part;
-    contact_update_list(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    contact_update_pair_list(e->contact, p, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
     for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
-    contact_force(e->contact, p, dt);
+    contact_compute_forces(e->contact, p, dt);
 }
 
 /* Moves the particles by dt; returns the mean power of friction on the velocities of this step, with the forces before
@@ -138,7 +138,10 @@ static void check_sums(const struct particles *p, const real *f)
     }
 }
 
-static real friction_energy(const struct contact *c) { return contact_friction_stored(c) + contact_friction_work(c); }
+static real friction_energy(const struct contact *c)
+{
+    return contact_friction_stored_energy(c) + contact_friction_work(c);
+}
 
 /* Sets velocities: the upper block slides and rotates on the lower one, which rotates in the opposite direction; each
  * particle has an additional motion. */
@@ -170,7 +173,7 @@ static real work_error(const char *text, real time, int steps)
         check_sums(p, drag);
     }
     const real energy = friction_energy(e->contact);
-    assert_true(contact_friction_work(e->contact) > 0.3 * energy && contact_friction_stored(e->contact) > 0);
+    assert_true(contact_friction_work(e->contact) > 0.3 * energy && contact_friction_stored_energy(e->contact) > 0);
     memory_free(drag);
     pressed_end(e, &s);
     return work / energy - 1;

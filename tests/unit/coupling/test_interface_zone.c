@@ -63,7 +63,7 @@ static void test_kept(void **state)
             real energy[SUMS];
             sums_of(&c.p, energy, scale);
             const real lost =
-                interface_zone_damp_velocities(&r, &c.p, 1.0 / 16) + interface_damped_second_half(&r, &c.p);
+                interface_zone_damp_velocities(&r, &c.p, 1.0 / 16) + interface_zone_damped_energy_second_half(&r, &c.p);
             sums_of(&c.p, after, scale);
             assert_true(after[6] < energy[6]);
             assert_near(lost, 0.5 * (energy[6] - after[6]), 1e-13 * energy[6]);

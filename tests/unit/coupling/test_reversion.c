@@ -54,7 +54,7 @@ static real energy_of(const struct setting *s, const struct partial_stress *part
     const int n = symmetric_component_count(p->dim);
     real sum = s->c.bonds.rows > 0 ? bond_energy_table[p->dim][PD_BOND](&s->c.bonds, p) : 0,
          compliance[SYM_MAX * SYM_MAX];
-    material_compliance(&s->c.material[0], p->dim, compliance);
+    material_compliance_matrix(&s->c.material[0], p->dim, compliance);
     for (int64_t i = 0; i < p->n; i++) {
         real given[SYM_MAX];
         if (p->kind[i] != KIND_MPM) continue;
@@ -302,8 +302,8 @@ static void test_mesh(void **state)
     for (int64_t I = 0; I < mesh.grid.n; I++) {
         if (mesh.grid.mass[I] == 0) continue;
         for (int d = 0; d < dim; d++) mesh.grid.velocity[d][I] = cloud_between(&seed, -1, 1);
-        mesh.displacement[0][I] = 1e-3 * grid_position(&mesh.grid, 0, I % mesh.grid.count[0]) + 1e-6;
-        mesh.displacement[1][I] = 2e-3 * grid_position(&mesh.grid, 0, I % mesh.grid.count[0]);
+        mesh.displacement[0][I] = 1e-3 * grid_node_position(&mesh.grid, 0, I % mesh.grid.count[0]) + 1e-6;
+        mesh.displacement[1][I] = 2e-3 * grid_node_position(&mesh.grid, 0, I % mesh.grid.count[0]);
     }
     real was[2] = {0}, is[2] = {0}, *u[DIM_MAX];
     for (int d = 0; d < dim; d++) {

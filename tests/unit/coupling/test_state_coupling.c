@@ -34,8 +34,8 @@ static void both_make(struct both *b, const struct partners *k)
     plotted_particles_make(c, &plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         c->material[m].poisson = k->poisson;
-        material_compute_constants(&c->material[m], k->plan.space);
-        b->modulus[m] = state_modulus_of(&c->material[m], k->plan.space, k->model == PD_MOSPD);
+        material_compute_derived_constants(&c->material[m], k->plan.space);
+        b->modulus[m] = state_modulus_of_material(&c->material[m], k->plan.space, k->model == PD_MOSPD);
     }
     c->source.modulus = b->modulus, c->source.rotates = k->model == PD_MOSPD;
 }
@@ -48,7 +48,7 @@ static void stress_set(struct plotted_particles *c, const real strain[DIM_MAX][D
     for (int a = 0; a < dim; a++) vector[a] = strain[a][a];
     if (dim == 2) vector[2] = strain[0][1];
     if (dim == 3) vector[3] = strain[0][1], vector[4] = strain[1][2], vector[5] = strain[0][2];
-    material_stiffness(&c->material[0], dim, stiffness);
+    material_stiffness_matrix(&c->material[0], dim, stiffness);
     for (int64_t i = 0; i < c->p.n; i++)
         for (int s = 0; s < n; s++) {
             c->p.stress[s][i] = 0;
@@ -173,7 +173,7 @@ static real energy_of(const struct both *b, enum pd_model model)
     const struct plotted_particles *c = &b->s.c;
     const int dim = c->p.dim, n = symmetric_component_count(dim);
     real sum = c->bonds.rows > 0 ? state_energy_table[dim][model](&c->bonds, &c->p) : 0, compliance[SYM_MAX * SYM_MAX];
-    material_compliance(&c->material[0], dim, compliance);
+    material_compliance_matrix(&c->material[0], dim, compliance);
     for (int64_t i = 0; i < c->p.n; i++) {
         real given[SYM_MAX];
         if (c->p.kind[i] != KIND_MPM) continue;
@@ -204,7 +204,7 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     cloud_strain(c, strain);
     stress_set(c, strain);
     const real before = energy_of(&b, model), particle = before / (real)c->p.n;
-    convert_cut_particles(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
+    convert_particles_at_precracks(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
     assert_int_equal(c->p.n_of[KIND_PD], edge * edge);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
     forces(&b, model);
@@ -251,8 +251,8 @@ static void test_response(void **state)
         for (struct bond_iterator it = bond_iterator_of_row(&c->bonds, r); bond_next(&it);) {
             const int32_t i = c->bonds.particle[r], j = it.bond.nbr;
             const struct bond back = {it.bond.entry, i, it.bond.inverse_length, it.bond.w};
-            const struct response one = bond_response_of(&c->p, &c->bonds, &c->source, i, &it.bond);
-            const struct response other = bond_response_of(&c->p, &c->bonds, &c->source, j, &back);
+            const struct response one = bond_strain_response(&c->p, &c->bonds, &c->source, i, &it.bond);
+            const struct response other = bond_strain_response(&c->p, &c->bonds, &c->source, j, &back);
             assert_true(one.central == 0 && other.central == 0);
             assert_true(fabs(one.vector / other.vector - 1) < 1e-12 && fabs(one.pressure / other.pressure - 1) < 1e-12);
             if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have complete families */
@@ -316,12 +316,12 @@ static void test_positive(void **state)
         cloud_source(&b.s.c);
         const struct material *m = &b.s.c.material[b.s.c.p.material[0]];
         const real V = b.s.c.p.volume0[0];
-        material_stiffness(m, dim, C);
+        material_stiffness_matrix(m, dim, C);
         uint64_t seed = 7;
         for (int a = 0; a < n; a++)
             for (int c = 0; c <= a; c++) T[a * n + c] = T[c * n + a] = V * m->c11 * cloud_between(&seed, -1, 1.5);
         for (int a = 0; a < n * n; a++) rest[a] = T[a];
-        partial_tensor_limit_bonds(T, &b.s.c.p, &b.s.c.source, 0);
+        partial_tensor_limit_bond_based(T, &b.s.c.p, &b.s.c.source, 0);
         before = 0;
         for (int a = 0; a < n; a++)
             for (int c = 0; c < n; c++) { /* components of shear count twice: a factor sqrt(2) each */

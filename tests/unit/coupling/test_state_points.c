@@ -60,7 +60,7 @@ static void shake(struct run *e)
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
         real X[DIM_MAX] = {0};
         for (int d = 0; d < p->dim; d++)
-            X[d] = grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
+            X[d] = grid_node_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
         for (int d = 0; d < p->dim; d++) mesh->displacement[d][I] = shaken(e, X, d, &seed);
     }
 }
@@ -107,7 +107,7 @@ static void check_gradient(struct run *e)
             if (++particles % 5 == 0) check_slope(e, &p->x[d][i], &p->f[d][i], scale);
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int d = 0; d < p->dim && mesh->grid.mass[I] > 0; d++)
-            if (grid_position(&mesh->grid, 1, I / mesh->grid.stride[1] % mesh->grid.count[1]) >
+            if (grid_node_position(&mesh->grid, 1, I / mesh->grid.stride[1] % mesh->grid.count[1]) >
                     0.5 * e->scene->spacing &&
                 ++nodes % 5 == 0)
                 check_slope(e, &mesh->displacement[d][I], &mesh->grid.force[d][I], scale);
@@ -147,7 +147,7 @@ static void check_point(const struct run *e, int64_t row)
     const real share = p->volume0[i] / b->state.weighted[row],
                *local = e->coupling->partial.local + e->coupling->partial.index[i] * n;
     real S = 0, compliance[SYM_MAX * SYM_MAX];
-    material_compliance(&e->scene->material[0], dim, compliance);
+    material_compliance_matrix(&e->scene->material[0], dim, compliance);
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         real y2 = 0, r = fabs(1 / bond.inverse_length);

@@ -110,7 +110,7 @@ static void extent_and_sites(void **state)
     assert_exact(high, N - 101);
     particles_coordinate_range(&p, p.n_all, 0, &low, &high);
     assert_exact(low, -1e6);
-    assert_exact(particles_longest_edge(&p), N - 1);
+    assert_exact(particles_bounding_box_longest_edge(&p), N - 1);
     particles_coordinate_range(&p, 0, 1, &low, &high);
     assert_true(isinf(low) && isinf(high) && high < low);
     particles_free(&p);

@@ -20,10 +20,10 @@ static void test_quantiles(void **state)
     for (int e = 1; e <= 15; e++)
         for (int k = 1; k < 10; k++) {
             const real u = k * pow(10, -e);
-            assert_close(normal_below(normal_quantile(u)), u, 1e-5);
-            assert_near(normal_quantile(1 - u), -normal_quantile(u), e < 8 ? 1e-5 : 0.2);
+            assert_close(normal_below(normal_distribution_quantile(u)), u, 1e-5);
+            assert_near(normal_distribution_quantile(1 - u), -normal_distribution_quantile(u), e < 8 ? 1e-5 : 0.2);
         }
-    assert_exact(normal_quantile(0.5), 0);
+    assert_exact(normal_distribution_quantile(0.5), 0);
 }
 
 /* Returns the largest distance between the distribution of n numbers and F (Kolmogorov): it exceeds 1.63/sqrt(n) in 1 %
@@ -63,7 +63,7 @@ static void test_distributions(void **state)
             if (form == 2) s.of = SCATTER_ENERGY;
             for (int i = 0; i < MANY; i++) {
                 const real X[DIM_MAX] = {0.0701 * i, 0.0301 * (i % 100), -0.0407 * (i % 77)};
-                value[i] = scatter_factor(&s, X, dim, i);
+                value[i] = scatter_strength_factor(&s, X, dim, i);
             }
             const real D = form == 0   ? kolmogorov(value, MANY, weibull, 8)
                            : form == 1 ? kolmogorov(value, MANY, lognormal, 0.3)
@@ -88,7 +88,7 @@ static void test_correlation(void **state)
                 struct strength_scatter s = {.given = true, .length = 0.02, .seed = (uint64_t)i};
                 real X[DIM_MAX] = {0.0013 * i, 0.0007 * i, -0.0003 * i}, Y[DIM_MAX];
                 for (int d = 0; d < DIM_MAX; d++) Y[d] = X[d] + (d < dim ? distance[k] * s.length / sqrt(dim) : 0);
-                sum += scatter_gaussian(&s, X, dim, 0) * scatter_gaussian(&s, Y, dim, 0);
+                sum += scatter_gaussian_field(&s, X, dim, 0) * scatter_gaussian_field(&s, Y, dim, 0);
             }
             const real exact = exp(-square(distance[k]));
             assert_near(sum / pairs, exact, 4 * sqrt((1 + exact * exact) / pairs) + 1e-3);
@@ -111,7 +111,7 @@ static void test_weakest_link(void **state)
                 const real X[DIM_MAX] = {0};
                 real least = INFINITY;
                 s.seed = (uint64_t)chain * 77 + 5;
-                for (int i = 0; i < n; i++) least = real_min(least, scatter_factor(&s, X, 1, i));
+                for (int i = 0; i < n; i++) least = real_min(least, scatter_strength_factor(&s, X, 1, i));
                 sum += least;
             }
             assert_close(sum / CHAINS, pow(n, -1 / s.modulus), 3 * 1.2 / s.modulus / sqrt(CHAINS));
@@ -127,14 +127,14 @@ static void test_by_place(void **state)
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int i = -20; i < 20; i++) {
             const real X[DIM_MAX] = {1e-3 * i, 2e-3 * i, 0.1e-3 * i}, Y[DIM_MAX] = {X[0] + 1e-6, X[1], X[2]};
-            const real here = scatter_factor(&s, X, dim, i);
-            assert_exact(here, scatter_factor(&s, X, dim, 1000 - i));
-            assert_near(here, scatter_factor(&s, Y, dim, i), 2e-3);
+            const real here = scatter_strength_factor(&s, X, dim, i);
+            assert_exact(here, scatter_strength_factor(&s, X, dim, 1000 - i));
+            assert_near(here, scatter_strength_factor(&s, Y, dim, i), 2e-3);
             const real away[DIM_MAX] = {1e4 + X[0], -1e4, 1e4};
-            assert_true(scatter_factor(&s, away, dim, 0) > 0 && scatter_factor(&s, away, dim, 0) < 2);
+            assert_true(scatter_strength_factor(&s, away, dim, 0) > 0 && scatter_strength_factor(&s, away, dim, 0) < 2);
         }
     const struct strength_scatter none = {.modulus = 10};
-    assert_exact(scatter_factor(&none, (real[DIM_MAX]){1}, 1, 0), 1);
+    assert_exact(scatter_strength_factor(&none, (real[DIM_MAX]){1}, 1, 0), 1);
 }
 
 int main(void)

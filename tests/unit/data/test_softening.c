@@ -14,15 +14,15 @@ static void test_curves(void **state)
         const struct softening_curve c = softening_curve_of(law);
         real sum = 0;
         assert_near(c.area, area[law], within[law]);
-        assert_near(softening_level(&c, 0), 1, 1e-15);
-        assert_near(softening_level(&c, 1), 0, 1e-15);
-        for (int k = 0; k < 100000; k++) sum += softening_level(&c, (k + 0.5) * 1e-5) * 1e-5;
+        assert_near(softening_curve_value(&c, 0), 1, 1e-15);
+        assert_near(softening_curve_value(&c, 1), 0, 1e-15);
+        for (int k = 0; k < 100000; k++) sum += softening_curve_value(&c, (k + 0.5) * 1e-5) * 1e-5;
         assert_near(sum, c.area, 1e-9);
         for (int k = 0; k <= 1000 && law == SOFTENING_EXPONENTIAL; k++)
-            assert_near(softening_level(&c, 1e-3 * k), (exp(-5e-3 * k) - exp(-5)) / (1 - exp(-5)), 8e-3);
+            assert_near(softening_curve_value(&c, 1e-3 * k), (exp(-5e-3 * k) - exp(-5)) / (1 - exp(-5)), 8e-3);
     }
     const struct softening_curve concrete = softening_curve_of(SOFTENING_BILINEAR);
-    assert_near(softening_level(&concrete, 2.0 / 9), 1.0 / 3, 1e-15);
+    assert_near(softening_curve_value(&concrete, 2.0 / 9), 1.0 / 3, 1e-15);
 }
 
 /* A bond spends s_c^2/2 in all; linear: s_f = s_c^2/s_0 and D(k) = s_0 s_f (k - s_0)/(2 (s_f - s_0)). */
@@ -32,14 +32,15 @@ static void test_energy(void **state)
     const real onset = 1.3e-4, critical = 2.9e-4;
     for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
         const struct softening_curve c = softening_curve_of(law);
-        const real end = softening_end(&c, onset, critical);
-        assert_close(softening_spent(&c, onset, end, end), 0.5 * critical * critical, 1e-13);
-        assert_close(softening_spent(&c, onset, end, 7 * end), 0.5 * critical * critical, 1e-13);
-        assert_near(softening_spent(&c, onset, end, onset), 0, 1e-25);
+        const real end = softening_end_stretch(&c, onset, critical);
+        assert_close(softening_dissipated_energy(&c, onset, end, end), 0.5 * critical * critical, 1e-13);
+        assert_close(softening_dissipated_energy(&c, onset, end, 7 * end), 0.5 * critical * critical, 1e-13);
+        assert_near(softening_dissipated_energy(&c, onset, end, onset), 0, 1e-25);
         if (law != SOFTENING_LINEAR) continue;
         assert_close(end, critical * critical / onset, 1e-14);
         for (real k = onset; k < end; k += 1e-5)
-            assert_near(softening_spent(&c, onset, end, k), 0.5 * onset * end * (k - onset) / (end - onset), 1e-22);
+            assert_near(softening_dissipated_energy(&c, onset, end, k), 0.5 * onset * end * (k - onset) / (end - onset),
+                        1e-22);
     }
 }
 
@@ -53,14 +54,14 @@ static void test_strength(void **state)
     const real plane[] = {1.003, 1.035, 1.096, 1.183, 1.242}, solid[] = {1.038, 1.143, 1.281, 1.445, 1.552};
     const struct softening_curve c = softening_curve_of(SOFTENING_LINEAR);
     for (size_t k = 0; k < COUNT_OF(kappa); k++) {
-        const struct softening_strength flat = softening_strength_of(&c, SPACE_PLANE_STRESS, kappa[k]);
+        const struct softening_strength flat = softening_curve_strength(&c, SPACE_PLANE_STRESS, kappa[k]);
         assert_near(flat.tension, plane[k], 1.5e-3);
         assert_near(flat.biaxial, 1.5, 1e-9);
-        assert_near(softening_strength_of(&c, SPACE_SOLID, kappa[k]).tension, solid[k], 1.5e-3);
-        assert_near(softening_strength_of(&c, SPACE_LINE, kappa[k]).tension, 1, 1e-12);
+        assert_near(softening_curve_strength(&c, SPACE_SOLID, kappa[k]).tension, solid[k], 1.5e-3);
+        assert_near(softening_curve_strength(&c, SPACE_LINE, kappa[k]).tension, 1, 1e-12);
     }
-    assert_near(softening_strength_of(&c, SPACE_PLANE_STRAIN, 1).shear, 0.75, 1e-3);
-    assert_near(softening_strength_of(&c, SPACE_PLANE_STRESS, 4).shear, 0.864, 1.5e-3);
+    assert_near(softening_curve_strength(&c, SPACE_PLANE_STRAIN, 1).shear, 0.75, 1e-3);
+    assert_near(softening_curve_strength(&c, SPACE_PLANE_STRESS, 4).shear, 0.864, 1.5e-3);
 }
 
 /* The onset gives the strength: E' s_0 tension(s_c^2/s_0^2) = strength. It is beyond the critical stretch where the
@@ -72,12 +73,13 @@ static void test_onset(void **state)
     for (size_t k = 0; k < COUNT_OF(spaces); k++) {
         struct material m = {.young = 70e9, .density = 2440, .critical_stretch = 1e-3, .tensile_strength = 40e6};
         m.poisson = k == 0 ? 0 : bond_based_poisson_ratio(spaces[k]);
-        const real modulus = k == 2 ? 70e9 / (1 - 1.0 / 16) : 70e9, onset = softening_onset_of(&m, spaces[k]);
+        const real modulus = k == 2 ? 70e9 / (1 - 1.0 / 16) : 70e9,
+                   onset = softening_onset_from_strength(&m, spaces[k]);
         const struct softening_curve c = softening_curve_of(m.softening);
-        const real tension = softening_strength_of(&c, spaces[k], square(1e-3 / onset)).tension;
+        const real tension = softening_curve_strength(&c, spaces[k], square(1e-3 / onset)).tension;
         assert_close(modulus * onset * tension, 40e6, 1e-6);
         m.tensile_strength = 80e6;
-        assert_true(softening_onset_of(&m, spaces[k]) > m.critical_stretch);
+        assert_true(softening_onset_from_strength(&m, spaces[k]) > m.critical_stretch);
     }
 }
 

@@ -77,8 +77,8 @@ static void examples_make(void)
                             arrow_area(0),
                             arrow_area(0.25),
                             pi * 0.84 * 1.5};
-    assert_int_equal(polygon_make(&sharp, &corner), POLYGON_FINE);
-    if (!rounded.bend) assert_int_equal(polygon_make(&rounded, &corner), POLYGON_FINE);
+    assert_int_equal(polygon_check_and_complete(&sharp, &corner), POLYGON_FINE);
+    if (!rounded.bend) assert_int_equal(polygon_check_and_complete(&rounded, &corner), POLYGON_FINE);
     for (size_t k = 0; k < COUNT_OF(examples); k++) examples[k].volume = volumes[k];
 }
 
@@ -89,7 +89,7 @@ static void check_volume(const struct solid *s, int dim, real volume)
 {
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
     real from[DIM_MAX], to[DIM_MAX], box = 1;
-    assert_true(region_bounds(&r, dim, from, to));
+    assert_true(region_bounding_box(&r, dim, from, to));
     for (int d = 0; d < dim; d++) {
         const real edge = to[d] - from[d];
         from[d] -= 0.05 * edge, to[d] += 0.04 * edge, box *= 1.09 * edge;
@@ -103,7 +103,7 @@ static void check_bounds(const struct solid *s, int dim)
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
     real from[DIM_MAX], to[DIM_MAX], X[DIM_MAX] = {0};
     uint64_t seed = 7;
-    assert_true(region_bounds(&r, dim, from, to));
+    assert_true(region_bounding_box(&r, dim, from, to));
     for (int side = 0; side < 2 * dim; side++) {
         const int d = side / 2;
         real nearest = INFINITY;
@@ -183,7 +183,7 @@ static void test_quarter_turns(void **state)
         struct solid_motion turn = {.kind = MOTION_ROTATE, .angle = k * 90 * pi / 180};
         real from[DIM_MAX], to[DIM_MAX];
         assert_true(solid_add_motion(&s, &turn, 2));
-        assert_true(region_bounds(&(struct region){.n = 1, .solid = &s}, 2, from, to));
+        assert_true(region_bounding_box(&(struct region){.n = 1, .solid = &s}, 2, from, to));
         assert_true(from[0] == corners[k][0] && from[1] == corners[k][1]);
         assert_true(to[0] == corners[k][2] && to[1] == corners[k][3]);
         memory_free(s.image), memory_free(s.motion), box_tree_free(&s.tree);
@@ -201,7 +201,7 @@ static void test_gear(void **state)
     const struct region gear = {.n = 2, .solid = s};
     int corner;
     uint64_t seed = 3;
-    assert_int_equal(polygon_make(&flank, &corner), POLYGON_FINE);
+    assert_int_equal(polygon_check_and_complete(&flank, &corner), POLYGON_FINE);
     assert_true(solid_add_motion(&s[1], &ring, 2));
     assert_int_equal(s[1].images, 18);
     for (int k = 0; k < 5000; k++) {
@@ -309,7 +309,7 @@ static void test_index_of_list(void **state)
         list[70] = (struct solid){.kind = SOLID_BALL, .intersect = true, .centre = {10, 10, 10}, .radius = 11};
         const struct region plain = {.n = MANY, .solid = list};
         struct region indexed = plain;
-        region_build_index(&indexed, dim);
+        region_build_search_trees(&indexed, dim);
         assert_int_equal(indexed.runs, 9);
         check_same(&plain, &indexed, dim, 800);
         struct solid group = {.kind = SOLID_GROUP, .region = indexed};
@@ -357,7 +357,7 @@ static void test_intersection(void **state)
     struct solid group = {.kind = SOLID_GROUP, .region = r};
     real from[DIM_MAX], to[DIM_MAX];
     uint64_t seed = 11;
-    assert_true(region_bounds(&r, 2, from, to));
+    assert_true(region_bounding_box(&r, 2, from, to));
     assert_true(from[0] == -2 && to[0] == 0.5 && from[1] == -2 && to[1] == 2);
     assert_true(region_contains(&r, (real[]){0.5, 0, 0}, 2, 0) && region_contains(&r, (real[]){-2, 0, 0}, 2, 0));
     assert_false(region_contains(&r, (real[]){0.6, 0, 0}, 2, 0));
@@ -390,7 +390,7 @@ static void test_polygon_faults(void **state)
     for (size_t k = 0; k < COUNT_OF(q); k++) {
         struct polygon p = {q[k].n, q[k].corner, q[k].round, NULL, 0};
         int corner;
-        assert_int_equal(polygon_make(&p, &corner), q[k].fault);
+        assert_int_equal(polygon_check_and_complete(&p, &corner), q[k].fault);
         memory_free(p.bend);
     }
 }

@@ -24,7 +24,7 @@ static void scatter_points(struct plotted_particles *c, int dim, struct grid *g)
         for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = cloud_between(&seed, from[d], to[d]);
     }
     for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = cloud_random(&seed) < 0.1 ? KIND_PD : KIND_MPM;
-    particles_update_lists(&c->p);
+    particles_update_kind_lists(&c->p);
     assert_int_equal(grid_extend_box(g, from, to, 1000000, &changed), OK);
     assert_true(changed);
 }
@@ -113,12 +113,12 @@ static void test_transfer_order_growth(void **state)
         bool changed;
         scatter_points(&c, dim, &g);
         transfer_order_sort(&small, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
-        real from[DIM_MAX], to[DIM_MAX], before = grid_position(&g, 0, -g.first[0]);
+        real from[DIM_MAX], to[DIM_MAX], before = grid_node_position(&g, 0, -g.first[0]);
         for (int d = 0; d < dim; d++)
             from[d] = -(19 + transfer_block_edge_length(d)) * g.h, to[d] = 33 * g.h; /* by one block: parity must not
                                                                                       * depend on the box */
         assert_int_equal(grid_extend_box(&g, from, to, 1000000, &changed), OK);
-        assert_true(changed && grid_position(&g, 0, -g.first[0]) == before);
+        assert_true(changed && grid_node_position(&g, 0, -g.first[0]) == before);
         transfer_order_sort(&large, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         assert_int_equal(small.n, large.n);
         assert_memory_equal(small.particle, large.particle, (size_t)small.n * sizeof(int32_t));

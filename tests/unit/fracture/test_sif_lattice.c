@@ -64,7 +64,7 @@ static void gradients_are_exact_for_polynomials(const struct gradient_rule *rule
     for (int64_t i = 0; i < k->p.n; i++) {
         gradient_stencil_compute(&s, rule, &k->p, &k->c, i);
         assert_int_equal(s.order, rule->method == GRADIENT_MLS ? 2 : 1);
-        gradient_evaluate(&s, i, field, gradient);
+        gradient_stencil_apply(&s, i, field, gradient);
         for (int a = 0; a < 2; a++)
             for (int d = 0; d < 2; d++)
                 worst = real_max(worst,
@@ -107,7 +107,7 @@ static void cracks_hide_particles(void **state)
             if (k.p.X[0][i] > -3) continue; /* entirely behind the tip */
             rule.method = method;
             gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
-            gradient_evaluate(&s, i, field, gradient);
+            gradient_stencil_apply(&s, i, field, gradient);
             assert_near(gradient[0][0], 3, 1e-12);
             assert_near(gradient[0][1], 0, 1e-12);
         }
@@ -148,7 +148,7 @@ static void gradients_fall_back(void **state)
         for (int method = 0; method < 2; method++) {
             gradient_stencil_compute(&s, &(struct gradient_rule){.method = method, .reach = 1.5}, &p, &c, 0);
             assert_int_equal(s.order, order[k]);
-            gradient_evaluate(&s, 0, field, gradient);
+            gradient_stencil_apply(&s, 0, field, gradient);
             for (int a = 0; a < 2; a++)
                 for (int b = 0; b < 2; b++) assert_near(gradient[a][b], order[k] > 0 && a == b, 1e-14);
         }
@@ -195,7 +195,7 @@ static void gradients_have_their_weights(void **state)
                 if (i > 0) xf += V[i] / r * x[i] * (f[i] - f[0]), xx += V[i] / r * x[i] * x[i];
             }
             gradient_stencil_compute(&s, &rule, &p, &c, 0);
-            gradient_evaluate(&s, 0, (const real *const[]){p.x[0], p.x[0]}, gradient);
+            gradient_stencil_apply(&s, 0, (const real *const[]){p.x[0], p.x[0]}, gradient);
             const real expected = method == GRADIENT_MLS ? (w * wxf - wx * wf) / (w * wxx - wx * wx) : xf / xx;
             assert_near(gradient[0][0], expected, 1e-12);
             gradient_stencil_free(&s);
@@ -282,7 +282,7 @@ static struct sif lattice_sif(const struct site_map *l, real inner, real outer)
                                  .velocity = {moves ? l->v[0] : NULL, moves ? l->v[1] : NULL},
                                  .acceleration = {l->a[0], l->a[1]}};
     struct sif found;
-    sif_integrate(&l->tip, &c, 1, &m, &l->rule, &l->patch.p, &l->patch.c, &found);
+    sif_compute_by_interaction_integral(&l->tip, &c, 1, &m, &l->rule, &l->patch.p, &l->patch.c, &found);
     return found;
 }
 
@@ -304,7 +304,8 @@ static real exact_gradient_error(const struct site_map *l, real outer, enum crac
         struct crack_field f[MODES];
         if (hypot(x[0], x[1]) > outer || hypot(x[0], x[1]) < 0.5 * outer) continue;
         for (int m = 0; m < MODES; m++) crack_tip_field(&l->tip.medium, m, 0, x, &f[m]);
-        for (int m = 0; m < MODES; m++) sum[m] += sif_integrand(&l->tip, &c, x, &f[mode].state, &f[m].state, false);
+        for (int m = 0; m < MODES; m++)
+            sum[m] += sif_interaction_integrand(&l->tip, &c, x, &f[mode].state, &f[m].state, false);
     }
     for (int m = 0; m < MODES; m++) worst = real_max(worst, fabs(0.5 * l->tip.medium.modulus * sum[m] - K[m]));
     return worst;
@@ -393,12 +394,12 @@ static void body_forces_leave_the_factors(void **state)
             const struct contour ring = {k ? 20 : 7, k ? 40 : 20};
             struct sif_motion motion = {.displacement = {l.patch.u[0], l.patch.u[1]}, .body = {body[0], body[1]}};
             struct sif s;
-            sif_integrate(&l.tip, &ring, 1, &motion, &l.rule, &l.patch.p, &l.patch.c, &s);
+            sif_compute_by_interaction_integral(&l.tip, &ring, 1, &motion, &l.rule, &l.patch.p, &l.patch.c, &s);
             /* Gradients in the domain term are those of particles beside the tip, with errors of some percent. */
             assert_near(sif_error(&s, K), 0, 0.004);
             assert_near(s.J * m->modulus, 1, 0.008);
             motion.body[0] = motion.body[1] = NULL;
-            sif_integrate(&l.tip, &ring, 1, &motion, &l.rule, &l.patch.p, &l.patch.c, &s);
+            sif_compute_by_interaction_integral(&l.tip, &ring, 1, &motion, &l.rule, &l.patch.p, &l.patch.c, &s);
 
             assert_true(sif_error(&s, K) > 0.015);
         }
@@ -423,14 +424,15 @@ static void particle_stresses_are_turned(void **state)
     for (int64_t i = 0; i < l.patch.p.n; i++) {
         real gradient[2][2], t[2][2];
         gradient_stencil_compute(&s, &l.rule, &l.patch.p, &l.patch.c, i);
-        gradient_evaluate(&s, i, field, gradient);
-        crack_hooke_stress(&l.tip.medium, gradient, t);
+        gradient_stencil_apply(&s, i, field, gradient);
+        crack_stress_from_gradient(&l.tip.medium, gradient, t);
         stress[0][i] = t[0][0], stress[1][i] = t[1][1], stress[2][i] = t[0][1];
     }
     l.tip.stress = SIF_PARTICLE;
     const struct sif_motion m = {.displacement = {field[0], field[1]}, .stress = {stress[0], stress[1], stress[2]}};
     struct sif own;
-    sif_integrate(&l.tip, &(struct contour){10, 20}, 1, &m, &l.rule, &l.patch.p, &l.patch.c, &own);
+    sif_compute_by_interaction_integral(&l.tip, &(struct contour){10, 20}, 1, &m, &l.rule, &l.patch.p, &l.patch.c,
+                                        &own);
     for (int mode = 0; mode < MODES; mode++) assert_near(own.K[mode], hooke.K[mode], 1e-12);
     assert_close(own.J, hooke.J, 1e-12);
     for (int c = 0; c < 3; c++) memory_free(stress[c]);

@@ -106,21 +106,21 @@ static void tip_turns(void **state)
     assert_int_equal(t.n, 1);
     assert_near(tip_angle(&t.tip[0], 2), atan2(3, 2.5) * 180 / M_PI, 1e-10);
     /* A mirror image about y = 10.5: the tip is on the upper of both branches; then on the longer one. */
-    assert_int_equal(tips_count_longest(&t), 1);
+    assert_int_equal(tips_count_longest_ends(&t), 1);
     hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0);
     tips_update(&t, &b.p, &b.c, 1);
-    assert_int_equal(tips_count_longest(&t), 1); /* 3.9 and 2.5 */
+    assert_int_equal(tips_count_longest_ends(&t), 1); /* 3.9 and 2.5 */
     hurt(&b, 12.5, 7.5, 0);
     tips_update(&t, &b.p, &b.c, 2);
     assert_int_equal(t.tip[0].particles, 6);
     assert_near(t.tip[0].growth, hypot(2.5, 3), ROUND_OFF);
     assert_near(t.tip[0].place[0], 12.5, ROUND_OFF);
     assert_near(t.tip[0].place[1], 13.5, ROUND_OFF);
-    assert_int_equal(tips_count_longest(&t), 2);
+    assert_int_equal(tips_count_longest_ends(&t), 2);
     hurt(&b, 13.5, 6.5, 0);
     tips_update(&t, &b.p, &b.c, 3);
     assert_near(t.tip[0].place[1], 6.5, ROUND_OFF);
-    assert_int_equal(tips_count_longest(&t), 1); /* 5.3 and 3.9 */
+    assert_int_equal(tips_count_longest_ends(&t), 1); /* 5.3 and 3.9 */
     notched_free(&b, &t);
 }
 
@@ -137,14 +137,14 @@ static void tips_that_tie(void **state)
     tips_free(&t);
     tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
     assert_int_equal(t.n, 2);
-    assert_int_equal(tips_count_longest(&t), 0);
+    assert_int_equal(tips_count_longest_ends(&t), 0);
     for (int k = 0; k < 4; k++)
         for (int side = -1; side <= 1; side += 2)
             hurt(&b, 25.5 + k, 10 + 0.5 * side, 0), hurt(&b, 14.5 - k, 10 + 0.5 * side, 0);
     tips_update(&t, &b.p, &b.c, 0);
     for (int k = 0; k < 2; k++) assert_near(t.tip[k].place[1], 10, ROUND_OFF);
     assert_near(fabs(t.tip[0].place[0] - 20), 8.5, ROUND_OFF);
-    assert_int_equal(tips_count_longest(&t), 2);
+    assert_int_equal(tips_count_longest_ends(&t), 2);
     assert_ptr_equal(tips_longest(&t), &t.tip[0]);
     for (int k = 1; k < 4; k++)
         for (int side = -1; side <= 1; side += 2) hurt(&b, 28.5 + k, 10 + (0.5 + k) * side, 0);
@@ -152,7 +152,7 @@ static void tips_that_tie(void **state)
     const struct crack_tip *longest = tips_longest(&t);
     assert_near(longest->place[0], 31.5, ROUND_OFF);
     assert_near(longest->place[1], 13.5, ROUND_OFF); /* a damaged position, not (31.5, 10) */
-    assert_int_equal(tips_count_longest(&t), 2);
+    assert_int_equal(tips_count_longest_ends(&t), 2);
     notched_free(&b, &t);
 }
 

@@ -86,7 +86,7 @@ static void test_work(void **state)
     for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
         struct soft_body s;
         pair_make(&s, law);
-        const real end = softening_end(&s.curve, ONSET, CRITICAL),
+        const real end = softening_end_stretch(&s.curve, ONSET, CRITICAL),
                    corner[] = {0, 1.4 * ONSET, -ONSET, 0.6 * end, 0, end};
         const real scale = s.c.bonds.stiffness * CLOUD_SPACING;
         real work = 0, before = 0, dissipated = 0;
@@ -220,11 +220,11 @@ static void test_ends(void **state)
     for (int64_t r = 0; r < b->rows; r++)
         for (int64_t k = 0; k < b->column_count[r / LANES]; k++) {
             const struct bond bond = bond_read(b, r / LANES, k, (int)(r % LANES));
-            if (bond.w == 0 || !bond_softens(b, r / LANES, bond.entry)) continue;
+            if (bond.w == 0 || !bond_is_softening(b, r / LANES, bond.entry)) continue;
             const int64_t other = b->row_of[bond.nbr];
             for (struct bond_iterator it = bond_iterator_of_row(b, other); bond_next(&it);) {
                 if (it.bond.nbr != b->particle[r]) continue;
-                assert_true(bond_softens(b, other / LANES, it.bond.entry));
+                assert_true(bond_is_softening(b, other / LANES, it.bond.entry));
                 assert_exact(b->soft.most[it.bond.entry], b->soft.most[bond.entry]);
                 checked += b->soft.most[bond.entry] > b->soft.onset[bond.entry];
             }

@@ -173,7 +173,7 @@ static real started(const struct bonds *b)
     int64_t begun = 0, all = 0;
     for (int64_t r = 0; r < b->rows; r++)
         for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it); all += it.bond.w != 0)
-            begun += it.bond.w != 0 && bond_softens(b, r / LANES, it.bond.entry);
+            begun += it.bond.w != 0 && bond_is_softening(b, r / LANES, it.bond.entry);
     return (real)begun / (real)all;
 }
 
@@ -246,14 +246,14 @@ static void test_ends(void **state)
     assert_true(started(b) > 0.1 && started(b) < 0.9);
     for (int64_t r = 0; r < b->rows; r++)
         for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
-            if (!bond_softens(b, r / LANES, it.bond.entry)) continue;
-            const struct bond_softness own = bond_softness_get(&b->soft, it.bond.entry);
+            if (!bond_is_softening(b, r / LANES, it.bond.entry)) continue;
+            const struct bond_softness own = bond_softness_load(&b->soft, it.bond.entry);
             const int64_t other = b->row_of[it.bond.nbr];
             assert_close(own.end, square(CRITICAL) / own.onset, 1e-6);
             assert_true(own.onset <= CRITICAL / sqrt(2) * (1 + 1e-6) && own.onset >= 0.3 * 0.4 * CRITICAL * (1 - 1e-6));
             for (struct bond_iterator back = bond_iterator_of_row(b, other); bond_next(&back);) {
                 if (back.bond.nbr != b->particle[r]) continue;
-                const struct bond_softness there = bond_softness_get(&b->soft, back.bond.entry);
+                const struct bond_softness there = bond_softness_load(&b->soft, back.bond.entry);
                 assert_exact(there.most, own.most);
                 assert_exact(there.onset, own.onset);
                 assert_exact(there.end, own.end);
@@ -289,7 +289,7 @@ static void test_scatter(void **state)
         for (int64_t i = 0; i < p->n; i++) {
             int64_t begun = 0, bonds = 0;
             for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it); bonds++)
-                begun += bond_softens(b, b->row_of[i] / LANES, it.bond.entry);
+                begun += bond_is_softening(b, b->row_of[i] / LANES, it.bond.entry);
             if (i == weak) assert_int_equal(begun, k == 0 ? 0 : bonds);
             if (i != weak) assert_true(begun <= (k == 0 ? 0 : 1));
         }

@@ -55,7 +55,7 @@ static void setting_make(struct setting *s, int dim, enum shape shape, enum tran
         p->kind[i] = KIND_MPM;
         for (int c = 0; c < symmetric_component_count(dim); c++) p->stress[c][i] = cloud_between(&seed, -1e8, 1e8);
     }
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
     s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING, .anchor = {0.37e-3, 0.11e-3, 0.23e-3}};
     if (crowded) setting_crowd(s);
     for (int d = 0; d < dim; d++) particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
@@ -160,7 +160,7 @@ static void test_uniform(void **state)
                 int64_t rest = I;
                 s.g.velocity[a][I] = 0;
                 for (int d = 0; d < dim; d++) {
-                    s.g.velocity[a][I] += L[a][d] * grid_position(&s.g, d, rest % s.g.count[d]);
+                    s.g.velocity[a][I] += L[a][d] * grid_node_position(&s.g, d, rest % s.g.count[d]);
                     rest /= s.g.count[d];
                 }
             }

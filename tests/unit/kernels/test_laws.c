@@ -41,17 +41,18 @@ static void test_flow_laws(void **state)
             const real a = exp(cloud_between(&seed, -9, 0)), rate = exp(cloud_between(&seed, -3, 12));
             const real T = cloud_between(&seed, 200, 1300), step = 1e-5 * a;
             lanes slope;
-            const lanes stress = flow_stress(&m, lanes_broadcast(a), lanes_broadcast(rate), lanes_broadcast(T), &slope);
+            const lanes stress =
+                law_flow_stress(&m, lanes_broadcast(a), lanes_broadcast(rate), lanes_broadcast(T), &slope);
             assert_close(stress[5], reference_stress(&m, a, rate, T), 5e-15);
             const real rise = reference_stress(&m, a + step, rate, T) - reference_stress(&m, a - step, rate, T);
             const bool kink = flow == FLOW_TABLE && (fabs(a - 0.01) <= step || fabs(a - 0.05) <= step);
             if (!kink) assert_near(slope[2], rise / (2 * step), 1e-8 * stress[0] / a + 1e-9 * slope[2]);
-            const real reach = flow_strain_bound(&m, stress, lanes_broadcast(rate), lanes_broadcast(T))[1];
+            const real reach = law_plastic_strain_bound(&m, stress, lanes_broadcast(rate), lanes_broadcast(T))[1];
             assert_true(reach >= a * (1 - 1e-12)); /* powers 1/n of roundings */
             const lanes upper =
-                flow_stress_integral(&m, lanes_broadcast(a + step), lanes_broadcast(rate), lanes_broadcast(T));
+                law_flow_stress_integral(&m, lanes_broadcast(a + step), lanes_broadcast(rate), lanes_broadcast(T));
             const lanes lower =
-                flow_stress_integral(&m, lanes_broadcast(a - step), lanes_broadcast(rate), lanes_broadcast(T));
+                law_flow_stress_integral(&m, lanes_broadcast(a - step), lanes_broadcast(rate), lanes_broadcast(T));
             const real mean = (reference_stress(&m, a + step, rate, T) + 4 * reference_stress(&m, a, rate, T) +
                                reference_stress(&m, a - step, rate, T)) /
                               6;

@@ -35,7 +35,7 @@ static struct material material(enum space space, real poisson, real hardening)
                          .density = 1,
                          .yield_stress = YIELD,
                          .yield_tangent = hardening / (1 + hardening)};
-    material_compute_constants(&m, space);
+    material_compute_derived_constants(&m, space);
     return m;
 }
 
@@ -45,7 +45,7 @@ static struct metal constants(const struct material *m, enum space space)
     metal.elastic =
         (struct elastic){.c11 = m->c11, .c12 = m->c12, .shear = m->shear, .space = space, .poisson = m->poisson};
     metal.law = (struct law){.given = true, .flow = FLOW_LINEAR, .hardening = m->yield_hardening};
-    law_compute_constants(&metal.law, m->yield_stress, m->young, m->poisson, m->shear, m->density);
+    law_compute_derived_constants(&metal.law, m->yield_stress, m->young, m->poisson, m->shear, m->density);
     return metal;
 }
 

@@ -32,7 +32,7 @@ static void points_make(struct points *s, int dim)
     assert_int_equal(grid_extend_box(&s->g, (real[]){-4, -4, -4}, (real[]){4, 4, 4}, 100000, &changed), OK);
     s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .half_width = 0.25};
     for (int64_t i = 0; i < POINTS; i++) s->p.volume[i] = 1;
-    particles_update_lists(&s->p);
+    particles_update_kind_lists(&s->p);
 }
 
 /* Places points between -4 and 4, every fourth on a node or in the middle of a cell, with widths of up to two cells. */
@@ -59,7 +59,7 @@ static real moment(const struct grid *g, const real *field, int axis)
 {
     real sum = 0;
     for (int64_t I = 0; I < g->n; I++)
-        sum += field[I] * (axis < 0 ? 1 : grid_position(g, axis, I / g->stride[axis] % g->count[axis]));
+        sum += field[I] * (axis < 0 ? 1 : grid_node_position(g, axis, I / g->stride[axis] % g->count[axis]));
     return sum;
 }
 

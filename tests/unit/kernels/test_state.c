@@ -25,7 +25,7 @@ static void body_make(struct body *b, const struct cloud_plan *plan, enum pd_mod
     for (int k = 0; k < CLOUD_MATERIALS; k++) {
         struct material *m = &b->c.material[k];
         m->poisson = poisson;
-        material_compute_constants(m, plan->space);
+        material_compute_derived_constants(m, plan->space);
         b->modulus[k] = (struct state_modulus){D * D * (rotates ? m->c12 : m->c12 - m->shear),
                                                rotates ? 2 * D * m->shear : D * (D + 2) * m->shear};
     }
@@ -269,7 +269,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
     const int dim = space_dim(space);
     body_make(b, &plan, model, 0.3, local);
     cloud_bonds(&b->c);
-    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) row_block_write_columns(&b->c.bonds, g);
+    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) row_block_expand_stencil(&b->c.bonds, g);
     for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) /* a cut along x = 4.5, up to y = 4 */
         for (int64_t q = b->c.bonds.column[g] * LANES; q < (b->c.bonds.column[g] + b->c.bonds.column_count[g]) * LANES;
              q++) {
@@ -277,7 +277,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             const real *X = b->c.p.X[0], *Y = b->c.p.X[1], line = 4.5 * CLOUD_SPACING;
             if (b->c.bonds.w[q] == 0 || (X[i] < line) == (X[j] < line) || Y[i] + Y[j] > 8 * CLOUD_SPACING) continue;
             b->c.bonds.w[q] = 0, b->c.bonds.inverse_length[q] *= -1;
-            bonds_update_common_of_bond(&b->c.bonds, g * LANES + q % LANES, q);
+            bond_changed_update_column(&b->c.bonds, g * LANES + q % LANES, q);
         }
     state_update_weighted_volumes(&b->c.bonds, &b->c.p, &b->c.source);
     uint64_t seed = 17;
@@ -386,7 +386,7 @@ static void test_volumes(void **state)
             cloud_bonds(&b.c);
             Q[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[i]];
             corner[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[0]];
-            if (local) assert_close(Q[1], state_intact_weighted_volume(&b.c.bonds, b.c.bonds.row_of[i]), 1e-6);
+            if (local) assert_close(Q[1], state_row_intact_weighted_volume(&b.c.bonds, b.c.bonds.row_of[i]), 1e-6);
             plotted_particles_free(&b.c);
         }
         assert_close(Q[0], Q[1], 1e-6);
@@ -436,10 +436,10 @@ static void test_critical_step(void **state)
                   want[k].model, want[k].nu, true);
         cloud_bonds(&b.c);
         real step =
-            critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000, (real[]){1, 1}, NULL);
+            lattice_critical_time_step(&b.c.source, state_force_table[2][want[k].model], 8000, (real[]){1, 1}, NULL);
         assert_close(step * b.c.material[0].wave_speed / CLOUD_SPACING, want[k].limit, 0.06);
-        const real light = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000 * 0x1p-80,
-                                                    (real[]){1, 1}, NULL);
+        const real light = lattice_critical_time_step(&b.c.source, state_force_table[2][want[k].model], 8000 * 0x1p-80,
+                                                      (real[]){1, 1}, NULL);
         assert_close(light, step * 0x1p-40, 1e-12);
         plotted_particles_free(&b.c);
     }

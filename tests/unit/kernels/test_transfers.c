@@ -53,7 +53,7 @@ static void random_state(struct scene *s, uint64_t *seed, real spin)
         for (int k = 0; k < s->dim * s->dim && s->optional & WITH_GRADIENT; k++)
             p->gradient[k][i] = cloud_between(seed, -1e3, 1e3);
     }
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
 }
 
 /* Gives every second point a random partial stress, which it leaves to bonds. */
@@ -480,7 +480,7 @@ static void yields_case(const struct choice *k)
     scene_make(&s, k, 200), scene_make(&elastic, k, 200);
     const struct material *own = &s.c.material[0];
     struct law law = {.given = true, .flow = FLOW_LINEAR, .hardening = 3e9};
-    law_compute_constants(&law, 6e7, own->young, own->poisson, own->shear, own->density);
+    law_compute_derived_constants(&law, 6e7, own->young, own->poisson, own->shear, own->density);
     s.elastic[0].law = &law, s.elastic[0].space = space[k->dim], s.t.laws = true;
     for (int64_t i = 0; i < s.c.p.n; i++) s.c.p.plastic_strain[i] = 1e-3 * (real)(i % 7);
     scene_step(&s, k, impulse, &work), scene_step(&elastic, k, impulse, &work);

@@ -45,7 +45,7 @@ static void scene_make(struct scene *s, int dim, int shape)
         p->kind[i] = cloud_random(&s->seed) < (p->body[i] ? 0.6 : 0.2) ? KIND_PD : KIND_MPM;
         for (int d = 0; d < dim; d++) p->v[d][i] = cloud_between(&s->seed, -3, 5);
     }
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
     s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING};
     for (int d = 0; d < dim; d++) {
         s->g.anchor[d] = (3.17 + d) * CLOUD_SPACING;
@@ -74,7 +74,7 @@ static void scene_free(struct scene *s)
 
 static void node_place(const struct grid *g, int64_t I, real *x)
 {
-    for (int d = 0; d < 3; d++) x[d] = d < g->dim ? grid_position(g, d, I / g->stride[d] % g->count[d]) : 0;
+    for (int d = 0; d < 3; d++) x[d] = d < g->dim ? grid_node_position(g, d, I / g->stride[d] % g->count[d]) : 0;
 }
 
 /* Adds m a and m x x a to six sums; size[2]: sums of their magnitudes. */
@@ -104,7 +104,7 @@ static void gather(struct scene *s)
         for (int d = 0; d < s->dim; d++) s->g.force[d][I] = s->g.mass[I] > 0 ? cloud_between(&s->seed, -2, 1) : 0;
     rotation_groups_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
     turn_gather_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
-    rotation_groups_restore_spins(&s->turning, &s->c.p);
+    rotation_groups_restore_angular_momentum(&s->turning, &s->c.p);
 }
 
 /* Computes the nodal velocities of the second map for unchanged points. */
@@ -205,11 +205,11 @@ static void test_groups(void **state)
     scene_make(&s, 2, SHAPE_LINEAR);
     struct particles *p = &s.c.p;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->body[i] == 0 || i == p->n - 1 ? KIND_MPM : KIND_PD;
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
     rotation_groups_compute_spins(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) s.turning.turn[2][k] = 1e-9;
     const real alone = p->v[1][p->n - 1];
-    rotation_groups_restore_spins(&s.turning, p);
+    rotation_groups_restore_angular_momentum(&s.turning, p);
     assert_true(p->v[1][p->n - 1] == alone);
     for (int32_t g = 0; g < s.turning.groups; g++) {
         const struct turning_group *own = &s.turning.group[g], *root = &s.turning.group[own->root];
@@ -240,7 +240,7 @@ static void test_held(void **state)
         assert_true(p->kind[k] != KIND_MPM || s.turning.turn[2][k] == 0);
         s.turning.turn[2][k] = 1e-6;
     }
-    rotation_groups_restore_spins(&s.turning, p);
+    rotation_groups_restore_angular_momentum(&s.turning, p);
     assert_true(arrays_equal(before, p->v[1], p->n, sizeof(real)));
     memory_free(before);
     scene_free(&s);

@@ -72,7 +72,7 @@ static void body_free(struct body *a)
 /* Computes the forces by the calls of a time step, without breaking. */
 static void forces(struct run *e)
 {
-    loads_update_images(&e->loads, &e->part);
+    loads_update_mirror_images(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
 }
 

@@ -56,13 +56,13 @@ static void test_values(void **state)
         for (int64_t k = 0; k < m.c.p.n; k += 11) {
             real u[DIM_MAX];
             const real place = formula ? square(m.c.p.X[0][k]) : 1;
-            load_displacement_at(&m.l.load[0], &m.c.p, k, 2, u);
+            load_displacement_of_particle(&m.l.load[0], &m.c.p, k, 2, u);
             assert_near(u[0], 0.5 * 3 * place, 1e-15 * 3); /* t/4 at 2 is 1/2, and so is its integral */
-            load_displacement_at(&m.l.load[0], &m.c.p, k, 6, u);
+            load_displacement_of_particle(&m.l.load[0], &m.c.p, k, 6, u);
             assert_near(u[0], (displaces ? 1 : 4) * 3 * place, 1e-15 * 12);
             assert_true(u[1] == 0);
         }
-        assert_ok(load_check_displacement_known(&b));
+        assert_ok(boundary_check_displacement_known(&b));
         displaced_free(&m);
     }
     expression_free(&b.formula[0]);
@@ -119,7 +119,7 @@ static void test_turn(void **state)
     for (int64_t k = 0; k < m.c.p.n; k++) {
         real u[DIM_MAX];
         const real x = m.c.p.X[0][k] - b.centre[0], y = m.c.p.X[1][k] - b.centre[1];
-        load_displacement_at(&m.l.load[0], &m.c.p, k, 4, u); /* the integral of t/4 to 4 is 2 */
+        load_displacement_of_particle(&m.l.load[0], &m.c.p, k, 4, u); /* the integral of t/4 to 4 is 2 */
         assert_near(u[0], -y - x, 1e-15 * 10 * CLOUD_SPACING);
         assert_near(u[1], x - y, 1e-15 * 10 * CLOUD_SPACING);
     }
@@ -137,18 +137,18 @@ static void test_formula_of_time(void **state)
     real u[DIM_MAX];
     by_x(&b.formula[0], true);
     displaced_make(&m, &b);
-    load_displacement_at(&m.l.load[0], &m.c.p, 3, 5, u);
+    load_displacement_of_particle(&m.l.load[0], &m.c.p, 3, 5, u);
     assert_true(m.c.p.X[0][3] != 0 && u[0] == 5 * m.c.p.X[0][3]);
-    assert_ok(load_check_displacement_known(&b));
+    assert_ok(boundary_check_displacement_known(&b));
     displaced_free(&m);
     b.displaces = false;
-    assert_true(load_check_displacement_known(&b) == REFUSED);
+    assert_true(boundary_check_displacement_known(&b) == REFUSED);
     assert_non_null(
         strstr(status_message(), "boundary grip: with this solver or frame a velocity that is a formula of t"));
     b.frozen = true, b.frozen_at = 2, b.time = (struct time_function){.kind = TIME_STEP, .until = 1};
-    assert_ok(load_check_displacement_known(&b));
+    assert_ok(boundary_check_displacement_known(&b));
     displaced_make(&m, &b);
-    load_displacement_at(&m.l.load[0], &m.c.p, 3, 1, u);
+    load_displacement_of_particle(&m.l.load[0], &m.c.p, 3, 1, u);
     assert_true(u[0] == 2 * m.c.p.X[0][3]);
     displaced_free(&m);
     expression_free(&b.formula[0]);
@@ -170,11 +170,13 @@ static void test_steepest(void **state)
             most = real_max(most, fabs(time_function_value(&f[k], 2.0 * (p + 1) / PIECES) -
                                        time_function_value(&f[k], 2.0 * p / PIECES)) /
                                       (2.0 / PIECES));
-        assert_close(time_function_largest_slope(&f[k], 2), most, 1e-6);
+        assert_close(time_function_largest_slope_until(&f[k], 2), most, 1e-6);
     }
-    assert_true(time_function_largest_slope(&f[1], 0.2) == 0 && time_function_largest_slope(&f[2], 0.05) == 0);
+    assert_true(time_function_largest_slope_until(&f[1], 0.2) == 0 &&
+                time_function_largest_slope_until(&f[2], 0.05) == 0);
     const struct time_function step = {.kind = TIME_STEP, .from = 0, .until = 1};
-    assert_true(time_function_largest_slope(&step, 0.9) == 0 && isinf(time_function_largest_slope(&step, 1.1)));
+    assert_true(time_function_largest_slope_until(&step, 0.9) == 0 &&
+                isinf(time_function_largest_slope_until(&step, 1.1)));
 }
 
 /* Static problem: displacements at the end, per particle; half the support forces times the displacements is the
@@ -192,12 +194,12 @@ static void test_static(void **state)
                     end;
     struct displaced m;
     by_x(&b.formula[0], true);
-    loads_make_static_boundaries(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, times a factor 1/2 */
+    static_boundaries_make(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, times a factor 1/2 */
     displaced_make(&m, &end);
     struct particles *p = &m.c.p;
     real *u[2] = {NEW("test.u", p->n, real), NEW("test.u", p->n, real)}, work = 0, mean = 0;
     uint8_t *held = NEW("test.held", p->n, uint8_t);
-    static_displacements_compute(&m.l, p, 0.1, u, held);
+    loads_compute_static_displacements(&m.l, p, 0.1, u, held);
     for (int64_t i = 0; i < p->n; i++) {
         assert_true(held[i] == 1 && u[1][i] == 0);
         assert_close(u[0][i], 4 * p->X[0][i], 1e-15);

@@ -400,7 +400,7 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
     for (int step = 0; step < STEPS; step++) assert_ok(engine_step(e));
     diagnostics_make(&w);
     const struct grid *nodes[] = {&e->frame->mesh.grid};
-    diagnostics_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
+    diagnostics_update_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
     const real t = observed_run_of(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
                                                           (one     ? 3e-6
                                                            : three ? 1

@@ -30,7 +30,8 @@ static void test_sine(void **state)
     assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
     loads_clear_forces(&l, p);
-    loads_finish_particle_forces(&l, p, 1 + 0.5 * dt, dt, dt); /* velocity update around t = 1: a quarter of the ramp */
+    loads_complete_particle_forces(&l, p, 1 + 0.5 * dt, dt,
+                                   dt); /* velocity update around t = 1: a quarter of the ramp */
     for (int64_t i = 0; i < p->n; i++) {
         real along = 0.6 * (p->X[0][i] - CLOUD_SPACING) + 0.8 * (p->X[1][i] + CLOUD_SPACING);
         real factor = 0.25 * sin(2 * M_PI * along / length);
@@ -47,8 +48,8 @@ static void test_sine(void **state)
             p->x[d][i] += way;
             work += way * p->f[d][i];
         }
-    loads_impose_motion(&l, p, 1, dt); /* as if the middle of the step were at t = 1 */
-    assert_close(l.work, work, 1e-8);  /* displacements of 1e-6 at positions near 1e-2, accurate to 1e-18 */
+    loads_impose_prescribed_motion(&l, p, 1, dt); /* as if the middle of the step were at t = 1 */
+    assert_close(l.work, work, 1e-8);             /* displacements of 1e-6 at positions near 1e-2, accurate to 1e-18 */
     assert_true(fabs(work) > 1e-9);
     loads_free(&l);
     plotted_particles_free(&c);
@@ -87,10 +88,10 @@ static void check_together(int threads, bool together, real *impulse, real *work
         assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING,
                              3 * CLOUD_SPACING, 0));
         if (k == 0) loads_clear_forces(&l, &c.p);
-        loads_finish_particle_forces(&l, &c.p, 1, dt, dt);
+        loads_complete_particle_forces(&l, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
-        loads_impose_motion(&l, &c.p, 1, dt);
+        loads_impose_prescribed_motion(&l, &c.p, 1, dt);
         for (int d = 0; d < 2; d++) impulse[d] += l.impulse[d];
         *work += l.work;
         for (int d = 0; d < 2; d++)
@@ -147,7 +148,7 @@ static void test_kicks(void **state)
         assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
         for (int step = 0; step < 10; step++) {
             loads_clear_forces(&l, &c.p);
-            loads_finish_particle_forces(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
+            loads_complete_particle_forces(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
         }
         assert_close(l.impulse[0], 4 * 3e6 * volume * row[k].until_now, 1e-12);
         loads_free(&l);
@@ -221,7 +222,7 @@ static void test_mean_displacement(void **state)
         c.p.x[0][i] += u;
         shares += share, moved += share * u;
     }
-    load_sum_force_and_motion(&l.load[0], &c.p, 1);
+    load_sum_force_and_mean_displacement(&l.load[0], &c.p, 1);
     assert_close(l.load[0].reaction[0], 2e6 * volume * shares, 1e-12);
     assert_close(l.load[0].reaction[1], -3e6 * volume * shares, 1e-12);
     assert_close(l.load[0].displacement[0], moved / shares, 1e-9);
@@ -249,7 +250,7 @@ static void test_force_at(void **state)
     for (int64_t k = 0; k < l.load[0].n; k++) {
         const real volume = square(CLOUD_SPACING) * 2e-3, x = c.p.X[0][l.load[0].particle[k]];
         real force[DIM_MAX];
-        load_force_at(&l.load[0], &c.p, k, 1.3, force);
+        load_force_on_particle(&l.load[0], &c.p, k, 1.3, force);
         assert_close(force[0], 1.3 / 4 * 2e6 * volume * x * 1.3, 1e-12);
         assert_close(force[1], 1.3 / 4 * -3e6 * volume, 1e-12);
     }

@@ -37,7 +37,7 @@ static void deform(struct particles *p, real pd_radius)
         for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] * (1.01 + 0.004 * d + 1e-5 * r2);
         p->kind[i] = r2 < square(pd_radius) ? KIND_PD : KIND_MPM;
     }
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
 }
 
 static void find_twins(struct quarter *q)
@@ -74,7 +74,7 @@ static void quarter_bodies(struct quarter *q, enum space space, enum surface_rul
         loads_make(&q->loads, mirror, COUNT_OF(mirror), &q->part.p, CLOUD_SPACING, q->part.source.family.cutoff, 0),
         OK);
     deform(&q->part.p, pd_radius);
-    loads_update_images(&q->loads, &q->part.p);
+    loads_update_mirror_images(&q->loads, &q->part.p);
     q->part.source.image = q->loads.image;
 }
 
@@ -118,8 +118,9 @@ static void check_forces(struct quarter *q)
     for (int s = 0; s < dim; s++) assert_true(deviation(q, q->part.p.stress[s], q->whole.p.stress[s]) <= CLOSE);
     for (int64_t i = 0; i < q->part.p.n; i++) {
         int32_t a = q->part.bonds.row_of[i], b = q->whole.bonds.row_of[q->twin[i]];
-        const bool bonded = a >= 0 && (row_block_intact_lanes(&q->part.bonds, a / LANES) >> a % LANES & 1);
-        assert_int_equal(bonded, b >= 0 && (row_block_intact_lanes(&q->whole.bonds, b / LANES) >> b % LANES & 1));
+        const bool bonded = a >= 0 && (row_block_lanes_with_intact_bonds(&q->part.bonds, a / LANES) >> a % LANES & 1);
+        assert_int_equal(bonded,
+                         b >= 0 && (row_block_lanes_with_intact_bonds(&q->whole.bonds, b / LANES) >> b % LANES & 1));
         if (bonded) assert_true(fabs(q->part.bonds.family_volume[a] / q->whole.bonds.family_volume[b] - 1) <= 1e-6);
     }
 }
@@ -228,8 +229,8 @@ static void quarter_families(struct quarter *q, enum space space, enum pd_model 
     for (int k = 0; k < 2; k++)
         for (int m = 0; m < CLOUD_MATERIALS; m++) {
             both[k]->material[m].poisson = 0.2;
-            material_compute_constants(&both[k]->material[m], space);
-            modulus[m] = state_modulus_of(&both[k]->material[m], space, model == PD_MOSPD);
+            material_compute_derived_constants(&both[k]->material[m], space);
+            modulus[m] = state_modulus_of_material(&both[k]->material[m], space, model == PD_MOSPD);
             both[k]->source.modulus = modulus, both[k]->source.rotates = model == PD_MOSPD;
             both[k]->source.mirror_axis = axis;
         }
@@ -307,7 +308,7 @@ static void points_state(struct particles *p)
         p->stress[p->dim][i] = 1e7 * X[0] * X[1]; /* xy */
         if (p->dim == 3) p->stress[4][i] = 1e7 * X[1], p->stress[5][i] = 1e7 * X[0];
     }
-    particles_update_lists(p);
+    particles_update_kind_lists(p);
 }
 
 /* Creates the body. offset: of the planes from a node [node distances]. */
@@ -345,7 +346,7 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     k.g2p(&s->g, s->p, &s->t);
     for (int b = 0; b < s->loads.n; b++) memset(s->loads.load[b].reaction, 0, sizeof s->loads.load[b].reaction);
     loads_add_grid_reactions(&s->loads, &s->g, s->t.dt_velocity);
-    loads_impose_motion(&s->loads, s->p, 0, s->t.dt);
+    loads_impose_prescribed_motion(&s->loads, s->p, 0, s->t.dt);
 }
 
 static void points_free(struct points *s)
@@ -440,7 +441,7 @@ static void test_mirror_places(void **state)
     assert_int_equal(loads_make(&l, strip, COUNT_OF(strip), &c.p, CLOUD_SPACING, reach, 0), OK);
     for (int64_t i = 0; i < c.p.n; i++)
         for (int d = 0; d < 2; d++) c.p.x[d][i] = c.p.X[d][i] + 1e-13 * CLOUD_SPACING * sin((real)(i + d));
-    loads_update_images(&l, &c.p);
+    loads_update_mirror_images(&l, &c.p);
     for (int64_t a = 0; a < l.images; a++)
         for (int64_t b = 0; b < l.images; b++) {
             const struct image *i = &l.image[a], *j = &l.image[b];

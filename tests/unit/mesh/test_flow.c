@@ -24,7 +24,7 @@ static void flow_block_make(struct block *b, enum space space, real yield, int o
         const struct material *own = &b->c.material[m];
         const real shear = space == SPACE_LINE ? 0.4 * k->c11 : k->shear;
         b->law[m] = (struct law){.given = true, .flow = FLOW_LINEAR, .hardening = m > 0 ? 0.1 * shear : 0};
-        law_compute_constants(&b->law[m], yield * shear, own->young, own->poisson, k->shear, own->density);
+        law_compute_derived_constants(&b->law[m], yield * shear, own->young, own->poisson, k->shear, own->density);
         k->law = &b->law[m], k->mode = LAW_LOAD_STEP, k->poisson = own->poisson;
     }
 }

@@ -45,7 +45,7 @@ static void levels_set(struct plate *b, bool bend)
 {
     uint8_t *demand = NEW("test.demand", 2 * b->mesh.grid.n, uint8_t), *level = demand + b->mesh.grid.n;
     demand_mark(b, demand, bend);
-    levels_coarsest_admissible(&b->levels, &b->c.p, demand, NULL, level);
+    levels_compute_coarsest_admissible(&b->levels, &b->c.p, demand, NULL, level);
     levels_change_refinement(&b->levels, &b->c.p, &b->source, level);
     memory_free(demand);
 }
@@ -100,7 +100,7 @@ static bool node_free(const struct mesh_levels *l, int level, int64_t I)
 
 static real place_of(const struct mesh *mesh, int64_t I, int d)
 {
-    return grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
+    return grid_node_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
 /* Sets u or v of all nodes to A X + c plus a random motion of at most `by`. */
@@ -124,7 +124,7 @@ static void motion_set(struct plate *b, const real A[9], const real *c, real by,
     }
     if (velocity) levels_compute_momenta(l);
     for (int level = 1; level <= l->n; level++) levels_update_hanging(l, level);
-    levels_copy_to_ghosts(l);
+    levels_copy_motion_to_ghosts(l);
 }
 
 static void forces_of(struct plate *b, bool finite, int due)
@@ -307,9 +307,9 @@ static void steps_make(struct plate *b, int64_t n, bool finite)
 {
     for (int64_t k = 0; k < n; k++, b->step++) {
         real impulse[DIM_MAX] = {0}, work = 0;
-        const int due = levels_highest_acting(&b->levels, b->step);
+        const int due = levels_highest_due_in_step(&b->levels, b->step);
         forces_of(b, finite, due);
-        levels_move(&b->levels, b->dt, b->dt, due, impulse, &work);
+        levels_move_nodes(&b->levels, b->dt, b->dt, due, impulse, &work);
     }
 }
 
@@ -318,7 +318,7 @@ static real energy_of(struct plate *b, bool finite)
 {
     const real strain = strain_of(b, finite), before = kinetic_of(b);
     forces_of(b, finite, b->levels.n);
-    const real power = levels_power(&b->levels);
+    const real power = levels_power_of_forces(&b->levels);
     real own = 0;
     for (int d = 0; d < b->mesh.grid.dim; d++)
         for (int64_t I = 0; I < b->mesh.grid.n; I++) own += b->mesh.grid.velocity[d][I] * b->mesh.grid.force[d][I];
@@ -399,13 +399,13 @@ static void pulse_set(struct plate *b, real at, real width)
         }
     }
     levels_compute_momenta(l);
-    levels_copy_to_ghosts(l);
+    levels_copy_motion_to_ghosts(l);
 }
 
 /* Computes the displacement at the nodes of level 0. */
 static void profile_of(struct plate *b, real *u)
 {
-    levels_prolong_motion(&b->levels);
+    levels_prolong_motion_to_fine_nodes(&b->levels);
     memcpy(u, b->mesh.displacement[0], (size_t)b->mesh.grid.n * sizeof *u);
 }
 
@@ -463,7 +463,7 @@ static real reflection(int levels, real width)
     const int64_t n = b.mesh.grid.n;
     uint8_t *demand = NEW("test.demand", 2 * n, uint8_t), *level = demand + n;
     for (int64_t I = 0; I < n; I++) demand[I] = I - b.levels.offset[0][0] < LENGTH / 4;
-    levels_coarsest_admissible(&b.levels, &b.c.p, demand, NULL, level);
+    levels_compute_coarsest_admissible(&b.levels, &b.c.p, demand, NULL, level);
     levels_change_refinement(&b.levels, &b.c.p, &b.source, level);
     pulse_set(&b, 0.3 * LENGTH * CLOUD_SPACING, width);
     real *u = NEW("test.u", n, real);

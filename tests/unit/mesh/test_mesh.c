@@ -8,7 +8,7 @@
 /* f = -dW/du by central differences of the plain energy of the cells around a node. Tolerance 1e-7 of the largest
  * force: third derivatives times the squared step, and round-off of the energy over the step. */
 /* averaged: 1: with one dilatation in a cell, 2: and with several materials. */
-static void gradient_evaluate(enum space space, bool finite, bool cubic, int averaged)
+static void gradient_stencil_apply(enum space space, bool finite, bool cubic, int averaged)
 {
     struct block b;
     block_make(&b, space, true, cubic);
@@ -46,13 +46,13 @@ static void test_gradient(void **state)
 {
     (void)state;
     for (unsigned s = 0; s < COUNT_OF(spaces); s++)
-        for (int finite = 0; finite < 2; finite++) gradient_evaluate(spaces[s], finite, false, 0);
-    gradient_evaluate(SPACE_PLANE_STRESS, true, true, 0); /* constants of a lattice, anisotropic */
-    gradient_evaluate(SPACE_SOLID, true, true, 0);
+        for (int finite = 0; finite < 2; finite++) gradient_stencil_apply(spaces[s], finite, false, 0);
+    gradient_stencil_apply(SPACE_PLANE_STRESS, true, true, 0); /* constants of a lattice, anisotropic */
+    gradient_stencil_apply(SPACE_SOLID, true, true, 0);
     for (unsigned s = 1; s < COUNT_OF(spaces); s++)
         for (int averaged = 1; averaged < 3; averaged++) {
-            gradient_evaluate(spaces[s], false, true, averaged);
-            gradient_evaluate(spaces[s], true, false, averaged);
+            gradient_stencil_apply(spaces[s], false, true, averaged);
+            gradient_stencil_apply(spaces[s], true, false, averaged);
         }
 }
 
@@ -100,7 +100,7 @@ static void given_own(const struct block *b, const struct partial_stress *partia
     for (int a = 0; a < dim; a++)
         for (int k = 0; k < dim; k++)
             for (int c = 0; c < 1 << dim; c++)
-                g[a * dim + k] += mesh_shape_function_slope(dim, c, place, k) / mesh->grid.h *
+                g[a * dim + k] += mesh_shape_function_derivative(dim, c, place, k) / mesh->grid.h *
                                   mesh->displacement[a][(mesh->place[i] >> dim) + mesh->corner[c]];
     for (int a = 0; a < dim; a++) trace += g[a * dim + a];
     for (int a = 0; a < dim; a++) g[a * dim + a] += (point_trace(b, i, false) - trace) / dim;
@@ -177,7 +177,8 @@ static void test_partial(void **state)
                     for (int k = 0; k < dim; k++)
                         b.mesh.grid.force[a][(b.mesh.place[i] >> dim) + b.mesh.corner[c]] +=
                             b.mesh.volume * P[a * dim + k] *
-                            mesh_shape_function_slope(dim, c, b.mesh.place[i] & ((1 << dim) - 1), k) / b.mesh.grid.h;
+                            mesh_shape_function_derivative(dim, c, b.mesh.place[i] & ((1 << dim) - 1), k) /
+                            b.mesh.grid.h;
         }
         assert_near(largest_force(&b), 0, 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
         partial_stress_free(&partial);
@@ -312,12 +313,12 @@ static void test_step(void **state)
     for (int m = 0; m < CLOUD_MATERIALS; m++) density[m] = b.c.material[m].density;
     b.source.materials = 1;
     const real c = b.c.material[0].wave_speed;
-    assert_close(mesh_critical_step(&b.mesh, &b.source, density, true), sqrt(0.75 / (4.0 / 3)) * 2 * CLOUD_SPACING / c,
-                 0.002);
+    assert_close(mesh_critical_time_step(&b.mesh, &b.source, density, true),
+                 sqrt(0.75 / (4.0 / 3)) * 2 * CLOUD_SPACING / c, 0.002);
     block_free(&b);
     block_make(&b, SPACE_LINE, false, false);
     b.source.materials = 1;
-    assert_close(mesh_critical_step(&b.mesh, &b.source, density, false),
+    assert_close(mesh_critical_time_step(&b.mesh, &b.source, density, false),
                  2 * CLOUD_SPACING / b.c.material[0].wave_speed * sqrt(0.75), 0.002);
     block_free(&b);
 }

@@ -44,7 +44,7 @@ static bool parted(const struct block *b, int64_t i, int64_t j)
     real X[DIM_MAX], Y[DIM_MAX];
     particle_reference_position(&b->c.p, i, X);
     particle_reference_position(&b->c.p, j, Y);
-    return crack_cuts(&slit_made, X, Y, b->c.p.dim);
+    return crack_cuts_bond(&slit_made, X, Y, b->c.p.dim);
 }
 
 static real total_mass(const struct block *b)

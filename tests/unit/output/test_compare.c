@@ -54,13 +54,13 @@ static void figures_are_found(void **state)
     put("sound/summary.json", sound);
     for (size_t k = 0; k < COUNT_OF(wanted); k++) {
         double value;
-        assert_int_equal(summary_number("sound", wanted[k].key, &value), OK);
+        assert_int_equal(summary_read_number("sound", wanted[k].key, &value), OK);
         assert_true(value == wanted[k].value); /* the same text gives the same number */
     }
     char name[32], cut[4];
-    assert_int_equal(summary_string("sound", "name", name, sizeof name), OK);
+    assert_int_equal(summary_read_string("sound", "name", name, sizeof name), OK);
     assert_string_equal(name, "a \"b\"");
-    assert_int_equal(summary_string("sound", "name", cut, sizeof cut), OK);
+    assert_int_equal(summary_read_string("sound", "name", cut, sizeof cut), OK);
     assert_string_equal(cut, "a \"");
 }
 
@@ -74,7 +74,7 @@ static void absent_figures_are_refused(void **state)
     put("sound/summary.json", sound);
     for (size_t k = 0; k < COUNT_OF(absent); k++) {
         double value = 1;
-        assert_int_equal(summary_number("sound", absent[k], &value), FAILED);
+        assert_int_equal(summary_read_number("sound", absent[k], &value), FAILED);
         assert_true(isnan(value));
     }
 }
@@ -103,7 +103,7 @@ static void unsound_files_are_refused(void **state)
     for (size_t k = 0; k < COUNT_OF(unsound); k++) {
         double value = 1;
         put("unsound/summary.json", unsound[k]);
-        assert_int_equal(summary_number("unsound", "steps", &value), FAILED);
+        assert_int_equal(summary_read_number("unsound", "steps", &value), FAILED);
         assert_true(isnan(value));
         assert_non_null(strstr(status_message(), "not JSON"));
     }
@@ -111,12 +111,12 @@ static void unsound_files_are_refused(void **state)
     memset(deep, '[', sizeof deep - 1);
     put("unsound/summary.json", deep);
     double value;
-    assert_int_equal(summary_number("unsound", "steps", &value), FAILED);
-    assert_int_equal(summary_number("nowhere", "steps", &value), FAILED);
+    assert_int_equal(summary_read_number("unsound", "steps", &value), FAILED);
+    assert_int_equal(summary_read_number("nowhere", "steps", &value), FAILED);
     put("unsound/summary.json", "{\"conversion\": {\"returned\": 3}, \"load_steps\": {\"stretch_ratio\": 0.5}}");
-    assert_int_equal(summary_number("unsound", "conversion.reverted", &value), OK); /* by both names */
+    assert_int_equal(summary_read_number("unsound", "conversion.reverted", &value), OK); /* by both names */
     assert_true(value == 3);
-    assert_int_equal(summary_number("unsound", "load_steps.overload", &value), OK);
+    assert_int_equal(summary_read_number("unsound", "load_steps.overload", &value), OK);
     assert_true(value == 0.5);
 }
 
@@ -133,9 +133,9 @@ static void history_is_read_by_name(void **state)
     assert_int_equal(h.rows, 2); /* the third is still being written */
     assert_int_equal(history_find_column(&h, "kinetic"), 2);
     assert_int_equal(history_find_column(&h, "kin"), -1);
-    assert_true(history_at(&h, 1, history_find_column(&h, "time")) == 1e-6);
-    assert_true(isnan(history_at(&h, 0, 3)));
-    assert_true(isnan(history_at(&h, 0, -1)));
+    assert_true(history_value_at(&h, 1, history_find_column(&h, "time")) == 1e-6);
+    assert_true(isnan(history_value_at(&h, 0, 3)));
+    assert_true(isnan(history_value_at(&h, 0, -1)));
     history_free(&h);
     put("history/history.csv", "time [s],overload,inactive_share\n0,0.5,1\n");
     assert_int_equal(history_read(&h, "history"), OK); /* renamed columns have both of their names */

@@ -311,7 +311,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_int_equal(output_write_text(&o, made[k], "x", 1), OK);
     assert_int_equal(output_write_text(&o, "frames/000000.hdf.cleave.tmp", "x", 1), OK);
     assert_int_equal(file_append_footer("again/frames/000000.hdf"), OK); /* by which a frame is known as Cleave's */
-    assert_int_equal(file_publish("again/frames/000000.hdf"), OK);
+    assert_int_equal(file_replace_by_temporary("again/frames/000000.hdf"), OK);
     static const char *const others[] = {"frames/000001.hdf.tmp", "checkpoint.h5.tmp", "history.csv.tmp"};
     for (size_t k = 0; k < COUNT_OF(others); k++) assert_int_equal(output_write_text(&o, others[k], "mine", 4), OK);
     assert_int_equal(output_write_text(&o, "frames/000001.hdf.cleave.tmp", "x", 1), OK);

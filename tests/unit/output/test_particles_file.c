@@ -86,8 +86,8 @@ static void tables_come_back(void **state)
         for (int64_t i = 0; i < n; i++) narrow[i] = 5;
         if (n > 4097) wide[2 * 4500 + 1] = -0.0f, wide[2 * n - 1] = 3, narrow[20000] = 0;
         hdf_create(&f, "table.h5", false);
-        hdf_write_table(&f, "/wide", HDF_F32, n, 3, 2, wide);
-        hdf_write_table(&f, "/narrow", HDF_F32, n, 1, 1, narrow);
+        hdf_write_rows_zero_padded(&f, "/wide", HDF_F32, n, 3, 2, wide);
+        hdf_write_rows_zero_padded(&f, "/narrow", HDF_F32, n, 1, 1, narrow);
         hdf_close(&f);
         assert_false(f.failed);
         /* of each table at most two chunks of 4096 rows of 8 and 4 bytes hold more than one value */
@@ -275,7 +275,7 @@ static void complete_frames_are_read(void **state)
     H5Pclose(list);
     hdf_close(&from), hdf_close(&to);
     assert_int_equal(file_append_footer("complete.hdf"), OK);
-    assert_int_equal(file_publish("complete.hdf"), OK);
+    assert_int_equal(file_replace_by_temporary("complete.hdf"), OK);
     assert_int_equal(frame_read(&f, "complete.hdf"), OK);
     assert_true(f.n == 500 && f.t == 0.5 && f.step == 7 && f.X[2][9] == (float)p.X[2][9]);
     frame_free(&f);
@@ -320,7 +320,7 @@ static void contact_where_it_is(void **state)
     assert_null(strstr(text, "000000.hdf:/VTKHDF/PointData/contact_force"));
     assert_non_null(strstr(text, "000001.hdf:/VTKHDF/PointData/contact_force"));
     memory_free(text);
-    assert_int_equal(output_write_temporal(&o, scene_text), OK);
+    assert_int_equal(output_write_temporal_file(&o, scene_text), OK);
     hdf_open(&h, "touch/frames.vtkhdf");
     hdf_read_rows(&h, "/VTKHDF/PointData/contact_force", HDF_F32, 3000, all);
     assert_false(h.failed);

@@ -163,9 +163,9 @@ static void axes_have_prefixes(void **state)
         assert_string_equal(u.name, axis[k].name);
     }
     assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(6).factor == 1);
-    assert_string_equal(unit_of_figure("s", 3e-5).name, "µs");
-    assert_string_equal(unit_of_figure("m", 0.02).name, "mm");
-    assert_true(unit_of_figure("kg m/s", 3e-5).factor == 1);
+    assert_string_equal(unit_with_allowed_prefix("s", 3e-5).name, "µs");
+    assert_string_equal(unit_with_allowed_prefix("m", 0.02).name, "mm");
+    assert_true(unit_with_allowed_prefix("kg m/s", 3e-5).factor == 1);
 }
 
 /* A single distant particle changes neither the rectangle nor the range of colours, and is counted as outside. */
@@ -206,7 +206,7 @@ static void solids_are_seen_from_outside(void **state)
     struct plotted_particles c;
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     f.damage[555] = 1; /* inside */
-    const struct projection projection = {.outside = true, .camera = camera_along(2, 1), .normal = -1};
+    const struct projection projection = {.outside = true, .camera = camera_along_axis(2, 1), .normal = -1};
     plotted_particles_make(&c, &f, &projection);
     struct view v = {.from = {-6e-3, -6e-3}, .to = {6e-3, 6e-3}, .top = 1};
     int shown = 0, dark = 0;
@@ -299,7 +299,8 @@ static void stretched_solids_are_closed(void **state)
     struct plotted_particles c;
     int painted, blank;
     for (int64_t i = 0; i < f.n; i++) f.u[0][i] = 0.5F * f.X[0][i];
-    plotted_particles_make(&c, &f, &(struct projection){.outside = true, .camera = camera_along(2, 1), .normal = -1});
+    plotted_particles_make(&c, &f,
+                           &(struct projection){.outside = true, .camera = camera_along_axis(2, 1), .normal = -1});
     pixels_count(&c, 10 * SPACING, &painted, &blank);
     const double body = 15.0 * 8 / (20 * 20) * PIXELS * PIXELS;
     assert_true(painted >= 0.99 * body && painted < 1.06 * body);
@@ -353,12 +354,12 @@ static void rigid_bodies_are_shown(void **state)
         int rigid = 0, beside = 0;
         f.dim = dim;
         plotted_particles_make(&c, &f,
-                               &(struct projection){.outside = true, .camera = camera_along(2, 1), .normal = -1});
+                               &(struct projection){.outside = true, .camera = camera_along_axis(2, 1), .normal = -1});
         struct rigid_shown *r = NEW("test.rigid", 1, struct rigid_shown);
         *r = (struct rigid_shown){
             .shape = &shape,
             .at = {.centre = {2e-3, 1e-3, 0}, .x = {8e-3, 0, 0}, .turn = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}};
-        r->bounded = region_bounds(&shape, dim, r->low, r->high);
+        r->bounded = region_bounding_box(&shape, dim, r->low, r->high);
         c.dim = dim, c.rigids = 1, c.rigid = r;
         assert_true(fabs(view_around(&c, 1).to[0] - 9e-3) < 1.1 * SPACING);
         const struct view v = {.from = {-10e-3, -10e-3}, .to = {10e-3, 10e-3}, .top = 1};
@@ -379,7 +380,7 @@ static void cameras_are_right_handed(void **state)
 {
     (void)state;
     for (int k = 0; k < 7; k++) {
-        const struct camera c = k < 6 ? camera_along(k / 2, k % 2 ? 1 : -1) : camera_isometric;
+        const struct camera c = k < 6 ? camera_along_axis(k / 2, k % 2 ? 1 : -1) : camera_isometric;
         for (int d = 0; d < 3; d++) {
             const int a = (d + 1) % 3, b = (d + 2) % 3;
             assert_float_equal(c.right[a] * c.up[b] - c.right[b] * c.up[a], c.towards[d], 1e-9);

@@ -21,8 +21,8 @@ static void ledger_of_a_known_field(void **state)
     diagnostics_make(&w);
     assert_near(particles_kinetic_energy(&b.p), kinetic, kinetic * ROUND_OFF);
     real none[DIM_MAX] = {0};
-    diagnostics_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_energy_balance(&w, 0, &(struct energy){kinetic, 0, 0, 0, 0}, 0);
+    diagnostics_update_momentum(&w, &b.p, NULL, 0, none);
+    diagnostics_update_energy_balance(&w, 0, &(struct energy){kinetic, 0, 0, 0, 0}, 0);
     assert_near(w.now.momentum[0], 1600 * 3 * 2, 1e-9);
     assert_near(w.now.momentum[1], -1600 * 3, 1e-9);
     assert_near(w.now.balance_error, 0, 0);
@@ -31,21 +31,21 @@ static void ledger_of_a_known_field(void **state)
     /* An impulse and the work of a spring, both recorded by the loads. */
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[1][i] = 1;
     real impulse[DIM_MAX] = {0, 1600 * 3 * 2, 0};
-    diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_energy_balance(&w, 1, &(struct energy){kinetic, 2, 3, 0, 0}, 5);
+    diagnostics_update_momentum(&w, &b.p, NULL, 0, impulse);
+    diagnostics_update_energy_balance(&w, 1, &(struct energy){kinetic, 2, 3, 0, 0}, 5);
     assert_true(w.now.momentum_error < 1e-13);
     assert_true(fabs(w.now.balance_error) < ROUND_OFF);
 
     /* An error of momentum is detected and remains recorded; so does an error of energy. */
     impulse[1] -= 0.01 * moving;
-    diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_energy_balance(
+    diagnostics_update_momentum(&w, &b.p, NULL, 0, impulse);
+    diagnostics_update_energy_balance(
         &w, 2, &(struct energy){kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.01 * kinetic}, 0);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, 0.1 / 1.1, 1e-12);
     impulse[1] += 0.01 * moving;
-    diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_energy_balance(&w, 3, &(struct energy){kinetic, 0, 0, 0, 0}, 0.2 * kinetic);
+    diagnostics_update_momentum(&w, &b.p, NULL, 0, impulse);
+    diagnostics_update_energy_balance(&w, 3, &(struct energy){kinetic, 0, 0, 0, 0}, 0.2 * kinetic);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, -0.2 / 1.1, 1e-12);
     assert_near(w.now.time, 3, 0);
@@ -85,19 +85,19 @@ static void ledger_survives_a_restart(void **state)
     diagnostics_make(&w);
     diagnostics_make(&restored);
     for (int i = 0; i < 2; i++) b.p.mass[i] = 1, b.p.v[0][i] = i == 0 ? 10 : -10;
-    diagnostics_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_energy_balance(&w, 0, &(struct energy){100, 0, 0, 0, 0}, 0);
+    diagnostics_update_momentum(&w, &b.p, NULL, 0, none);
+    diagnostics_update_energy_balance(&w, 0, &(struct energy){100, 0, 0, 0, 0}, 0);
     for (int i = 0; i < 2; i++) b.p.v[0][i] *= 0.1;
-    diagnostics_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_energy_balance(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
+    diagnostics_update_momentum(&w, &b.p, NULL, 0, none);
+    diagnostics_update_energy_balance(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
     assert_int_equal(diagnostics_save_or_load(&w, &out), OK);
     in.saving = false, tape.used = 0;
     assert_int_equal(diagnostics_save_or_load(&restored, &in), OK);
     b.p.v[0][0] += 2;
     for (int k = 0; k < 2; k++) {
         struct diagnostics *either = k == 0 ? &w : &restored;
-        diagnostics_momentum(either, &b.p, NULL, 0, none);
-        diagnostics_energy_balance(either, 2, &(struct energy){1, 49, 0, 0, 0}, 0);
+        diagnostics_update_momentum(either, &b.p, NULL, 0, none);
+        diagnostics_update_energy_balance(either, 2, &(struct energy){1, 49, 0, 0, 0}, 0);
         assert_near(either->now.momentum_error, 2.0 / 20, 1e-15);
         assert_near(either->now.balance_error, -0.5, 1e-15);
     }
@@ -115,7 +115,7 @@ static void strain_energy_of_material_points(void **state)
         struct material m = steel(space[dim]);
         int n = symmetric_component_count(dim);
         real C[SYM_MAX * SYM_MAX], stress[SYM_MAX] = {0}, density = 0, half[SYM_MAX * SYM_MAX] = {0};
-        material_stiffness(&m, dim, C);
+        material_stiffness_matrix(&m, dim, C);
         for (int i = 0; i < n; i++) {
             for (int j = 0; j < n; j++) stress[i] += C[i * n + j] * strain[j];
             density += 0.5 * stress[i] * strain[i] * (i < dim ? 1 : 2);
@@ -134,7 +134,7 @@ static void strain_energy_of_material_points(void **state)
         real expected = whole * (1 - 2.5 / (real)b.p.n);
         assert_near(points_strain_energy(&b.p, &m, &partial), expected, 1e-12 * whole);
         b.p.kind[0] = KIND_PD; /* its energy is in bonds */
-        particles_update_lists(&b.p);
+        particles_update_kind_lists(&b.p);
         assert_near(points_strain_energy(&b.p, &m, NULL), whole * (1 - 1 / (real)b.p.n), 1e-12 * whole);
         memory_free(index);
         body_free(&b);
@@ -199,19 +199,19 @@ static void alarm_names_the_first_runaway(void **state)
     struct body b;
     body_make(&b, 2, (const int[]){60, 50});
     b.p.v[0][17] = 5000, b.p.v[1][17] = 1500; /* |v| = 5220.2 */
-    assert_ok(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6));
+    assert_ok(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6));
     b.p.v[0][17] = 6.1e5, b.p.v[1][17] = 0;
     b.p.v[0][2500] = NAN;
-    assert_int_equal(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6), FAILED);
+    assert_int_equal(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6), FAILED);
     assert_string_equal(status_message(),
                         "unstable at step 123, t = 4.1e-06 s: particle 17 at (17.5, 0.5) m moves at 6.1e+05 m/s, "
                         "faster than the wave speed 5232 m/s");
     b.p.v[0][17] = 0;
-    assert_failed(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6),
+    assert_failed(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6),
                   "particle 2500 at (40.5, 41.5) m has a position or velocity that is no finite number");
     b.p.v[0][2500] = 0;
     b.p.x[1][2999] = INFINITY;
-    assert_failed(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6), "particle 2999");
+    assert_failed(diagnostics_check_divergence(&b.p, true, true, 5232, 123, 4.1e-6), "particle 2999");
     body_free(&b);
 }
 
@@ -269,7 +269,7 @@ static void energies_of_yielded_points(void **state)
     struct material m[2] = {{.young = 200, .poisson = 0.3, .density = 1}, {.young = 70, .poisson = 0.2, .density = 1}};
     struct particles p;
     real elastic = 0, plastic = 0;
-    for (int k = 0; k < 2; k++) material_compute_constants(&m[k], SPACE_PLANE_STRAIN);
+    for (int k = 0; k < 2; k++) material_compute_derived_constants(&m[k], SPACE_PLANE_STRAIN);
     particles_make(&p, 2, 7, WITH_PLASTIC | WITH_OUT_OF_PLANE);
     for (int64_t i = 0; i < p.n; i++) {
         const struct material *own = &m[i % 2];
@@ -284,7 +284,7 @@ static void energies_of_yielded_points(void **state)
         if (i != 3) elastic += volume * (0.5 / E * squares + (1 + nu) / E * xy * xy);
         plastic += 1.2 * volume * work;
     }
-    particles_update_lists(&p);
+    particles_update_kind_lists(&p);
     assert_close(points_strain_energy(&p, m, NULL), elastic, 1e-12);
     assert_close(points_plastic_work(&p, m, NULL), plastic, 1e-12);
     particles_free(&p);

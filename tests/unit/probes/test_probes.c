@@ -290,7 +290,7 @@ static void bar_bond(struct bar *bar)
     struct bond_source source = {
         .cells = &bar->b.c, .material = &bar->m, .materials = 1, .limit = {&bar->stretch, 1, false}};
     family_make(&source.family, SPACE_LINE, 1, 3.015, 1);
-    particles_update_lists(&bar->b.p);
+    particles_update_kind_lists(&bar->b.p);
     bonds_make(&bar->bonds, NULL, &bar->b.p, &source);
 }
 
@@ -302,12 +302,12 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
     for (int64_t row = 0; row < b->rows; row++) {
         int32_t i = b->particle[row];
         for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-            int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
+            int64_t q = bond_writable_index(b, row / LANES, k, (int)(row % LANES));
             int32_t j = b->nbr[q];
             bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);
             if (b->w[q] == 0 || !across || fabs(p->X[0][i] - p->X[0][j]) < shortest - 0.5) continue;
             b->w[q] = 0;
-            bonds_update_common_of_bond(b, row, q);
+            bond_changed_update_column(b, row, q);
             b->broken[row]++;
             p->flag[i] |= FLAG_LOST_BOND | FLAG_CRACKED;
         }

@@ -23,7 +23,7 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
     for (int64_t i = 0; i < p->body.p.n; i++) p->body.p.volume0[i] = 0.37; /* thickness [m] */
     for (int k = 0; k < 2; k++) {
         p->material[k] = (struct material){.young = 75.629e9, .poisson = 0.286, .density = 2456};
-        material_compute_constants(&p->material[k], SPACE_PLANE_STRAIN);
+        material_compute_derived_constants(&p->material[k], SPACE_PLANE_STRAIN);
         p->crack[k] = (struct crack){2, p->corner[k]};
     }
     p->corner[0][0][0] = -WIDTH, p->corner[0][0][1] = tip[1], p->corner[0][1][0] = tip[0], p->corner[0][1][1] = tip[1];

@@ -64,7 +64,8 @@ static void test_kink(void **state)
         struct solution a;
         plate(&a, angle, 5, "");
         const struct sif_cracks *l = &a.e.statics->sif;
-        const real K[MODES] = {cos(angle * degree), sin(angle * degree)}, expected = crack_kink_angle(K) / degree;
+        const real K[MODES] = {cos(angle * degree), sin(angle * degree)},
+                   expected = crack_kink_angle_of_sif(K) / degree;
         assert_int_equal(l->n, 2);
         for (int k = 0; k < 2; k++) {
             const struct sif_crack_tip *tip = &l->tip[k];
@@ -195,7 +196,7 @@ static void test_kink_through(void **state)
              -c, -s + 0.25, c, s + 0.25, c, s + 0.25, -c, -s + 0.25);
     run(&a, text);
     const struct sif_cracks *l = &a.e.statics->sif;
-    const real K[MODES] = {cos(angle * degree), sin(angle * degree)}, expected = crack_kink_angle(K) / degree;
+    const real K[MODES] = {cos(angle * degree), sin(angle * degree)}, expected = crack_kink_angle_of_sif(K) / degree;
     assert_int_equal(l->n, 2);
     assert_true(l->segments >= 2);
     for (int k = 0; k < 2; k++) {

@@ -27,7 +27,7 @@ static const struct sif_crack_tip *solution_begin(struct solution *a, const char
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(&a->e, &a->s, NULL) != OK) fail_msg("%s", status_message());
-    assert_true(sif_cracks_start(&a->e));
+    assert_true(sif_cracks_initialise(&a->e));
     assert_int_equal(a->e.statics->sif.n, 1);
     return &a->e.statics->sif.tip[0];
 }
@@ -44,7 +44,7 @@ static void field_set(struct run *e, const struct sif_crack_tip *tip, enum space
 {
     struct particles *p = &e->part;
     struct material m = e->scene->material[0];
-    material_compute_constants(&m, space);
+    material_compute_derived_constants(&m, space);
     const struct crack_medium medium = crack_medium_of(&m, space);
     const real *a = tip->along;
     for (int64_t i = 0; i < p->n; i++) {

@@ -45,13 +45,13 @@ static void test_trial_within_trial(void **state)
     assert_true(bond_slots(&e) > 0);
     array_fill_bytes(e.bonds.plastic_stretch, 0, bond_slots(&e), sizeof *e.bonds.plastic_stretch);
     flow(&e, 0.125);
-    trial_begin(&e, &outer);
+    trial_equilibrium_begin(&e, &outer);
     flow(&e, 0.25);
-    trial_begin(&e, &inner);
+    trial_equilibrium_begin(&e, &inner);
     flow(&e, 0.5);
-    trial_undo(&e, &inner, NULL);
+    trial_equilibrium_undo(&e, &inner, NULL);
     expect(&e, 0.375);
-    trial_undo(&e, &outer, NULL);
+    trial_equilibrium_undo(&e, &outer, NULL);
     expect(&e, 0.125);
     flow(&e, 0.5);
     plastic_state_restore(&e.statics->plastic, &e.bonds, &e.part, e.optional);

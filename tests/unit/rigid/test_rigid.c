@@ -109,7 +109,7 @@ static void test_surface(void **state)
         const struct region region = {.n = 1, .solid = body[k].solid};
         struct rigid_surface s;
         real a[DIM_MAX], b[DIM_MAX];
-        if (!region_bounds(&region, body[k].dim, a, b)) memcpy(a, low, sizeof a), memcpy(b, high, sizeof b);
+        if (!region_bounding_box(&region, body[k].dim, a, b)) memcpy(a, low, sizeof a), memcpy(b, high, sizeof b);
         rigid_surface_make(&s, &region, body[k].dim, a, b);
         const real size = body[k].size * (body[k].solid == &ball ? pi : 1);
         assert_near(enclosed(&s) / size, 1, body[k].within);
@@ -185,7 +185,7 @@ static void test_driven(void **state)
     for (int k = 0; k < 1000; k++) {
         r.force[0] = 4, r.moment[2] = 2;
         driven.force[0] = -5 - 3 * k * 2e-3;
-        rigid_add_work(&driven);
+        rigid_add_drive_work(&driven);
         rigid_move(&r, (k + 0.5) * 2e-3, 2e-3, k == 0 ? 1e-3 : 2e-3);
         rigid_move(&driven, (k + 0.5) * 2e-3, 2e-3, 2e-3);
     }
@@ -193,7 +193,7 @@ static void test_driven(void **state)
     assert_near(atan2(r.turn[1][0], r.turn[0][0]), 0.5 * 2 / r.inertia[2][2] * 4, 1e-9);
     assert_near(driven.x[0], 1 + 3 * 1.5, 1e-9);
     /* Integral of (5 + 3 t) v over 2 s, v = 3 t up to 1 s, then 3; by the trapezoidal rule. */
-    assert_near(rigid_work(&driven), 39, 1e-3);
+    assert_near(rigid_total_work(&driven), 39, 1e-3);
     assert_near(rigid_distance(&driven, (const real[]){5.5 + 5, 2, 0}, normal), 2, 1e-9);
 }
 
@@ -214,14 +214,14 @@ static void test_points_move(void **state)
         memcpy(r.force, force, sizeof force), memcpy(r.moment, moment, sizeof moment);
         if (k == 0)
             for (int d = 0; d < 3; d++) r.force[d] = r.moment[d] = r.weight[d] = 0;
-        rigid_point_position(&r, X, before);
+        rigid_present_position_of_point(&r, X, before);
         rigid_move(&r, 0, dt, dt);
-        rigid_point_position(&r, X, after);
+        rigid_present_position_of_point(&r, X, after);
         if (k == 0) start = r.kinetic, memcpy(r.weight, weight, sizeof weight);
         for (int d = 0; d < 3 && k > 0; d++) /* the kinetic energy is that before the last step's motion */
             work += (force[d] * r.increment[d] + moment[d] * r.spin[d] * dt) * (k == 4999 ? 0.5 : 1);
     }
-    rigid_velocity(
+    rigid_velocity_at_point(
         &r, (const real[]){0.5 * (before[0] + after[0]), 0.5 * (before[1] + after[1]), 0.5 * (before[2] + after[2])},
         v);
     for (int d = 0; d < 3; d++) assert_near((after[d] - before[d]) / dt, v[d], 3e-3); /* the centre is dt/2 older */
@@ -287,10 +287,10 @@ static void test_record(void **state)
         real record[24], kinetic = 0, kick = 0;
         int wanted = 0;
         rigid.dim = body[0].dim = body[1].dim = dim;
-        const int n = rigids_columns(&e, NULL);
-        assert_int_equal(rigids_columns(&e, column), n);
-        rigids_store_motion(&rigid, 0);
-        rigids_record(&e, record);
+        const int n = rigids_list_columns(&e, NULL);
+        assert_int_equal(rigids_list_columns(&e, column), n);
+        rigids_store_motion_for_sample(&rigid, 0);
+        rigids_write_record(&e, record);
         for (int b = 0; b < 2; b++) {
             const real *const from[] = {body[b].force, body[b].moment, body[b].x, body[b].v};
             for (int d = 0; d < dim; d++) {
@@ -305,7 +305,7 @@ static void test_record(void **state)
                 }
         }
         assert_int_equal(n, wanted);
-        const struct rigid_energy sum = rigids_energy(&rigid, 0.03);
+        const struct rigid_energy sum = rigids_compute_energy(&rigid, 0.03);
         assert_close(sum.before, kinetic, 1e-14);
         assert_close(sum.last, kinetic + kick, 1e-14);
         assert_close(sum.step, 0.9 + 2.6, 1e-14);
@@ -325,7 +325,7 @@ static void test_ramp(void **state)
     for (int k = 0; k < 1000; k++) {
         real way[DIM_MAX];
         rigid_move(&r, (k + 0.5) * 2e-3, 2e-3, 2e-3);
-        assert_near(rigid_driven_displacement(&r, (k + 1) * 2e-3, way), hypot(r.x[0] - 1, r.x[1] - 2), 1e-9);
+        assert_near(rigid_prescribed_displacement(&r, (k + 1) * 2e-3, way), hypot(r.x[0] - 1, r.x[1] - 2), 1e-9);
         for (int d = 0; d < 2; d++) assert_near(way[d], r.x[d] - r.centre[d], 1e-9);
     }
 }

@@ -203,9 +203,9 @@ static void check_patch(const char *scene, const char *solver, const char *model
     struct scene_run a;
     make(&a, scene, solver, model, drive, "solver_tolerance=1e-7", "duration=1 s", NULL);
     run_all(&a);
-    compute_bond_stress(&a.e.bonds, &a.e.part, &a.e.source, &a.e.kernels);
+    bonds_compute_particle_stress(&a.e.bonds, &a.e.part, &a.e.source, &a.e.kernels);
     const struct particles *p = &a.e.part;
-    const real far = particles_longest_edge(p), within = 1e-4 * fabs(strain[0]) * far;
+    const real far = particles_bounding_box_longest_edge(p), within = 1e-4 * fabs(strain[0]) * far;
     int64_t free = 0;
     for (int64_t i = 0; i < p->n; i++) {
         const bool driven = p->flag[i] & FLAG_DRIVEN;

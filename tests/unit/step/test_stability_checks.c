@@ -20,7 +20,7 @@ static struct growth_samples rising(real tenfold, int64_t stride)
 {
     struct growth_samples r = {0};
     for (int64_t step = 0; step < 20000; step += stride)
-        growth_rate_add_sample(&r, step, pow(10, (real)(step - 20000) / tenfold));
+        growth_samples_add(&r, step, pow(10, (real)(step - 20000) / tenfold));
     return r;
 }
 
@@ -39,7 +39,7 @@ static void pace_of_exponentials(void **state)
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         const struct growth_samples r = rising(at[k].tenfold, at[k].stride);
         real steps;
-        assert_int_equal(growth_rate_classify(&r, 20000, 1, &steps), at[k].target_speed);
+        assert_int_equal(growth_samples_classify(&r, 20000, 1, &steps), at[k].target_speed);
         /* 64 values 16 steps apart: exact. */
         if (at[k].stride == 1)
             assert_true(steps > 990 && steps < 1010);
@@ -48,7 +48,7 @@ static void pace_of_exponentials(void **state)
     }
     const struct growth_samples endless = rising(1e5, 64); /* more than 64 x 64 steps ago */
     real steps;
-    assert_int_equal(growth_rate_classify(&endless, 20000, 1, &steps), RISE_SLOW);
+    assert_int_equal(growth_samples_classify(&endless, 20000, 1, &steps), RISE_SLOW);
     assert_true(isinf(steps));
 }
 
@@ -57,18 +57,18 @@ static void pace_of_few_values(void **state)
     (void)state;
     real steps;
     struct growth_samples r = {0};
-    assert_int_equal(growth_rate_classify(&r, 10, 1, &steps), RISE_UNSURE);
-    growth_rate_add_sample(&r, 0, 0);
-    assert_int_equal(growth_rate_classify(&r, 10, 1, &steps), RISE_FAST);      /* growth from zero */
-    assert_int_equal(growth_rate_classify(&r, 20000, 1, &steps), RISE_UNSURE); /* at some time within 20000 steps */
-    growth_rate_add_sample(&r, 640, -1e-3);
-    assert_int_equal(growth_rate_classify(&r, 1280, 1, &steps), RISE_FAST);
-    growth_rate_add_sample(&r, 650, 0.5); /* too close to the last: left out */
+    assert_int_equal(growth_samples_classify(&r, 10, 1, &steps), RISE_UNSURE);
+    growth_samples_add(&r, 0, 0);
+    assert_int_equal(growth_samples_classify(&r, 10, 1, &steps), RISE_FAST);      /* growth from zero */
+    assert_int_equal(growth_samples_classify(&r, 20000, 1, &steps), RISE_UNSURE); /* at some time within 20000 steps */
+    growth_samples_add(&r, 640, -1e-3);
+    assert_int_equal(growth_samples_classify(&r, 1280, 1, &steps), RISE_FAST);
+    growth_samples_add(&r, 650, 0.5); /* too close to the last: left out */
     assert_int_equal(r.n, 2);
-    growth_rate_add_sample(&r, 1280, 1e-3); /* a background value, or slow growth: undecidable */
-    assert_int_equal(growth_rate_classify(&r, 1920, 1, &steps), RISE_UNSURE);
-    growth_rate_add_sample(&r, 1920, 0.06);
-    assert_int_equal(growth_rate_classify(&r, 2560, 1, &steps), RISE_SLOW);
+    growth_samples_add(&r, 1280, 1e-3); /* a background value, or slow growth: undecidable */
+    assert_int_equal(growth_samples_classify(&r, 1920, 1, &steps), RISE_UNSURE);
+    growth_samples_add(&r, 1920, 0.06);
+    assert_int_equal(growth_samples_classify(&r, 2560, 1, &steps), RISE_SLOW);
 }
 
 /* Returns the classified growth rate of x'' = -4 x + damping x' under leap-frog steps dt, whose limit is 1, while the
@@ -77,13 +77,13 @@ static enum growth_rate pace_of_oscillator(real dt, real damping)
 {
     struct growth_samples r = {0};
     real x = 1e-4, v = 0, steps, most = 0;
-    growth_rate_add_sample(&r, 0, 0);
+    growth_samples_add(&r, 0, 0);
     for (int64_t step = 1; step < 1000000; step++) {
         v += dt * (damping * v - 4 * x);
         x += dt * v;
         most = real_max(most, square(v));
-        if (square(v) > 1) return growth_rate_classify(&r, step, square(v), &steps);
-        if (step % RISE_STRIDE == 0) growth_rate_add_sample(&r, step, most), most = 0;
+        if (square(v) > 1) return growth_samples_classify(&r, step, square(v), &steps);
+        if (step % RISE_STRIDE == 0) growth_samples_add(&r, step, most), most = 0;
     }
     fail_msg("dt = %g does not grow", dt);
     return RISE_UNSURE;

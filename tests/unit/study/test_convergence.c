@@ -28,7 +28,7 @@ static bool converge_at(struct convergence *c, double f0, double a, double p, do
             spacing[n] = 1e-3 * pow(2, 0.5 * k);
             value[n] = f0 + a * pow(pow(2, 0.5 * k), p) + noise * part[r];
         }
-    return convergence_find(c, spacing, value, level, n, LEVELS, NULL);
+    return convergence_evaluate(c, spacing, value, level, n, LEVELS, NULL);
 }
 
 /* Order and limit of a power law are found to round-off; the interval of the finest value contains the limit. */
@@ -61,11 +61,11 @@ static void bounds_where_no_order_is_seen(void **state)
     assert_true(c.uncertainty[0] >= 0.5); /* the range of the means */
     const double spacing[] = {1, 1.4, 2}, value[] = {1, 2, 1.5}, lost[] = {1, NAN, 1};
     const int level[] = {0, 1, 2};
-    assert_true(convergence_find(&c, spacing, value, level, 3, 3, NULL));
+    assert_true(convergence_evaluate(&c, spacing, value, level, 3, 3, NULL));
     assert_int_equal(c.verdict, VERDICT_OSCILLATES);
     assert_true(isnan(c.order));
     assert_true(c.uncertainty[0] >= 1); /* the range of the means */
-    assert_false(convergence_find(&c, spacing, lost, level, 3, 3, NULL));
+    assert_false(convergence_evaluate(&c, spacing, lost, level, 3, 3, NULL));
 }
 
 /* Means with random errors: their observed orders, 2.9 and -1.0, are not accepted as true. */
@@ -82,7 +82,7 @@ static void chance_moves_the_order(void **state)
             spacing[k] = (double[]){1, 1.4, 2}[level[k]];
             value[k] = mean[which][level[k]] + 0.1 * (k % RUNS - 2); /* its mean to 0.2 */
         }
-        assert_true(convergence_find(&c, spacing, value, level, LEVELS * RUNS, LEVELS, NULL));
+        assert_true(convergence_evaluate(&c, spacing, value, level, LEVELS * RUNS, LEVELS, NULL));
         assert_int_equal(c.verdict, which == 0 ? VERDICT_CONVERGES : VERDICT_SCATTERS);
         assert_true(which == 0 ? c.order > 2.2 : c.order < 0);
         assert_true(c.order_likely > 0.5 && c.order_likely < 2);
@@ -188,9 +188,9 @@ static void steps_of_a_figure_are_errors(void **state)
     struct convergence c;
     const double spacing[] = {1, 1, 1.4, 1.4, 2, 2}, value[] = {9, 9, 9.4, 9.4, 8, 8}, half[] = {0.5, 0.7, 1};
     const int level[] = {0, 0, 1, 1, 2, 2};
-    assert_true(convergence_find(&c, spacing, value, level, 6, 3, NULL));
+    assert_true(convergence_evaluate(&c, spacing, value, level, 6, 3, NULL));
     assert_int_equal(c.verdict, VERDICT_OSCILLATES);
-    assert_true(convergence_find(&c, spacing, value, level, 6, 3, half));
+    assert_true(convergence_evaluate(&c, spacing, value, level, 6, 3, half));
     assert_int_equal(c.verdict, VERDICT_SCATTERS);
     assert_near(c.level[0].error, 0.5, 1e-12);
     assert_true(c.uncertainty[0] > 1 && c.uncertainty[2] > 1);
@@ -212,10 +212,10 @@ static void bias_widens_intervals(void **state)
 static void student_as_published(void **state)
 {
     (void)state;
-    assert_near(student_quantile(1), 12.706, 0);
-    assert_near(student_quantile(30), 2.042, 0.005);
-    assert_near(student_quantile(60), 2.000, 0.005);
-    assert_near(student_quantile(1000000), 1.960, 0.001);
+    assert_near(student_t_quantile_975(1), 12.706, 0);
+    assert_near(student_t_quantile_975(30), 2.042, 0.005);
+    assert_near(student_t_quantile_975(60), 2.000, 0.005);
+    assert_near(student_t_quantile_975(1000000), 1.960, 0.001);
 }
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */

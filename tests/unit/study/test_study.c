@@ -81,7 +81,7 @@ static void runs_have_names_of_their_own(void **state)
     assert_string_equal(s.at[5].override[1].value, "pd");
     static const char *const other[] = {"spacing=1mm,velocity=10m_s,free", "../up", "logs"}; /* taken, reserved */
     for (size_t o = 0; o < COUNT_OF(other); o++) {
-        const char *name = study_add(&s, other[o], NULL, 0)->name;
+        const char *name = study_add_case(&s, other[o], NULL, 0)->name;
         assert_int_equal(strncmp(name, "case-", 5), 0);
         for (int c = 0; c + 1 < s.n; c++) assert_string_not_equal(s.at[c].name, name);
     }
@@ -273,7 +273,7 @@ static void stopped_runs_have_no_figures(void **state)
     for (int k = 0; k < 3; k++) {
         const char *const name[] = {"a", "b", "c"}, *const text = "{\"energy\": {\"kinetic\": 1.5}}";
         const struct scene_override own = {"duration", name[k]};
-        struct study_case *c = study_add(&s, name[k], &own, 1);
+        struct study_case *c = study_add_case(&s, name[k], &own, 1);
         c->state = (enum case_state[]){CASE_DONE, CASE_STOPPED, CASE_FAILED}[k];
         const struct path run = study_case_folder(&s, c);
         assert_int_equal(folder_make(run.text), OK);
