@@ -46,6 +46,13 @@ struct picture_size picture_size_get(void);
  * gnuplot cannot be started. Close with gnuplot_close. */
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
+/* Starts gnuplot as gnuplot_open does, for a picture laid out for width x height pixels, a multiple of the size of
+ * picture_size_set if that is set: letters and lines are as much smaller as the picture is. */
+status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
+
+/* Returns true if the size of picture_size_set is too narrow for a key beside the panel. */
+bool gnuplot_is_narrow(void);
+
 /* Ends the input of gnuplot, waits until the picture is complete, and renames it to its final path. Returns FAILED if
  * gnuplot is missing (the message names the package) or the picture is missing or incomplete (the message has that of
  * gnuplot); an existing picture remains then. */

@@ -397,6 +397,10 @@ void curves_write_data(FILE *to, const struct series *s, const int *column, cons
 /* Writes the gnuplot commands for a heading above the picture: `title`, followed by `what` if it ends in a space. */
 void curves_write_title(FILE *to, const char *title, const char *what);
 
+/* Writes the gnuplot commands for the margins of a picture with one panel and its key beside it. right: where the panel
+ * ends [share of the width]. In narrow pictures (gnuplot_is_narrow) the key is below the panel. */
+void curves_write_margins(FILE *to, double right);
+
 /* Writes the gnuplot commands for the horizontal axis of a picture over time or load steps, with its range and label.
  */
 void curves_write_time_axis(FILE *to, const struct series *s);

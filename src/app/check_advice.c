@@ -160,6 +160,14 @@ static void advise_cracks(const struct scene *s, const struct fracture_state *fr
         const bool tip[2] = {is_tip(fracture, from), is_tip(fracture, to)};
         const real share = tip[0] && tip[1] ? 1 : share_within(s, from, to);
         const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
+        if (tip[0] != tip[1] && length < 0.5 * s->spacing) {
+            fprintf(
+                out,
+                "accuracy       crack %d is in the body over %.3g m, less than half a spacing: check its coordinates "
+                "and their unit (mm?)\n",
+                k + 1, length);
+            continue;
+        }
         if (tip[0] && tip[1] && length < FEATURE * horizon_of(s))
             fprintf(
                 out,

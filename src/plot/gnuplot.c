@@ -94,24 +94,25 @@ static void set_style(FILE *to)
 }
 
 static struct picture_size usual = {0, 0, PICTURE_DPI};
+enum { NARROW = 760 }; /* pictures narrower than this have no room beside their panel [pixel] */
 
 void picture_size_set(struct picture_size size) { usual = size; }
 struct picture_size picture_size_get(void) { return usual; }
 
 /* Writes the commands that select the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. width,
- * height: size of the picture [pixel]. */
-static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height)
+ * height: size of the picture [pixel]; letters: factor on the size of letters, and in PNG of lines and points [1]. */
+static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height, double letters)
 {
     if (format == PICTURE_SVG)
         fprintf(g->to,
-                "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' "
+                "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' fontscale %.4g "
                 "background rgb 'white' noenhanced\n",
-                width, height);
+                width, height, letters);
     else if (format == PICTURE_PDF)
         fprintf(g->to,
-                "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale 0.5 linewidth "
+                "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale %.4g linewidth "
                 "0.9 background rgb 'white' noenhanced\n",
-                (double)width / PICTURE_DPI, (double)height / PICTURE_DPI);
+                (double)width / PICTURE_DPI, (double)height / PICTURE_DPI, 0.5 * letters);
     else {
         const double fine = usual.dpi / PICTURE_DPI;
         const int size[2] = {(int)lround(fine * width), (int)lround(fine * height)};
@@ -119,7 +120,7 @@ static void set_terminal(struct gnuplot *g, enum picture_format format, int widt
                 "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) { set terminal pngcairo size %d,%d "
                 "font 'Liberation Sans,13' fontscale %.4g linewidth %.4g pointscale %.4g background rgb 'white' "
                 "noenhanced } else { set terminal png size %d,%d noenhanced truecolor }\n",
-                size[0], size[1], fine, fine, fine, size[0], size[1]);
+                size[0], size[1], fine * letters, fine * letters, fine * letters, size[0], size[1]);
     }
     fputs("set output ", g->to);
     gnuplot_quote(g->to, g->aside);
@@ -136,7 +137,9 @@ static void gnuplot_release(struct gnuplot *g)
     *g = (struct gnuplot){0};
 }
 
-status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height)
+/* Does what gnuplot_open does, with a factor on the size of letters. */
+static status open_with_letters(struct gnuplot *g, const char *path, enum picture_format format, int width, int height,
+                                double letters)
 {
     *g = (struct gnuplot){0};
     for (const char *c = path; *c; c++)
@@ -161,10 +164,22 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
         gnuplot_release(g);
         return s;
     }
-    set_terminal(g, format, usual.width ? usual.width : width, usual.width ? usual.height : height);
+    set_terminal(g, format, usual.width ? usual.width : width, usual.width ? usual.height : height, letters);
     set_style(g->to);
     return OK;
 }
+
+status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height)
+{
+    return open_with_letters(g, path, format, width, height, 1);
+}
+
+status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height)
+{
+    return open_with_letters(g, path, format, width, height, usual.width ? (double)usual.width / width : 1);
+}
+
+bool gnuplot_is_narrow(void) { return usual.width > 0 && usual.width < NARROW; }
 
 void error_message_last_line(FILE *file, char *text, size_t size)
 {

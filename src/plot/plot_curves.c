@@ -51,6 +51,19 @@ void curves_write_title(FILE *to, const char *title, const char *what)
     fputs(" at screen 0.1,0.955 left font ',16' textcolor rgb '#111111'\n", to);
 }
 
+void curves_write_margins(FILE *to, double right)
+{
+    if (gnuplot_is_narrow())
+        fputs("set lmargin -1\nset rmargin 2\nset tmargin 3.5\nset bmargin -1\nset key bmargin left horizontal maxcols "
+              "2\n",
+              to);
+    else
+        fprintf(to,
+                "set lmargin at screen 0.1\nset rmargin at screen %.4f\nset tmargin at screen 0.9\n"
+                "set bmargin at screen 0.13\nset key at screen %.4f,0.895 left top\n",
+                right, right + 0.015);
+}
+
 void curves_write_time_axis(FILE *to, const struct series *s)
 {
     double end = history_value_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
@@ -398,10 +411,9 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, value[k], frame_spacing(&frame[0]), factor);
     curves_write_title(g.to, title, "");
+    curves_write_margins(g.to, 0.84);
     fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen 0.84\nset tmargin at screen 0.9\n"
-            "set bmargin at screen 0.13\n"
-            "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.855,0.91 left top\n"
+            "set offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
             "set xlabel 'x [%s]'\nset ylabel '%s'\n",
             unit[0].name, label);
     profile_range(g.to, frame, frames, unit[0].factor);

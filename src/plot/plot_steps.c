@@ -204,12 +204,9 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     size_t longest = 24; /* 123.4 kN at 123.4 mm */
     for (int m = 0; m < r.n; m++) longest = strlen(r.of[m].name) > longest ? strlen(r.of[m].name) : longest;
     curves_write_title(g.to, title, "load and displacement");
-    fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen %.4f\nset tmargin at screen 0.9\n"
-            "set bmargin at screen 0.13\nset key at screen %.4f,0.895 left top\nset xrange [0:%.9g]\n"
-            "set yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
-            1 - key_share(longest), 1.015 - key_share(longest), 1.15 * r.displacement / metre.factor,
-            r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
+    curves_write_margins(g.to, 1 - key_share(longest));
+    fprintf(g.to, "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
+            1.15 * r.displacement / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
     char label[3 * NAME_MAX_LENGTH];
     snprintf(label, sizeof label, "displacement%s%.63s [%s]", r.over[0] ? " of " : "", r.over, metre.name);
     gnuplot_quote(g.to, label);
@@ -288,10 +285,10 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     release_send(g.to, h, area, rate, square, joule.factor);
     curves_write_title(g.to, title, "energy released by the growing crack");
+    curves_write_margins(g.to, 0.74);
     fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen 0.74\nset tmargin at screen 0.9\n"
-            "set bmargin at screen 0.13\nset key at screen 0.755,0.895 left top\nset xrange [0:%.9g]\n"
-            "set yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack area [%s]'\n",
+            "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack "
+            "area [%s]'\n",
             1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
     release_plot(g.to, toughness, n, mean, joule);
     return gnuplot_close(&g);

@@ -217,6 +217,11 @@ static struct layout scene_layout(const struct view *v, int lines)
     l.width = PICTURE_LEFT + l.panel_width + PICTURE_KEY;
     l.height = PICTURE_ABOVE + l.panel_height + PICTURE_BELOW;
     if (l.height < 60 + KEY_LINE * lines) l.height = 60 + KEY_LINE * lines;
+    const struct picture_size given = picture_size_get();
+    if (given.width > 0) {
+        const double scale = fmax((double)l.width / given.width, (double)l.height / given.height);
+        l.width = (int)lround(scale * given.width), l.height = (int)lround(scale * given.height);
+    }
     return l;
 }
 
@@ -274,7 +279,7 @@ static status draw_scene(struct sheet sheet, struct run *e, struct plotted_parti
     const struct view v = scene_view(c, arrow);
     const struct layout l = scene_layout(&v, key_lines(e->scene));
     const struct unit metre = unit_for_length(fmax(fabs(v.from[0]), fabs(v.to[0])));
-    TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
+    TRY(gnuplot_open_scaled(&g, sheet.path, sheet.format, l.width, l.height));
     FILE *plot = memory_stream_open(&elements, &length);
     if (!plot) return (void)gnuplot_close(&g), status_set(FAILED, "%s: out of memory", sheet.path);
     struct marks m = {

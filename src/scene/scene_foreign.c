@@ -248,7 +248,15 @@ static const struct {
     {"time", "steps|n|number|nsteps|n_steps|num_steps|number_of_steps",
      "the number of steps follows from `duration`, at the left margin, and time.step"},
     {"particles", "dx|h|size|distance|resolution|number|n|radius|count", "their distance is `spacing`"},
-    {"particles", "delta|neighbours|neighbors|cutoff", "the reach of bonds is `horizon`, in spacings"},
+    {"particles", "delta|neighbours|neighbors|cutoff|horizon_radius|horizon_size|horizon_ratio|m_ratio",
+     "the reach of bonds is `horizon`, in spacings"},
+    {"output", "frequency|freq|interval|dt|step|steps",
+     "frames are written `every` so often, as every: 1 us, or there are so many `frames` in the run"},
+    {"contact", "model|law|type|algorithm|method",
+     "contact acts `between` bodies, all or none, with `friction` and `stiffness`"},
+    {"material", "model|type|law|constitutive|constitutive_model",
+     "the keys of a material say what it does: young and poisson, energy_release_rate, yield_stress, hardening, "
+     "johnson_cook; bonds have their model by the key `model`, at the left margin"},
 };
 
 /* Values that people give a key although it has another meaning. path: path of the key; words: a|b|c, or * for all
