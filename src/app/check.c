@@ -312,6 +312,7 @@ static void say_settings(const struct run *e)
     print_shapes(e);
     print_separate_pieces(e);
     say_materials(e);
+    print_precracks(e);
     say_frames(e);
     print_levels(e);
     say_notches(e);

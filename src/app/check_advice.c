@@ -136,8 +136,7 @@ static bool is_tip(const struct fracture_state *fracture, const real *end)
     return false;
 }
 
-/* Returns the share of the straight crack from..to [dim, m] that is inside bodies [1], from 1000 points on it. */
-static real share_within(const struct scene *s, const real *from, const real *to)
+real crack_share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };
     int within = 0;
@@ -158,7 +157,7 @@ static void advise_cracks(const struct scene *s, const struct fracture_state *fr
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
         const real *from = s->crack[k].corner[0], *to = s->crack[k].corner[1];
         const bool tip[2] = {is_tip(fracture, from), is_tip(fracture, to)};
-        const real share = tip[0] && tip[1] ? 1 : share_within(s, from, to);
+        const real share = tip[0] && tip[1] ? 1 : crack_share_within(s, from, to);
         const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
         if (tip[0] != tip[1] && length < 0.5 * s->spacing) {
             fprintf(

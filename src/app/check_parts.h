@@ -53,6 +53,15 @@ void print_softening(const struct scene *s, const struct material *m);
  * bonds are not known to have one. */
 void print_brittle_strength(const struct scene *s, const struct material *m);
 
+/* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
+
+/* Prints the length of the smallest pre-crack and its ratio to the horizon, in plane bodies whose bonds soften; else
+ * nothing. */
+void print_precracks(const struct run *e);
+
+/* Returns the share of the straight line between two points that is inside bodies (check_advice.c) [1]. */
+real crack_share_within(const struct scene *s, const real *from, const real *to);
+
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
 /* Prints the solver of load steps and the rule by which cracks grow. */

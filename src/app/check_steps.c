@@ -183,7 +183,7 @@ void print_load_step_advice(const struct run *e, FILE *out)
     if (!scene_has_load_steps(e->scene)) return;
     advise_growth(e, out);
     advise_supports(e, out);
-    if (scene_bonds_break(e->scene)) advise_lengths(e, out);
+    if (scene_bonds_break(e->scene) && !e->bonds.soft.curve) advise_lengths(e, out);
 }
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
