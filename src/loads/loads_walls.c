@@ -184,13 +184,15 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
 /* Motion that a load prescribes in this step and in the previous one. */
 struct driven_by {
     struct prescribed_motion now, before;
+    bool uniform;              /* the motion is that of `wall` at every node */
+    struct wall wall[DIM_MAX]; /* only if `uniform`: by component, without node */
 };
 
-/* Adds a wall (prescribed velocity) for component d of node I at x [m], with its change of velocity since the previous
- * step. That change is the one of the material at the node. which: number of the load; reference: nodes move with the
- * material, as on a mesh, where a displacement also prescribes the nodal displacement at the end of the step. */
-static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, const real *x, int d, int which,
-                     bool reference)
+/* Returns the wall (prescribed velocity) for component d of node I at x [m], with its change of velocity since the
+ * previous step. That change is the one of the material at the node. which: number of the load; reference: nodes move
+ * with the material, as on a mesh, where a displacement also prescribes the nodal displacement at the end of the step.
+ */
+static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x, int d, int which, bool reference)
 {
     const struct boundary *b = by->now.boundary;
     const bool drives = b->kind == BOUNDARY_VELOCITY, first = by->now.t <= by->now.dt;
@@ -201,7 +203,7 @@ static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, cons
         change = velocity - prescribed_velocity_at(&by->before, x, d, !reference);
     else if (drives && !first)
         change = (by->now.factor - by->before.factor) * b->value[d];
-    grid_add_wall(g, &(struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0});
+    return (struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0};
 }
 
 /* Adds walls (prescribed velocities) of load number `which` at the nodes that have at least half of their mass from its
@@ -216,20 +218,26 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
         real x[DIM_MAX];
         if (l->share[I] <= 0 || l->share[I] < 0.5 * (1 - 1e-9) * g->mass[I]) continue;
         node_at(g, NULL, I, x);
-        for (int d = 0; d < g->dim; d++)
-            if (load->boundary->components >> d & 1 &&
-                !(region && node_constrained(load, g, x, LOADS_TOLERANCE * l->spacing, d)))
-                wall_add(g, by, I, x, d, which, false);
+        for (int d = 0; d < g->dim; d++) {
+            if (!(load->boundary->components >> d & 1) ||
+                (region && node_constrained(load, g, x, LOADS_TOLERANCE * l->spacing, d)))
+                continue;
+            const struct wall wall = wall_at(by, I, x, d, which, false);
+            grid_add_wall(g, &wall);
+        }
     }
 }
 
 /* Evaluates the motion that all loads prescribe in the step of size dt about t [s] and in the previous step: by[l->n].
- * In the first step both are equal. */
-static void driven_by_all(const struct loads *l, int dim, real t, real dt, struct driven_by *by)
+ * In the first step both are equal. reference: nodes move with the material, as on a mesh. */
+static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool reference, struct driven_by *by)
 {
+    const real anywhere[DIM_MAX] = {0};
     for (int b = 0; b < l->n; b++) {
         by[b].now = loads_prescribed_motion(l, b, dim, t, dt);
         by[b].before = t > dt ? prescribed_motion_make(l->load[b].boundary, dim, t - dt, dt) : by[b].now;
+        by[b].uniform = !boundary_motion_varies_in_space(l->load[b].boundary);
+        for (int d = 0; d < dim && by[b].uniform; d++) by[b].wall[d] = wall_at(&by[b], 0, anywhere, d, b, reference);
     }
 }
 
@@ -240,10 +248,17 @@ static void constrained_walls(const struct constrained_set *s, struct grid *g, c
 {
     for (int64_t q = 0; q < s->n; q++) {
         const struct held *h = &s->held[q];
-        real x[DIM_MAX] = {0};
+        const struct driven_by *motion = &by[h->load];
+        struct wall wall;
+        real x[DIM_MAX];
         if (g->mass[h->node] <= 0) continue;
-        if (boundary_motion_varies_in_space(by[h->load].now.boundary)) node_at(g, mesh, h->node, x);
-        wall_add(g, &by[h->load], h->node, x, h->component, h->load, reference);
+        if (motion->uniform)
+            wall = motion->wall[h->component], wall.node = h->node;
+        else {
+            node_at(g, mesh, h->node, x);
+            wall = wall_at(motion, h->node, x, h->component, h->load, reference);
+        }
+        grid_add_wall(g, &wall);
     }
 }
 
@@ -255,7 +270,7 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
     g->walls = 0;
     if (l->n == 0) return;
     if (!constrained_is_current(driven_nodes, g)) constrained_find(l, driven_nodes, g, NULL, p, false);
-    driven_by_all(l, g->dim, t, dt, by);
+    driven_by_all(l, g->dim, t, dt, false, by);
     constrained_walls(driven_nodes, g, NULL, by, false);
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
@@ -325,7 +340,7 @@ static void reference_walls(const struct loads *l, const struct constrained_set 
 {
     struct driven_by by[BOUNDARIES_MAX];
     g->walls = 0;
-    driven_by_all(l, g->dim, t, dt, by);
+    driven_by_all(l, g->dim, t, dt, true, by);
     constrained_walls(held, g, mesh, by, true);
 }
 
