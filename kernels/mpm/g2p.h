@@ -154,14 +154,13 @@ static ALWAYS_INLINE void points_gather_corners(const struct grid *g, const stru
 {
     const int strained = transfer == TRANSFER_APIC ? (1 << POINTS) - 1 : points_sign_bits(bonded);
     for (int d = 0; d < dim; d++) {
-        real polynomial[ROW];
+        const real *straining = transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d];
         row_of_points slope[DIM_MAX];
-        corner_polynomial(polynomial, g, (transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d]) + c->node, dim);
-        velocity[d] = corner_interpolate(polynomial, s->t, slope, dim);
+        velocity[d] = corners_interpolate(g, straining + c->node, s->t, slope, dim);
         for (int e = 0; e < dim; e++) L[d * dim + e] = slope[e] * (1 / g->h);
         if (strained == (1 << POINTS) - 1) continue;
-        corner_polynomial(polynomial, g, g->velocity[d] + c->node, dim);
-        velocity[d] = points_choose_by_sign(bonded, velocity[d], corner_interpolate(polynomial, s->t, slope, dim));
+        const row_of_points moved = corners_interpolate(g, g->velocity[d] + c->node, s->t, slope, dim);
+        velocity[d] = points_choose_by_sign(bonded, velocity[d], moved);
     }
 }
 

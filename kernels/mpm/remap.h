@@ -20,10 +20,8 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
     for (int d = 0; d < dim; d++) gain[d] = points_broadcast(0);
     if (HAS_CORNERS(dim, shape))
         for (int d = 0; d < dim; d++) {
-            real polynomial[ROW];
             row_of_points slope[DIM_MAX];
-            corner_polynomial(polynomial, g, g->force[d] + c->node, dim);
-            gain[d] = corner_interpolate(polynomial, s->t, slope, dim);
+            gain[d] = corners_interpolate(g, g->force[d] + c->node, s->t, slope, dim);
         }
     else
         FOR_ANY_TOUCHED(s, dim, shape)

@@ -56,10 +56,8 @@ static ALWAYS_INLINE void turn_gather_corner_arms(const struct grid *g, const st
                                                   row_of_points arm[DIM_MAX][DIM_MAX], const int dim)
 {
     for (int d = 0; d < dim; d++) {
-        real polynomial[ROW];
         row_of_points slope[DIM_MAX];
-        corner_polynomial(polynomial, g, g->force[d] + c->node, dim);
-        gain[d] = corner_interpolate(polynomial, s->t, slope, dim);
+        gain[d] = corners_interpolate(g, g->force[d] + c->node, s->t, slope, dim);
         for (int e = 0; e < dim; e++) arm[e][d] = g->h * (s->t[e] * (1 - s->t[e])) * slope[e];
     }
 }

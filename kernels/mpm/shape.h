@@ -189,33 +189,25 @@ static ALWAYS_INLINE row_of_nodes corner_sides(int d)
 #endif
 }
 
-/* Computes the coefficients c[2^dim] of the polynomial that interpolates a nodal field linearly between the corners of
- * a cell: c[k] is that of the product of those coordinates t_d whose bits d are set in k. at: entry of the field at the
- * lowest corner. */
-static ALWAYS_INLINE void corner_polynomial(real *c, const struct grid *g, const real *at, const int dim)
+/* Interpolates a nodal field linearly between the corners of a cell, by its polynomial in the positions t of a few
+ * points in the cell, in node distances. at: entry of the field at the lowest corner. Stores the derivatives by t_d in
+ * slope[dim] and returns the values. Coefficients are scalars: as an array the compiler would keep them in memory. */
+static ALWAYS_INLINE row_of_points corners_interpolate(const struct grid *g, const real *at, const row_of_points *t,
+                                                       row_of_points *slope, const int dim)
 {
-#pragma GCC unroll 8
-    for (int k = 0; k < 1 << dim; k++) c[k] = at[row_node_offset(g, k, dim, SHAPE_LINEAR)];
-#pragma GCC unroll 3
-    for (int side = 1; side < 1 << dim; side *= 2)
-#pragma GCC unroll 8
-        for (int k = 0; k < 1 << dim; k++)
-            if (k & side) c[k] -= c[k - side];
-}
-
-/* Returns the value of the polynomial c (corner_polynomial) at a few points, and stores its derivatives by t_d in
- * slope[dim]. t: positions of the points in the cell, in node distances. */
-static ALWAYS_INLINE row_of_points corner_interpolate(const real *c, const row_of_points *t, row_of_points *slope,
-                                                      const int dim)
-{
+    const real *next = at + g->stride[1];
+    const real a = at[0], a_x = at[1] - a, a_y = next[0] - a, a_xy = (next[1] - next[0]) - a_x;
     if (dim == 2) {
-        slope[0] = c[1] + t[1] * c[3], slope[1] = c[2] + t[0] * c[3];
-        return (c[0] + t[1] * c[2]) + t[0] * slope[0];
+        slope[0] = a_x + t[1] * a_xy, slope[1] = a_y + t[0] * a_xy;
+        return (a + t[1] * a_y) + t[0] * slope[0];
     }
-    const row_of_points y = c[2] + t[2] * c[6], xy = c[3] + t[2] * c[7];
-    slope[0] = (c[1] + t[2] * c[5]) + t[1] * xy, slope[1] = y + t[0] * xy;
-    slope[2] = (c[4] + t[1] * c[6]) + t[0] * (c[5] + t[1] * c[7]);
-    return (c[0] + t[2] * c[4]) + t[1] * y + t[0] * slope[0];
+    const real *above = at + g->stride[2], *last = next + g->stride[2];
+    const real b = above[0], b_x = above[1] - b, b_y = last[0] - b, b_xy = (last[1] - last[0]) - b_x;
+    const real a_z = b - a, a_xz = b_x - a_x, a_yz = b_y - a_y, a_xyz = b_xy - a_xy;
+    const row_of_points y = a_y + t[2] * a_yz, xy = a_xy + t[2] * a_xyz;
+    slope[0] = (a_x + t[2] * a_xz) + t[1] * xy, slope[1] = y + t[0] * xy;
+    slope[2] = (a_z + t[1] * a_yz) + t[0] * (a_xz + t[1] * a_xyz);
+    return (a + t[2] * a_z) + t[1] * y + t[0] * slope[0];
 }
 
 /* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
