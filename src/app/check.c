@@ -220,6 +220,8 @@ static void say_materials(const struct run *e)
             printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
         const real most = e->tables.elastic[m].trigger_mean;
         if (isfinite(most)) printf(", conversion above %.4g Pa", most);
+        if (isfinite(most) && material_has_surface(a))
+            printf(" or at %.3g of the strength surface", e->scene->conversion.alpha);
         if (e->part.strength && a->scatter.given) say_scatter(&e->part, m);
         printf("\n");
         print_softening(e->scene, a);
