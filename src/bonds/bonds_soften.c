@@ -17,7 +17,7 @@ static void rows_watch(struct bonds *b, const struct bonds *previous, const stru
             least = real_min(least, material_least_strain(&source->material[m], source->family.space));
     if (isinf(least)) return;
     for (int64_t i = 0; i < p->n && p->strength; i++) weakest = real_min(weakest, p->strength[i]);
-    b->soft.gate = SURFACE_NEAR * least * weakest;
+    b->soft.gate = least > 0 ? SURFACE_NEAR * least * weakest : -INFINITY; /* reached where nothing is stretched */
     b->soft.near = NEW("bonds.near", b->row_blocks, uint8_t);
     for (int64_t row = 0; row < b->rows && previous; row++) {
         const int32_t before = previous->row_of[b->particle[row]];

@@ -298,11 +298,33 @@ static void test_scatter(void **state)
     plotted_particles_free(&s.c);
 }
 
+/* A surface that does not depend on pressure is reached under uniaxial compressive strain, which stretches no bond. */
+static void test_unstretched(void **state)
+{
+    (void)state;
+    struct surface_body s;
+    body_make(&s, SPACE_SOLID, 0, 1, false);
+    struct bonds *b = &s.c.bonds;
+    for (int m = 0; m < CLOUD_MATERIALS; m++)
+        s.c.material[m].surface =
+            surface_of_compression(s.c.material[m].tensile_strength, s.c.material[m].tensile_strength);
+    struct bonds old = *b;
+    bonds_make(b, NULL, &s.c.p, &s.c.source);
+    bonds_free(&old);
+    for (real strain = -4e-4; strain > -8e-4; strain -= 3e-4) { /* sqrt(J2) = 2 G strain/sqrt(3): at -0.5e-3 */
+        cloud_strain(&s.c, (const real[DIM_MAX][DIM_MAX]){{strain}});
+        soft_forces(&s);
+        bonds_start_by_surface(b, &s.c.p, &s.c.source);
+        assert_exact(started(b), strain < -5e-4 ? 1 : 0);
+    }
+    plotted_particles_free(&s.c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_uniform), cmocka_unit_test(test_means),
-                                       cmocka_unit_test(test_start), cmocka_unit_test(test_ends),
-                                       cmocka_unit_test(test_scatter)};
+                                       cmocka_unit_test(test_start),   cmocka_unit_test(test_ends),
+                                       cmocka_unit_test(test_scatter), cmocka_unit_test(test_unstretched)};
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;
