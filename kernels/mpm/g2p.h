@@ -296,7 +296,7 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
 
 /* Updates the n listed points of one cell. Returns the number of points that have left the cell. The cell is computed
  * again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. averaged: result of
- * mean_dilatation; up to MEAN_POINTS points are then interpolated before they are updated. */
+ * transfer_uses_mean_dilatation; up to MEAN_POINTS points are then interpolated before they are updated. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       struct flow_points *due, const int32_t *list, int n, const int dim,
                                       const enum shape shape, const enum transfer transfer, const bool averaged)

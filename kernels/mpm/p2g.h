@@ -172,7 +172,7 @@ static NEVER_INLINE void means_of_stress(const struct particles *p, const struct
 }
 
 /* Adds mass, momentum and force of the n listed points of one cell to the nodes of the grid. averaged: result of
- * mean_dilatation. */
+ * transfer_uses_mean_dilatation. */
 static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles *p, const struct transfer_data *t,
                                    const int32_t *list, int n, const int dim, const enum shape shape,
                                    const enum transfer transfer, const bool averaged)

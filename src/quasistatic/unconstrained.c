@@ -68,8 +68,7 @@ static void cells_join(const struct search *s)
     }
 }
 
-/* Returns the unknown of particle i, or for a point of the mesh the unknown of a corner of its cell; -1 if there is
- * none. */
+/* Returns the unknown of particle i, or for a point of the mesh that of a corner of its cell; -1 if there is none. */
 static int32_t unknown_of(const struct search *s, int64_t i)
 {
     const struct mesh *mesh = s->mesh;
