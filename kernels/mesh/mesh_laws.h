@@ -64,8 +64,9 @@ static ALWAYS_INLINE void law_points_load(const struct particles *p, const struc
         p->temperature ? lanes_gather_or_zero(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Stores the state in lane `lane` of *e, of a point that has yielded, to point i of the particles, and its stress in
- * `stress`, whose trial value it replaces. m: constants of its material. */
+/* Takes over the result of the return mapping for point i, which is in lane `lane` of *e: adds the trial stress less
+ * the returned stress to the plastic correction of the point, replaces the trial stress in this lane of `stress` by the
+ * returned one, and stores the plastic state. m: constants of the material. */
 static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const struct elastic *m,
                                                 const struct law_points *e, int lane, int64_t i, lanes *stress,
                                                 const int dim)

@@ -227,8 +227,8 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
     }
 }
 
-/* Corrects the energy of dashpots in g->absorbed to the velocities of the second map in g->momentum, which points
- * receive in FLIP. */
+/* Recomputes the energy g->absorbed that dashpots take with the velocities in g->momentum, those of the second map to
+ * the nodes: in FLIP points receive these, not the velocities on which the dashpots acted. */
 static void grid_absorb_again(struct grid *g)
 {
     for (int64_t k = 0; k < g->dashpots; k++)

@@ -132,8 +132,8 @@ static ALWAYS_INLINE void flow_unmark(struct particles *p, const struct elastic 
     }
 }
 
-/* Stores volume or stress across the plane of those of the points whose bits `flowed` are set. m: their material; e:
- * their state after the return mapping. */
+/* Stores the stress normal to the plane (plane strain) or the volume (plane stress, line) of those of the points
+ * point[LANES] whose bits `flowed` are set. m: material of the points; e: their state after the return mapping. */
 static NEVER_INLINE void flow_store_across(struct particles *p, const struct elastic *m, const struct law_points *e,
                                            unsigned flowed, const int32_t *point)
 {

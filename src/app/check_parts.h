@@ -109,7 +109,8 @@ void print_levels_saving(const struct run *e, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
-/* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */
+/* Writes a line for each narrow part of a body whose cross-sections hold more or fewer particles than width over
+ * spacing, with the nearest spacings of which the width is a whole multiple. */
 void print_section_advice(const struct run *e, FILE *out);
 
 /* Text of a length, returned by value. */

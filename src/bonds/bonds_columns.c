@@ -59,9 +59,9 @@ static void holes_close(struct holes_by_size *s)
     memory_free(s->next);
 }
 
-/* Adds the columns of the previous row blocks (rows of eight particles each) that are rebuilt to the holes, unused
- * columns for the next rebuilding: in this one they are still read. kept[row blocks]: row block of `old` that is taken
- * over, -1: none. */
+/* Appends the columns of those row blocks of `old` (rows of eight particles each) that are not taken over to the list
+ * of unused columns b->holes. The next rebuilding may use them; the present one still reads them. kept[row blocks]: row
+ * block of `old` that is taken over, -1: none. */
 static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
     struct bond_holes *holes = &b->holes;

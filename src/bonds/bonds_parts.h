@@ -233,8 +233,8 @@ int row_block_count_columns(struct row_block_buffer *buffer, const int32_t *part
 void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block, int rows, bool by_offset,
                     const struct particles *p);
 
-/* Fills row block `row_block` of b from the bonds in room->regular, which were found without a search, because its
- * eight particles are consecutive on one lattice. */
+/* Fills row block `row_block` of b from the bonds in buffer->regular, which were found without a search, because its
+ * eight particles are consecutive on one lattice. maker: parameters of the bonds. */
 void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                             const struct row_maker *maker);
 

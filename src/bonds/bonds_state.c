@@ -12,9 +12,10 @@ real state_row_intact_weighted_volume(const struct bonds *b, int64_t row)
     return Q;
 }
 
-/* Computes the weighted volume Q of each row of row block g [m^2]: with b->state.local, for rows with whole families, Q
- * = sum w r^2 over their present bonds; else that of a full family on the lattice or, near faces, of the particle's
- * class (surface.h). */
+/* Computes the weighted volume Q = sum w r^2 of each row (the bonds of a particle) of row block g [m^2]. With
+ * b->state.local, and if all lattice sites within the horizon of the particle are occupied, the sum is over the present
+ * bonds. Otherwise it is that of the undamaged family: of a full one on the lattice or, near faces, of the particle's
+ * surface class (surface.h). */
 static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)
 {
     const struct family *f = &s->family;

@@ -52,8 +52,9 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
                      coupling_name[kind]);
 }
 
-/* Warns of quadratic and cubic shape functions if a boundary prescribes motion, and of cells with a single point.
- * on_grid: material points are on the grid of the current frame. */
+/* Adds warnings to *to: of quadratic and cubic shape functions if a boundary prescribes motion of points on a grid, and
+ * of cells with a single point. on_grid: material points are on the grid of the current frame, not on a mesh of the
+ * reference frame. */
 static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *to)
 {
     bool driven = false;

@@ -243,8 +243,8 @@ static void flood_free(struct flood *f)
     memory_free(f->search.found);
 }
 
-/* Assigns all newly damaged particles to cracks: to a start or a crack nearby, to cracks connected with them, or to new
- * cracks. */
+/* Assigns every newly damaged particle to a crack, by the first of these rules that applies: the start of a crack or a
+ * crack is near the particle; a damaged particle that is connected with it has a crack; else a new crack begins. */
 static void flood_all(struct flood *f)
 {
     const struct particles *p = f->search.p;

@@ -59,9 +59,9 @@ static status go_to_size(struct run *e, real size, real least, real most)
 }
 
 /* Finds the equilibrium at pseudo-time t [s], or at an earlier one at which bonds come near their critical stretch, and
- * then determines the next crack increment. Far beyond the critical stretch energies are those of a body that would
- * have broken before, the release of an increment is lost in their round-off, and bonds have yielded that never would.
- * Returns FAILED, with a message, if an equilibrium is not found. */
+ * then determines the next crack increment. Returns FAILED, with a message, if an equilibrium is not found. The earlier
+ * one is needed because an equilibrium far beyond the critical stretch is that of a body which would have broken
+ * before: its energies hide the energy that an increment releases, and bonds yield that would not yield. */
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;

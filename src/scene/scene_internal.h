@@ -119,7 +119,8 @@ status tree_apply_override(struct reader *r, struct yaml_node *root, const char 
 /* Returns the node at a path of keys without lists; NULL if the scene does not give it. */
 const struct yaml_node *tree_find(const struct yaml_node *root, const char *path);
 
-/* Parses the text of a scene and applies includes and overrides (scene.c). */
+/* Parses the scene text[length], applies includes and overrides (scene.c), and stores the tree in *root. Returns
+ * REFUSED, with a message, if the text is malformed or a file is missing. */
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root);
 
 /* Fills r->scene from the tree, and checks it (scene.c). */

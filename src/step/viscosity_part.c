@@ -106,8 +106,8 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
     v->taken += reproducible_sum(p->n, taken_by, v->work);
 }
 
-/* Returns half of the time step [s], for which the forces of two successive steps do work, or 0 in the first step,
- * which has no previous one. */
+/* Returns half of the time step [s], the weight of the forces at both ends of a step in the work over this step
+ * (trapezoidal rule); 0 in the first step, which has no previous forces. */
 static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
 
 void viscosity_add_forces(struct run *e)
