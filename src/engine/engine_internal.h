@@ -65,6 +65,10 @@ void engine_warn_of_mistaken_units(const struct scene *s, const struct particles
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *to);
 
+/* Adds a warning to *to if a particle starts faster than wave_speed, the speed of the fastest wave in any material
+ * [m/s]. */
+void engine_warn_of_fast_particles(const struct particles *p, real wave_speed, struct warnings *to);
+
 /* Adds warnings to *to about supports that hold all particles, and about pairs of supports that prescribe different
  * motions of the same particles. */
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
