@@ -416,13 +416,13 @@ bodies:
   - {name: target, material: alumina, shape: {box: {from: [0, 0], to: [8 mm, 4 mm]}}}
 particles: {spacing: 0.4 mm}
 END
-says "bodies that collide faster than their bonds bear" '^accuracy  *bodies collide at 10 m/s, 2[.0-9]* times the speed at which the front' "$work/strike.yaml"
-says "a start faster than waves" '^warning: particles start with 1e+04 m/s, [0-9.]* times the wave speed' "$work/strike.yaml" -s "bodies.flyer.velocity=[10 km/s, 0]"
+says "bodies that collide faster than their bonds bear" '^accuracy  *bodies collide at 10 m/s, 1.95 times the speed at which the front' "$work/strike.yaml"
+says "a start faster than waves" '^warning: particles start with 3e+04 m/s, [0-9.]* times the wave speed' "$work/strike.yaml" -s "bodies.flyer.velocity=[30 km/s, 0]"
 silent "a start slower than waves" '^warning: particles start' "$work/strike.yaml"
 silent "slowly" '^accuracy  *bodies collide' "$work/strike.yaml" -s "bodies.flyer.velocity=[0.4 m/s, 0]"
 silent "with viscosity" '^accuracy  *bodies collide' "$work/strike.yaml" -s "materials.alumina.viscosity={}" -s "materials.steel.viscosity={}"
 "$cleave" run -q -o "$work/struck" "$work/strike.yaml" -s "bodies.flyer.velocity=[100 m/s, 0]" 2>"$work/err"
-holds "bonds that break in it: the run says so" grep -q '^warning: the first bond broke at .* in a collision at 100 m/s, 20[.0-9]* times' "$work/err"
+holds "bonds that break in it: the run says so" grep -q '^warning: the first bond broke at .* in a collision at 100 m/s, 19.5 times' "$work/err"
 "$cleave" run -q -o "$work/spread" "$work/strike.yaml" -s "bodies.flyer.velocity=[100 m/s, 0]" -s "materials.alumina.viscosity={}" \
     -s "materials.steel.viscosity={}" -s accept=[rayleigh] 2>"$work/err"
 is "with viscosity: bonds that break" "$(cat "$work/err")" ""
