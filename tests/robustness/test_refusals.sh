@@ -1,5 +1,6 @@
 #!/bin/sh
 # Refusals: exit status 2, one line on standard error with position and reason, and no files left.
+# Takes 20 s: a start of the program for each scene that is refused.
 test_name=test_refusals
 . tests/support/summary.sh
 cd "$work" || exit 1

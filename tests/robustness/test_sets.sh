@@ -1,6 +1,7 @@
 #!/bin/sh
 # Kernel sets: a scene gives equal results with each, to round-off; each is bitwise reproducible on any number of threads; info lists them,
 # and a wrong name is refused.
+# Takes 25 s: runs of each set of kernels that the processor has.
 test_name=test_sets
 . tests/support/summary.sh
 . tests/support/trust.sh

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Reproducibility: bitwise equal results on any number of threads and after any interruption, and no silent failure.
 # Runs alone: it stops and kills runs of several threads at any stage.
+# Takes 45 s: runs that are interrupted or killed, and continued.
 test_name=test_trust
 . tests/support/summary.sh
 . tests/support/trust.sh

@@ -1,5 +1,6 @@
 #!/bin/sh
 # `cleave converge`: error bars that contain known answers, budget, refusals.
+# Takes 30 s: studies of many small runs.
 test_name=converge
 . tests/support/summary.sh
 inputs=$root/inputs

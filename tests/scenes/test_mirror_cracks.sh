@@ -1,6 +1,7 @@
 #!/bin/sh
 # Cracks near a plane of symmetry: half a body with a mirror is equivalent to the whole body with each crack and its image, with bonds and
 # adaptive, in 2D and 3D; momentum is conserved to round-off.
+# Takes 25 s: whole bodies beside their halves, in 2D and 3D.
 test_name=test_mirror_cracks
 . tests/support/summary.sh
 . tests/support/trust.sh

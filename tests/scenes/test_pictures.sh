@@ -1,5 +1,6 @@
 #!/bin/sh
 # Pictures of fields, slices, films and of scenes before they run, checked by a copy of gnuplot's input.
+# Takes 40 s: each picture is a process of gnuplot.
 test_name=test_pictures
 . tests/support/summary.sh
 command -v gnuplot >/dev/null || { echo "gnuplot is missing: files not tested"; exit 77; }

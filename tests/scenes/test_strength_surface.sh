@@ -1,6 +1,7 @@
 #!/bin/sh
 # Strength surfaces from the command line: whole plates of glass in tension, equal biaxial tension and shear, energy, equal bits on any
 # number of threads and after a checkpoint, an adaptive run, scatter, frames, what check prints, refusals.
+# Takes 35 s: whole plates at two horizons.
 test_name=test_strength_surface
 . tests/support/summary.sh
 . tests/support/scenes.sh
