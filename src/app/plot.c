@@ -328,6 +328,7 @@ static status draw_words(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
     if (w->scene.scene) return scene_draw_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
+    INVARIANT(r->folder);
     TRY(check_folder(r->folder));
     const bool one =
         r->field || r->projection.outside || r->projection.normal >= 0 || r->out || picture_is_film(r->format);
