@@ -34,23 +34,23 @@ enum { STEPS = 200, ROUNDS = 3, TEXT_ROOM = 2048 };
 
 struct peer_case {
     const char *name, *law;    /* law: "pmb" or "lps" */
-    int dim, edge, edge_quick; /* particles along an edge */
     double reach;              /* [spacings] */
+    int dim, edge, edge_quick; /* particles along an edge */
     bool cracked, breaking, timed;
 };
 static const struct peer_case cases[] = {
-    {"plate", "pmb", 2, 100, 40, REACH_USUAL, false, false, true},
-    {"plate", "pmb", 2, 100, 30, REACH_EXACT, true, false, false},
-    {"plate", "lps", 2, 100, 40, REACH_USUAL, false, false, true},
-    {"plate", "lps", 2, 100, 30, REACH_EXACT, true, false, false},
-    {"plate", "lps", 2, 100, 30, REACH_NEAREST, true, false, false},
-    {"block", "pmb", 3, 32, 10, REACH_USUAL, false, false, true},
-    {"block", "pmb", 3, 16, 8, REACH_EXACT, false, false, false},
-    {"block", "lps", 3, 32, 10, REACH_USUAL, false, false, true},
-    {"block", "lps", 3, 16, 8, REACH_EXACT, false, false, false},
-    {"block", "lps", 3, 16, 8, REACH_NEAREST, false, false, false},
-    {"plate breaking", "pmb", 2, 100, 40, REACH_EXACT, true, true, false},
-    {"plate breaking", "lps", 2, 100, 40, REACH_EXACT, true, true, false},
+    {"plate", "pmb", REACH_USUAL, 2, 100, 40, false, false, true},
+    {"plate", "pmb", REACH_EXACT, 2, 100, 30, true, false, false},
+    {"plate", "lps", REACH_USUAL, 2, 100, 40, false, false, true},
+    {"plate", "lps", REACH_EXACT, 2, 100, 30, true, false, false},
+    {"plate", "lps", REACH_NEAREST, 2, 100, 30, true, false, false},
+    {"block", "pmb", REACH_USUAL, 3, 32, 10, false, false, true},
+    {"block", "pmb", REACH_EXACT, 3, 16, 8, false, false, false},
+    {"block", "lps", REACH_USUAL, 3, 32, 10, false, false, true},
+    {"block", "lps", REACH_EXACT, 3, 16, 8, false, false, false},
+    {"block", "lps", REACH_NEAREST, 3, 16, 8, false, false, false},
+    {"plate breaking", "pmb", REACH_EXACT, 2, 100, 40, true, true, false},
+    {"plate breaking", "lps", REACH_EXACT, 2, 100, 40, true, true, false},
 };
 enum { CASES = COUNT_OF(cases) };
 

@@ -71,7 +71,7 @@ static void job_copy_fields(struct frame_job *job, const struct frame_source *so
 /* Removes the field of contact forces from a frame in which all are 0, and marks the frame as untouched. */
 static void job_drop_contact(struct frame_job *job)
 {
-    const float *force = (const float *)job->field[FIELD_CONTACT];
+    const float *force = (const void *)job->field[FIELD_CONTACT];
     const int64_t numbers = job->n * job->dim;
     int64_t k = 0;
     if (!force) return;

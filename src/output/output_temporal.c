@@ -56,7 +56,7 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
     const int32_t steps = a->n;
     char name[PATH_NAME_ROOM];
-    double *time = (double *)number;
+    double *time = (void *)number;
     hdf_create_group(f, "/VTKHDF/Steps");
     hdf_write_scalar_attribute(f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
     for (int k = 0; k < a->n; k++) time[k] = a->time[k];

@@ -216,7 +216,7 @@ static void print_faces(FILE *to, const struct rigid_set *rigid)
     print_array(to, "Int32", "connectivity", 1);
     for (int b = 0; b < rigid->n; first += rigid->surface[b].points, b++)
         for (int64_t k = 0; k < rigid->surface[b].faces * rigid->surface[b].corners; k++)
-            fprintf(to, "%lld%c", (long long)(first + rigid->surface[b].corner[k]),
+            fprintf(to, "%lld%c", (long long)first + rigid->surface[b].corner[k],
                     (k + 1) % rigid->surface[b].corners ? ' ' : '\n');
     fputs("</DataArray>\n", to);
     print_array(to, "Int32", "offsets", 1);

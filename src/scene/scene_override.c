@@ -120,7 +120,7 @@ static status item_called(struct reader *r, struct yaml_node *list, const char *
 
 static bool is_key(const struct yaml_node *n, const char *key, size_t length)
 {
-    return strlen(n->key) == length && memcmp(n->key, key, length) == 0;
+    return strlen(n->key) == length && (length == 0 || memcmp(n->key, key, length) == 0);
 }
 
 /* Turns a node with a word as its value into a mapping with one entry of this key, whose value is `text` (NULL: an

@@ -24,9 +24,8 @@ static bool needs_bonds(const struct scene *s)
 
 static void candidate_add(struct pilot_search *p, const char *name, const char *method, const char *model)
 {
-    const bool points = !strcmp(method, "mpm");
-    if (!points && p->wish.model[0] && strcmp(p->wish.model, model) != 0) return;
-    p->at[p->n++] = (struct pilot_candidate){.name = name, .method = method, .model = points ? NULL : model};
+    if (model && p->wish.model[0] && strcmp(p->wish.model, model) != 0) return;
+    p->at[p->n++] = (struct pilot_candidate){.name = name, .method = method, .model = model};
 }
 
 /* Returns true if bonds of the scene may break or its cracks may grow. */
