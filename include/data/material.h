@@ -39,6 +39,7 @@ struct material {
     struct strength_scatter scatter; /* random field of its critical stretch */
     struct law law;                  /* by which its material points yield */
     struct strength_surface surface; /* by which its bonds begin to soften; none without one of these strengths */
+    real surface_least_strain;       /* of that surface: material_least_strain [1] */
     int surface_means;               /* number of means over families by which the strain is averaged for it */
     /* values derived by material_compute_derived_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
@@ -122,6 +123,9 @@ struct surface_strengths material_surface_strengths(const struct material *m, en
 /* Returns the smallest value, over all stress states on the surface of material m, of the largest principal strain that
  * its bonds have [1]; 0 if some state stretches no bond. */
 real material_least_strain(const struct material *m, enum space space);
+
+/* Gives the material m a strength surface, and computes m->surface_least_strain. */
+void material_set_surface(struct material *m, enum space space, struct strength_surface surface);
 
 /* Returns the share of the surface of material m at a stress of symmetric components `stress` [Pa] [1]. */
 real material_stress_share(const struct material *m, enum space space, const real *stress);

@@ -268,6 +268,12 @@ void particles_coordinate_range(const struct particles *p, int64_t count, int ax
  * several; mirror images are not considered. */
 int64_t particles_nearest(const struct particles *p, const real *X);
 
+/* Returns the largest speed of the particles list[n] [m/s], 0 for an empty list. */
+real particles_largest_speed(const struct particles *p, const int32_t *list, int64_t n);
+
+/* Returns the largest speed of all particles, peridynamic and material points [m/s]. */
+real particles_largest_speed_of_all(const struct particles *p);
+
 /* Returns the longest edge of the bounding box of the reference positions of all particles [m], without mirror
  * images. */
 real particles_bounding_box_longest_edge(const struct particles *p);

@@ -35,6 +35,18 @@ static inline real surface_share(const struct strength_surface *s, real xx, real
     return (sqrt(J2) + s->g1 * (xx + yy + zz)) / s->g0;
 }
 
+/* Returns the share of the surface at a stress of symmetric components stress[dim (dim + 1)/2] [Pa]. across: in 2D, the
+ * stress normal to the plane over the sum of the normal stresses in it: Poisson's ratio in plane strain, 0 in plane
+ * stress [1]. */
+static inline real surface_share_of_components(const struct strength_surface *s, const real *stress, real across,
+                                               const int dim)
+{
+    real shear_squares = 0;
+    for (int c = dim; c < dim * (dim + 1) / 2; c++) shear_squares += square(stress[c]);
+    const real zz = dim == 3 ? stress[2] : across * (stress[0] + stress[1]);
+    return surface_share(s, stress[0], stress[1], zz, shear_squares);
+}
+
 /* Returns the strength for proportional stresses with the principal values of `direction`: the factor on these at which
  * the surface is reached [Pa], INFINITY if it never is. */
 real surface_strength(const struct strength_surface *s, const real *direction);

@@ -76,9 +76,6 @@ int64_t diagnostics_locate_cuts(const struct particles *p, const int32_t *list, 
 bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken_bonds,
                                real t);
 
-/* Returns the largest speed of the particles list[n] [m/s], 0 for an empty list. */
-real diagnostics_largest_speed(const struct particles *p, const int32_t *list, int64_t n);
-
 /* Searches for particles whose position or velocity is not finite or whose speed exceeds `max_speed`, the fastest wave
  * speed of the scene [m/s]. peridynamic: search the peridynamic particles too; meshed: search the material points of a
  * mesh too. Both are false in most steps, since the functions that move these particles detect divergence. step, t:

@@ -9,7 +9,7 @@
 #define CLEAVE_KERNELS_MESH_POINT
 
 #include "kernels/kernels.h"
-#include "kernels/pd/polar.h"
+#include "base/polar.h"
 #include "kernels/mpm/stress.h"
 
 /* Replaces the values at the two ends of an edge by the linearly interpolated values at one quarter (*low) and three

@@ -226,10 +226,8 @@ static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *
  * (data/strength_surface.h) [Pa]. s: symmetric components. */
 static ALWAYS_INLINE real stress_failure(const struct elastic *m, const real *s, const int dim)
 {
-    real shear = 0;
-    for (int c = dim; c < dim * (dim + 1) / 2; c++) shear += s[c] * s[c];
-    const real zz = dim == 3 ? s[2] : m->space == SPACE_PLANE_STRAIN ? m->poisson * (s[0] + s[1]) : 0;
-    return surface_share(&m->surface, s[0], s[1], zz, shear) * m->surface.g0;
+    const real across = m->space == SPACE_PLANE_STRAIN ? m->poisson : 0;
+    return surface_share_of_components(&m->surface, s, across, dim) * m->surface.g0;
 }
 
 /* Returns true if material point i, of material m, converts to a peridynamic particle at the stress s: if its largest

@@ -3,7 +3,7 @@
 #define CLEAVE_KERNELS_POLAR_LANES
 
 #include "kernels/simd/lanes.h"
-#include "polar.h"
+#include "base/polar.h"
 
 #define POLAR_TINY 1e-300 /* keeps the root of a zero matrix finite */
 

@@ -6,7 +6,7 @@
 
 #include "bond_core.h"
 #include "kernels/kernels.h"
-#include "polar.h"
+#include "base/polar.h"
 #include "polar_lanes.h"
 #include "state_last.h"
 #include "state_laws.h"

@@ -8,7 +8,7 @@
 #include "bond_last.h"
 #include "bond_laws.h"
 #include "kernels/kernels.h"
-#include "polar.h"
+#include "base/polar.h"
 #include "rotation.h"
 
 /* Sums over the bonds of one particle (its family) that do not break in this step, with weight w, reference vector xi

@@ -8,7 +8,7 @@
 #include "bond_core.h"
 #include "bond_last.h"
 #include "kernels/kernels.h"
-#include "polar.h"
+#include "base/polar.h"
 #include "kernels/mpm/stress.h"
 #include "state_laws.h"
 #include "base/team.h"

@@ -53,14 +53,22 @@ void print_softening(const struct scene *s, const struct material *m);
  * bonds are not known to have one. */
 void print_brittle_strength(const struct scene *s, const struct material *m);
 
+/* Size of a part or a crack below which faces or tips affect each other [horizons] */
+#define FEATURE 4
+
 /* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
 
 /* Prints the length of the smallest pre-crack and its ratio to the horizon, in plane bodies whose bonds soften; else
  * nothing. */
 void print_precracks(const struct run *e);
 
-/* Returns the share of the straight line between two points that is inside bodies (check_advice.c) [1]. */
-real crack_share_within(const struct scene *s, const real *from, const real *to);
+/* Writes a remark to `out` for each 2D crack whose two tips are less than FEATURE horizons apart. A crack with one tip
+ * begins at a face or a plane of symmetry and counts as half of a crack of twice the length. */
+void advise_precracks(const struct scene *s, const struct fracture_state *fracture, FILE *out);
+
+/* Adds a hint to *to for each 2D pre-crack that ends exactly on bonds, so that rounding decides whether they are cut.
+ */
+void hint_precrack_ends(const struct run *e, struct warnings *to);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 

@@ -1,11 +1,120 @@
-/* The smallest pre-crack against the horizon, in plane bodies whose bonds soften, as `cleave check` prints it. */
+/* What `cleave check` says of pre-cracks: remarks on their length, hints at ends that lie on bonds, and the smallest
+ * one against the horizon where bonds soften. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "check_parts.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
 
-#define HORIZONS_LEAST                                                                                                 \
-    3 /* length of a pre-crack below which its load depends on the horizon; by the separate program */
+/* Length of a pre-crack below which its load depends on the horizon [horizons]; by the separate program */
+#define HORIZONS_LEAST 3
+
+/* Returns true if `end` [dim, m], an end of a pre-crack, is a crack tip inside the material and not at a face of the
+ * body. */
+static bool is_tip(const struct fracture_state *fracture, const real *end)
+{
+    const struct crack_tips *t = &fracture->tips;
+    for (int k = 0; k < t->n; k++)
+        if (t->tip[k].from_crack && arrays_equal(t->tip[k].origin, end, t->dim, sizeof *end)) return true;
+    return false;
+}
+
+/* Returns the share of the straight crack from..to [dim, m] that is inside bodies [1], from 1000 points on it. */
+static real crack_share_within(const struct scene *s, const real *from, const real *to)
+{
+    enum { PLACES = 1000 };
+    int within = 0;
+    for (int m = 0; m < PLACES; m++) {
+        real X[DIM_MAX] = {0};
+        bool found = false;
+        for (int d = 0; d < s->dim; d++) X[d] = from[d] + (m + 0.5) / PLACES * (to[d] - from[d]);
+        for (int b = 0; b < s->bodies && !found; b++) found = region_contains(&s->body[b].shape, X, s->dim, 0);
+        within += found;
+    }
+    return (real)within / PLACES;
+}
+
+void advise_precracks(const struct scene *s, const struct fracture_state *fracture, FILE *out)
+{
+    for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
+        const real *from = s->crack[k].corner[0], *to = s->crack[k].corner[1];
+        const bool tip[2] = {is_tip(fracture, from), is_tip(fracture, to)};
+        const real share = tip[0] && tip[1] ? 1 : crack_share_within(s, from, to);
+        const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
+        if (tip[0] != tip[1] && length < 0.5 * s->spacing) {
+            fprintf(
+                out,
+                "accuracy       crack %d is in the body over %.3g m, less than half a spacing: check its coordinates "
+                "and their unit (mm?)\n",
+                k + 1, length);
+            continue;
+        }
+        if (tip[0] && tip[1] && length < FEATURE * (s->horizon * s->spacing))
+            fprintf(
+                out,
+                "accuracy       crack %d is %.4g m long, %.2g horizons: its two tips affect each other; use a smaller "
+                "spacing\n",
+                k + 1, length, length / (s->horizon * s->spacing));
+        else if (tip[0] != tip[1] && 2 * length < FEATURE * (s->horizon * s->spacing))
+            fprintf(out,
+                    "accuracy       crack %d is %.3g m deep, %.2g horizons: the face affects its tip; use a smaller "
+                    "spacing\n",
+                    k + 1, length, length / (s->horizon * s->spacing));
+    }
+}
+
+/* Returns the index of the body of particle i. Bodies that are joined have one index. */
+static int body_of(const struct scene *scene, const struct particles *part, int32_t i)
+{
+    return scene->body[part->body[i]].joined;
+}
+
+/* Returns the number of bonds whose cut depends on the exact length of crack c at its corner `end` (0 or 1): bonds that
+ * c cuts if it is longer by 1e-7 of its length, but not if it is shorter by as much. Bonds are pairs of particles of
+ * one body within the horizon. found[capacity]: work array for the particles near the end. */
+static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int capacity)
+{
+    const struct particles *p = &e->part;
+    real corner[2][2][DIM_MAX], hair[DIM_MAX];
+    struct crack longer = {.n = 2, .corner = corner[0]}, shorter = {.n = 2, .corner = corner[1]};
+    memcpy(corner[0], c->corner, sizeof corner[0]);
+    memcpy(corner[1], c->corner, sizeof corner[1]);
+    for (int d = 0; d < p->dim; d++) hair[d] = 1e-7 * (c->corner[end][d] - c->corner[!end][d]);
+    for (int d = 0; d < p->dim; d++) corner[0][end][d] += hair[d], corner[1][end][d] -= hair[d];
+    int64_t tied = 0;
+    const int n = cells_find_near(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, capacity);
+    for (int k = 0; k < n; k++)
+        for (int m = 0; m < k; m++) {
+            real a[DIM_MAX], b[DIM_MAX], r2 = 0;
+            particle_reference_position(p, found[k], a);
+            particle_reference_position(p, found[m], b);
+            for (int d = 0; d < p->dim; d++) r2 += square(a[d] - b[d]);
+            if (body_of(e->scene, &e->part, found[k]) != body_of(e->scene, &e->part, found[m])) continue;
+            if (r2 > square(e->source.family.cutoff)) continue;
+            tied += crack_cuts_bond(&longer, a, b, p->dim) != crack_cuts_bond(&shorter, a, b, p->dim);
+        }
+    return tied;
+}
+
+void hint_precrack_ends(const struct run *e, struct warnings *to)
+{
+    enum { ROOM = 1024 };
+    int32_t found[ROOM];
+    for (int k = 0; k < e->scene->cracks && e->part.dim == 2 && e->scene->method != METHOD_MPM; k++) {
+        int64_t tied[2];
+        if (cells_neighbour_count_bound(&e->cells, e->source.family.cutoff) > ROOM) return;
+        for (int end = 0; end < 2; end++) tied[end] = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
+        const bool both = tied[0] > 0 && tied[1] > 0;
+        if (tied[0] > 0 || tied[1] > 0)
+            warnings_add(to,
+                         "crack %d: %s exactly on %lld bonds%s; they are cut. Move %s by 0.1 spacings to make the "
+                         "choice explicit",
+                         k + 1, both ? "its ends lie" : "an end lies", (long long)(tied[0] > 0 ? tied[0] : tied[1]),
+                         both ? " each" : "", both ? "the ends" : "the end");
+    }
+}
 
 void print_precracks(const struct run *e)
 {

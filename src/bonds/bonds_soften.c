@@ -14,7 +14,7 @@ static void rows_watch(struct bonds *b, const struct bonds *previous, const stru
     real least = INFINITY, weakest = 1;
     for (int m = 0; m < source->materials; m++)
         if (material_has_surface(&source->material[m]))
-            least = real_min(least, material_least_strain(&source->material[m], source->family.space));
+            least = real_min(least, source->material[m].surface_least_strain);
     if (isinf(least)) return;
     for (int64_t i = 0; i < p->n && p->strength; i++) weakest = real_min(weakest, p->strength[i]);
     b->soft.gate = least > 0 ? SURFACE_NEAR * least * weakest : -INFINITY; /* reached where nothing is stretched */

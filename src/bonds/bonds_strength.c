@@ -16,6 +16,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "base/polar.h"
 #include "bonds_parts.h"
 
 #define LEAST_ONSET 0.3 /* least onset of a started bond over the strain sigma_t/E */
@@ -35,27 +36,27 @@ struct evaluation {
 
 /* ---- strain of a particle ---------------------------------------------------------------------------------------- */
 
-typedef real matrix[3][3];
+/* A matrix of dim rows, row major. */
+typedef real matrix[DIM_MAX * DIM_MAX];
 
 /* Computes the inverse of a matrix of dim rows. Returns false if it is singular. */
 static ALWAYS_INLINE bool square_matrix_invert(const matrix a, matrix inverse, const int dim)
 {
     real mean = 0, determinant;
-    for (int k = 0; k < dim; k++) mean += fabs(a[k][k]) / dim;
+    for (int k = 0; k < dim; k++) mean += fabs(a[k * dim + k]) / dim;
     if (dim == 2) {
-        determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-        inverse[0][0] = a[1][1], inverse[1][1] = a[0][0], inverse[0][1] = -a[0][1], inverse[1][0] = -a[1][0];
+        determinant = a[0] * a[3] - a[1] * a[2];
+        inverse[0] = a[3], inverse[3] = a[0], inverse[1] = -a[1], inverse[2] = -a[2];
     } else {
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) {
                 const int r = (j + 1) % 3, s = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-                inverse[i][j] = a[r][c] * a[s][d] - a[r][d] * a[s][c];
+                inverse[i * 3 + j] = a[r * 3 + c] * a[s * 3 + d] - a[r * 3 + d] * a[s * 3 + c];
             }
-        determinant = a[0][0] * inverse[0][0] + a[0][1] * inverse[1][0] + a[0][2] * inverse[2][0];
+        determinant = a[0] * inverse[0] + a[1] * inverse[3] + a[2] * inverse[6];
     }
     if (!(fabs(determinant) > SPANS * (dim == 3 ? mean * mean * mean : mean * mean))) return false;
-    for (int i = 0; i < dim; i++)
-        for (int j = 0; j < dim; j++) inverse[i][j] /= determinant;
+    for (int k = 0; k < dim * dim; k++) inverse[k] /= determinant;
     return true;
 }
 
@@ -64,32 +65,10 @@ static ALWAYS_INLINE void matrix_multiply(const matrix a, bool turned, const mat
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) {
-            product[i][j] = 0;
-            for (int k = 0; k < dim; k++) product[i][j] += (turned ? a[k][i] : a[i][k]) * b[k][j];
+            real sum = 0;
+            for (int k = 0; k < dim; k++) sum += a[turned ? k * dim + i : i * dim + k] * b[k * dim + j];
+            product[i * dim + j] = sum;
         }
-}
-
-/* Replaces F by the rotation of its polar decomposition: in the plane by its angle, in space by the mean of a matrix
- * and its inverse transpose, repeated (Higham 1986). Returns false if there is none. */
-static ALWAYS_INLINE bool matrix_rotation(matrix F, const int dim)
-{
-    matrix inverse;
-    if (dim == 2) {
-        const real c = F[0][0] + F[1][1], s = F[1][0] - F[0][1], size = sqrt(c * c + s * s);
-        F[0][0] = F[1][1] = c / size, F[1][0] = s / size, F[0][1] = -s / size;
-        return size > 0;
-    }
-    for (int step = 0; step < 30; step++) {
-        real change = 0;
-        if (!square_matrix_invert(F, inverse, dim)) return false;
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++) {
-                const real next = 0.5 * (F[i][j] + inverse[j][i]);
-                change = real_max(change, fabs(next - F[i][j])), F[i][j] = next;
-            }
-        if (change < 1e-12) return true;
-    }
-    return false;
 }
 
 /* Sums over the bonds of a row: M of the stiffness that is left, L of what is lost, so that K = M + L, and Y = sum
@@ -102,7 +81,7 @@ struct moments {
 static ALWAYS_INLINE void moment_add(matrix m, real weight, const real *a, const real *b, const int dim)
 {
     for (int i = 0; i < dim; i++)
-        for (int j = 0; j < dim; j++) m[i][j] += weight * a[i] * b[j];
+        for (int j = 0; j < dim; j++) m[i * dim + j] += weight * a[i] * b[j];
 }
 
 /* Computes the sums over the bonds of a row, without those that a pre-crack cuts. */
@@ -111,7 +90,7 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     const struct particles *p = e->p;
     const int32_t i = e->b->particle[row];
     const bool begun = e->b->soft.begun[row / LANES];
-    *sum = (struct moments){.M = {{0}}};
+    *sum = (struct moments){.M = {0}};
     for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
         const int32_t j = it.bond.nbr;
         const real inverse = fabs(it.bond.inverse_length);
@@ -138,7 +117,7 @@ static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g,
     const struct particles *p = e->p;
     const struct stencil *stencil = e->b->stencil[g];
     const int64_t i = e->b->particle[g * LANES];
-    real M[3][3][LANES] = {{{0}}}, Y[3][3][LANES] = {{{0}}};
+    real M[DIM_MAX * DIM_MAX][LANES] = {{0}}, Y[DIM_MAX * DIM_MAX][LANES] = {{0}};
     for (int k = 0; k < stencil->columns; k++) {
         const int64_t j = i + stencil->column[k].offset;
         const real inverse = stencil->column[k].inverse_length;
@@ -149,13 +128,14 @@ static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g,
                 xi[d][l] = p->X[d][j + l] - p->X[d][i + l], y[d][l] = p->x[d][j + l] - p->x[d][i + l];
         for (int a = 0; a < dim; a++)
             for (int c = 0; c < dim; c++)
-                for (int l = 0; l < LANES; l++)
-                    M[a][c][l] += weight[l] * xi[a][l] * xi[c][l], Y[a][c][l] += weight[l] * y[a][l] * xi[c][l];
+                for (int l = 0; l < LANES; l++) {
+                    M[a * dim + c][l] += weight[l] * xi[a][l] * xi[c][l];
+                    Y[a * dim + c][l] += weight[l] * y[a][l] * xi[c][l];
+                }
     }
     for (int l = 0; l < LANES; l++) {
-        sum[l] = (struct moments){.M = {{0}}};
-        for (int a = 0; a < dim; a++)
-            for (int c = 0; c < dim; c++) sum[l].M[a][c] = M[a][c][l], sum[l].Y[a][c] = Y[a][c][l];
+        sum[l] = (struct moments){.M = {0}};
+        for (int k = 0; k < dim * dim; k++) sum[l].M[k] = M[k][l], sum[l].Y[k] = Y[k][l];
     }
 }
 
@@ -163,20 +143,19 @@ static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g,
  * they do not span the space. */
 static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, const int dim)
 {
-    matrix inverse, R, back, E;
+    matrix inverse, F, R, back, E;
     for (int s = 0; s < SYM_MAX; s++) strain[s] = 0;
     if (!square_matrix_invert(sum->M, inverse, dim)) return;
-    matrix_multiply(sum->Y, false, inverse, R, dim);
-    if (!matrix_rotation(R, dim)) return;
+    matrix_multiply(sum->Y, false, inverse, F, dim);
+    polar_rotation(F, R, dim);
     matrix_multiply(R, true, sum->Y, back, dim);
-    for (int i = 0; i < dim; i++)
-        for (int j = 0; j < dim; j++) back[i][j] -= sum->M[i][j], sum->L[i][j] += sum->M[i][j];
+    for (int k = 0; k < dim * dim; k++) back[k] -= sum->M[k], sum->L[k] += sum->M[k];
     if (!square_matrix_invert(sum->L, inverse, dim)) return;
     matrix_multiply(back, false, inverse, E, dim);
     for (int s = 0; s < symmetric_component_count(dim); s++) {
         int a, c;
         symmetric_component_axes(dim, s, &a, &c);
-        strain[s] = 0.5 * (E[a][c] + E[c][a]);
+        strain[s] = 0.5 * (E[a * dim + c] + E[c * dim + a]);
     }
 }
 
@@ -280,7 +259,7 @@ static real row_strength(const struct evaluation *e, int64_t row)
 
 /* ---- evaluation -------------------------------------------------------------------------------------------------- */
 
-/* Allocates what an evaluation needs. share: as in struct evaluation, allocated by the caller. */
+/* Returns an evaluation of the surfaces for the bonds b, with its arrays allocated. Release with evaluation_free. */
 static struct evaluation evaluation_make(const struct bonds *b, const struct particles *p,
                                          const struct bond_source *source)
 {

@@ -328,3 +328,21 @@ status particles_save_or_load(struct particles *p, int optional_arrays, struct a
         }
     return OK;
 }
+
+real particles_largest_speed(const struct particles *p, const int32_t *list, int64_t n)
+{
+    real most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most)
+    for (int64_t k = 0; k < n; k++) {
+        real speed2 = 0;
+        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][list[k]]);
+        most = real_max(most, speed2);
+    }
+    return sqrt(most);
+}
+
+real particles_largest_speed_of_all(const struct particles *p)
+{
+    return real_max(particles_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
+                    particles_largest_speed(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
+}

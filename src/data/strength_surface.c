@@ -24,6 +24,12 @@ struct strength_surface surface_of_biaxial(real tension, real biaxial)
     return surface_through(tension, (tension - biaxial) / (sqrt(3) * (2 * biaxial - tension)));
 }
 
+void material_set_surface(struct material *m, enum space space, struct strength_surface surface)
+{
+    m->surface = surface;
+    m->surface_least_strain = material_least_strain(m, space);
+}
+
 real surface_strength(const struct strength_surface *s, const real *direction)
 {
     const real share = surface_share(s, direction[0], direction[1], direction[2], 0);
@@ -78,9 +84,6 @@ struct surface_strengths material_surface_strengths(const struct material *m, en
 
 real material_stress_share(const struct material *m, enum space space, const real *stress)
 {
-    const int dim = space_dim(space);
-    real shear = 0;
-    for (int k = dim; k < symmetric_component_count(dim); k++) shear += square(stress[k]);
-    const real across = dim == 3 ? stress[2] : space == SPACE_PLANE_STRAIN ? m->poisson * (stress[0] + stress[1]) : 0;
-    return surface_share(&m->surface, stress[0], stress[1], across, shear);
+    return surface_share_of_components(&m->surface, stress, space == SPACE_PLANE_STRAIN ? m->poisson : 0,
+                                       space_dim(space));
 }

@@ -67,7 +67,7 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
 
 /* Adds a warning to *to if a particle starts faster than wave_speed, the speed of the fastest wave in any material
  * [m/s]. */
-void engine_warn_of_fast_particles(const struct particles *p, real wave_speed, struct warnings *to);
+void engine_warn_of_fast_start(const struct particles *p, real wave_speed, struct warnings *to);
 
 /* Adds warnings to *to about supports that hold all particles, and about pairs of supports that prescribe different
  * motions of the same particles. */

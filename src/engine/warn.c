@@ -219,7 +219,7 @@ void engine_warn_of_suspicious_input(struct run *e)
     engine_warn_of_mistaken_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
     engine_warn_of_isolated_particles(s, &e->cells, &e->bonds, &e->part, to);
     engine_warn_of_fast_supports(s, &e->loads, &e->part, to);
-    engine_warn_of_fast_particles(&e->part, e->tables.wave_speed, to);
+    engine_warn_of_fast_start(&e->part, e->tables.wave_speed, to);
     engine_warn_of_conflicting_supports(s, &e->loads, &e->part, to);
     engine_warn_of_useless_solids(s, to);
     engine_warn_of_uncorrected_faces(s, &e->part, &e->tables.surface, to);

@@ -124,17 +124,12 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
     memory_free(body);
 }
 
-void engine_warn_of_fast_particles(const struct particles *p, real wave_speed, struct warnings *to)
+void engine_warn_of_fast_start(const struct particles *p, real wave_speed, struct warnings *to)
 {
-    real most = 0;
-    for (int64_t i = 0; i < p->n; i++) {
-        real square_sum = 0;
-        for (int d = 0; d < p->dim; d++) square_sum += square(p->v[d][i]);
-        most = real_max(most, square_sum);
-    }
-    if (sqrt(most) > wave_speed)
+    const real speed = particles_largest_speed_of_all(p);
+    if (speed > wave_speed)
         warnings_add(to,
                      "particles start with %.3g m/s, %.3g times the wave speed, and a run stops where particles are "
                      "faster than waves: check the initial velocities and their units",
-                     sqrt(most), sqrt(most) / wave_speed);
+                     speed, speed / wave_speed);
 }

@@ -133,18 +133,6 @@ static status divergence_report(const struct particles *p, int64_t i, real limit
                       (int)p->id[i], particle_position_text(p, i, 6).text, what);
 }
 
-real diagnostics_largest_speed(const struct particles *p, const int32_t *list, int64_t n)
-{
-    real most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most)
-    for (int64_t k = 0; k < n; k++) {
-        real speed2 = 0;
-        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][list[k]]);
-        most = real_max(most, speed2);
-    }
-    return sqrt(most);
-}
-
 /* Returns the first of the particles list[n] that has diverged, or p->n_all if none has. limit: largest speed that a
  * stable particle can have [m/s]. */
 static int64_t first_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit)

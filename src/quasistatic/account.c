@@ -5,18 +5,25 @@
 
 #include "base/memory.h"
 
+void applied_forces_copy(real **applied, const struct statics *s, const struct particles *part)
+{
+    for (int d = 0; d < part->dim; d++) {
+        applied[d] = NEW("statics.account", part->n, real);
+        if (s->applied[d]) array_copy(applied[d], s->applied[d], part->n, sizeof(real));
+    }
+}
+
 void account_start(struct account *a, const struct statics *s, const struct particles *part)
 {
     *a = (struct account){0};
+    applied_forces_copy(a->applied, s, part);
     for (int d = 0; d < part->dim; d++) {
         a->u.of[d] = BARE("statics.account", s->balance.n, real);
         a->f.of[d] = BARE("statics.account", s->balance.n, real);
-        a->applied[d] = NEW("statics.account", part->n, real);
         a->x[d] = BARE("statics.before", part->n, real);
         array_copy(a->u.of[d], s->balance.u.of[d], s->balance.n, sizeof(real));
         array_copy(a->f.of[d], s->balance.f.of[d], s->balance.n, sizeof(real));
         array_copy(a->x[d], part->x[d], part->n, sizeof(real));
-        if (s->applied[d]) array_copy(a->applied[d], s->applied[d], part->n, sizeof(real));
     }
 }
 

@@ -12,6 +12,10 @@ struct account {
     real *x[DIM_MAX];       /* [particles of the body] positions [m] */
 };
 
+/* Stores a copy of the present applied forces in applied[dim] [particles of the body] [N], 0 before the first solution.
+ * The caller frees the arrays. */
+void applied_forces_copy(real **applied, const struct statics *s, const struct particles *part);
+
 /* Copies the present positions, displacements and forces into *a. account_end or account_free frees the storage. */
 void account_start(struct account *a, const struct statics *s, const struct particles *part);
 

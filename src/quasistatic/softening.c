@@ -9,6 +9,13 @@
 #define FACTOR_ERROR 1e-10 /* relative error of a factor */
 enum { BISECTIONS_MOST = 100 };
 
+/* Loop over the intact bonds that soften: of all rows, `it` iterates over the bonds of row `row`. */
+#define FOR_SOFTENING_BONDS(b, row, it)                                                                                \
+    for (int64_t row = 0; row < (b)->rows; row++)                                                                      \
+        for (struct bond_iterator it = bond_iterator_of_row(b, row);                                                   \
+             row_block_has_softening(b, row / LANES) && bond_next(&it);)                                               \
+            if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
+
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
 
 /* Appends the bond `bond` of row `row` to the list. */
@@ -26,12 +33,7 @@ static void softening_list_add(struct softening_list *l, const struct bonds *b, 
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p, real factor)
 {
     l->n = 0, l->curve = b->soft.curve;
-    for (int64_t row = 0; row < b->rows; row++) {
-        if (!row_block_has_softening(b, row / LANES)) continue;
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
-            if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
-                softening_list_add(l, b, p, row, &it.bond, factor);
-    }
+    FOR_SOFTENING_BONDS(b, row, it) softening_list_add(l, b, p, row, &it.bond, factor);
 }
 
 /* Returns the energy that a bond has dissipated once its largest stretch is k [J]. */
@@ -99,22 +101,14 @@ static void settle_bond(struct bonds *b, const struct particles *p, const struct
 void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     if (!b->soft.settled) b->soft.settled = memory_new_lazy_zeroed("bonds.settled", b->room * LANES, sizeof(float));
-    for (int64_t row = 0; row < b->rows; row++) {
-        if (!row_block_has_softening(b, row / LANES)) continue;
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
-            if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
-                settle_bond(b, p, limit, row, &it.bond);
-    }
+    FOR_SOFTENING_BONDS(b, row, it) settle_bond(b, p, limit, row, &it.bond);
 }
 
 void softening_undo(struct bonds *b)
 {
-    for (int64_t row = 0; row < b->rows; row++) {
-        if (!row_block_has_softening(b, row / LANES)) continue;
-        for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
-            const int64_t q = it.bond.entry;
-            if (it.bond.w != 0 && bond_is_softening(b, row / LANES, q))
-                b->soft.most[q] = fmaxf(b->soft.settled[q], b->soft.onset[q]);
-        }
+    FOR_SOFTENING_BONDS(b, row, it)
+    {
+        const int64_t q = it.bond.entry;
+        b->soft.most[q] = fmaxf(b->soft.settled[q], b->soft.onset[q]);
     }
 }

@@ -94,8 +94,8 @@ static status search_run(struct run *e, struct search *f)
     status found = OK;
     for (int k = 0; k < ITERATIONS_MOST && found == OK; k++) {
         const real size = statics_load_size(e, s->t), last = statics_load_size(e, f->end);
-        struct account now;
-        real t = last > 0 ? f->end / (real)e->clock.steps : f->end; /* no loads yet: the body is elastic */
+        real *applied[DIM_MAX] = {0},
+             t = last > 0 ? f->end / (real)e->clock.steps : f->end; /* no loads yet: the body is elastic */
         f->residual = 1;
         if (size > 0 || k > 0) {
             const real factor = secants_choose(f, size > 0 ? last / size : 1);
@@ -103,11 +103,11 @@ static status search_run(struct run *e, struct search *f)
             if (f->residual <= enough && fabs(factor - 1) <= FACTOR_ERROR) return OK;
             t = f->at_end ? f->end : statics_time_of_load_size(e, factor * size);
         }
-        account_start(&now, s, &e->part);
+        applied_forces_copy(applied, s, &e->part);
         s->balance.tolerance = real_max(tolerance, real_min(SOLVED_LEAST, SOLVED_TO * f->residual));
-        found = equilibrium_solve(e, t, now.applied);
+        found = equilibrium_solve(e, t, applied);
         s->balance.tolerance = tolerance, s->balance.lost = lost;
-        account_free(&now);
+        for (int d = 0; d < e->part.dim; d++) memory_free(applied[d]);
     }
     TRY(found);
     return status_set(

@@ -1,17 +1,15 @@
 // Rigid bodies in the frames: outlines in the plane, shaded surfaces in space.
 
-const RIGID = "#78787e", RIGID_RGB = [ 120, 120, 126 ], RIGID_BESIDE = 0.3;
+const RIGID = [120, 120, 126], RIGID_BESIDE = 0.3;  // colour; share of the longest edge
 
 // Reads points and faces of a rigid body once.
-function rigidOf(body)
-{
-    if (!body.ready) body.ready = {X : arrayOf(body.X), corner : arrayOf(body.corner)};
+function rigidOf(body) {
+    if (!body.ready) body.ready = {X: arrayOf(body.X), corner: arrayOf(body.corner)};
     return body.ready;
 }
 
 // Present positions of the points of a rigid body, displacements magnified: one array for each axis.
-function rigidPoints(body, at, magnify)
-{
+function rigidPoints(body, at, magnify) {
     const {X} = rigidOf(body), dim = film.dim, n = X.length / dim, x = at.x.map(() => new Float32Array(n));
     for (let k = 0; k < n; k++)
         for (let d = 0; d < dim; d++) {
@@ -23,14 +21,12 @@ function rigidPoints(body, at, magnify)
 }
 
 // Calls draw(body, x) for every rigid body of a frame.
-function forRigids(frame, magnify, draw)
-{
+function forRigids(frame, magnify, draw) {
     (film.rigid || []).forEach((body, b) => frame.rigid && draw(body, rigidPoints(body, frame.rigid[b], magnify)));
 }
 
 // The closed lines of an outline, as lists of points.
-function outlinesOf(body)
-{
+function outlinesOf(body) {
     if (body.lines) return body.lines;
     const {corner} = rigidOf(body), next = new Map();
     for (let k = 0; k < corner.length; k += 2) next.set(corner[k], corner[k + 1]);
@@ -49,19 +45,18 @@ function outlinesOf(body)
 }
 
 // Fills rigid bodies in the plane. to: size of the picture [pixel]; ratio: pixels per CSS pixel.
-function drawRigids(context, to, frame, ratio)
-{
+function drawRigids(context, to, frame, ratio) {
     context.save();
     context.beginPath();
     context.rect(0, 0, to.width / ratio, to.height / ratio);
     context.clip();
-    context.fillStyle = RIGID;
+    context.fillStyle = "rgb(" + RIGID.join() + ")";
     forRigids(frame, view.magnify, (body, x) => {
         context.beginPath();
         for (const line of outlinesOf(body)) {
-            line.forEach((k, i) =>
-                             context[i ? "lineTo" : "moveTo"](to.width / ratio / 2 + (x[0][k] - view.x) * view.scale,
-                                                              to.height / ratio / 2 - (x[1][k] - view.y) * view.scale));
+            line.forEach(
+                (k, i) => context[i ? "lineTo" : "moveTo"](to.width / ratio / 2 + (x[0][k] - view.x) * view.scale,
+                    to.height / ratio / 2 - (x[1][k] - view.y) * view.scale));
             context.closePath();
         }
         context.fill("evenodd");
@@ -70,17 +65,16 @@ function drawRigids(context, to, frame, ratio)
 }
 
 // Paints rigid bodies in space over what is farther away. see: {centre, scale, turn}; shown(x): is a point drawn?
-function paintRigids(to, see, frame, shown)
-{
+function paintRigids(to, see, frame, shown) {
     forRigids(frame, view.magnify, (body, x) => {
         const {corner} = rigidOf(body), step = body.corners, n = x[0].length;
-        const [px, py, pz] = see.turn.map((row, d) => Float32Array.from({length : n}, (_, k) => {
+        const [px, py, pz] = see.turn.map((row, d) => Float32Array.from({length: n}, (_, k) => {
             const along = row.reduce((sum, c, e) => sum + c * (x[e][k] - see.centre[e]), 0) * see.scale;
             return d === 0 ? to.width / 2 + along : d === 1 ? to.height / 2 - along : along;
         }));
         const point = (k) => [px[k], py[k], pz[k]];
         for (let f = 0; f < corner.length; f += step) {
-            if (!shown([ 0, 1, 2 ].map((d) => x[d][corner[f]]))) continue;
+            if (!shown([0, 1, 2].map((d) => x[d][corner[f]]))) continue;
             for (let c = 2; c < step; c++)
                 paintTriangle(to, point(corner[f]), point(corner[f + c - 1]), point(corner[f + c]));
         }
@@ -88,16 +82,15 @@ function paintRigids(to, see, frame, shown)
 }
 
 // Paints a triangle between points (x, y, depth) [pixel], brighter where it faces the viewer.
-function paintTriangle(to, a, b, c)
-{
-    const [u, v] = [ b, c ].map((p) => p.map((value, d) => value - a[d])), det = u[0] * v[1] - u[1] * v[0];
+function paintTriangle(to, a, b, c) {
+    const [u, v] = [b, c].map((p) => p.map((value, d) => value - a[d])), det = u[0] * v[1] - u[1] * v[0];
     if (Math.abs(det) < 1e-9) return;
-    const normal = [ u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], det ];
-    const bright = 0.55 + 0.5 * Math.abs(det) / Math.hypot(...normal), colour = rgba(RIGID_RGB.map((v) => v * bright));
+    const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], det];
+    const bright = 0.55 + 0.5 * Math.abs(det) / Math.hypot(...normal), colour = rgba(RIGID.map((v) => v * bright));
     const limits = (d, end) => [0, 1].map(
         (most) => Math.min(
             Math.max(most ? Math.ceil(Math.max(a[d], b[d], c[d])) : Math.floor(Math.min(a[d], b[d], c[d])), 0), end));
-    const [left, right] = limits(0, to.width), [ top, bottom ] = limits(1, to.height);
+    const [left, right] = limits(0, to.width), [top, bottom] = limits(1, to.height);
     for (let y = top; y < bottom; y++)
         for (let x = left; x < right; x++) {
             const dx = x + 0.5 - a[0], dy = y + 0.5 - a[1];
@@ -111,13 +104,12 @@ function paintTriangle(to, a, b, c)
 }
 
 // Extends a box by the rigid bodies of a frame, by up to 0.3 of its longest edge.
-function boxWithRigids({low, high}, frame)
-{
+function boxWithRigids({low, high}, frame) {
     const room = RIGID_BESIDE * Math.max(...high.map((h, d) => h - low[d])), from = low.slice(), to = high.slice();
     forRigids(frame, view.magnify, (body, x) => x.forEach((values, d) => {
         for (const value of values)
             from[d] = Math.min(from[d], Math.max(value, low[d] - room)),
             to[d] = Math.max(to[d], Math.min(value, high[d] + room));
     }));
-    return {low : from, high : to};
+    return {low: from, high: to};
 }

@@ -4,11 +4,10 @@
 #include "data/softening.h"
 #include "scene_internal.h"
 
-#define OWN_RATIO                                                                                                      \
-    2 /* kappa of bonds that soften before a surface has started them; with less, lattices trap cracks                 \
-       */
-#define RADIUS_PLANE_STRESS                                                                                            \
-    0.65 /* default radius over E G_c/sigma_t^2: the surface is at 0.8 at a tip of K_c; measured */
+/* kappa of bonds that soften before a surface has started them; with less, lattices trap cracks */
+#define OWN_RATIO 2
+/* Default radius over E G_c/sigma_t^2, at which the surface is at 0.8 at a tip of K_c; measured */
+#define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 
 status check_strength_size(struct reader *r, const struct yaml_node *n, const struct material *m, real strength)
@@ -35,18 +34,19 @@ static status check_fraction(struct reader *r, const struct yaml_node *n, const 
 static status surface_from(struct reader *r, const struct yaml_node *n, const char *key, struct material *m)
 {
     const real tension = m->tensile_strength;
+    const enum space space = r->scene->space;
     if (key[0] == 'c') {
         TRY(check_strength_size(r, n, m, m->compressive_strength));
         if (m->compressive_strength < tension)
             return fault(r, n, "is below tensile_strength; at least %.4g Pa is expected", tension);
-        m->surface = surface_of_compression(tension, m->compressive_strength);
+        material_set_surface(m, space, surface_of_compression(tension, m->compressive_strength));
     } else if (key[0] == 'h') {
         TRY(check_strength_size(r, n, m, m->hydrostatic_strength));
         TRY(check_fraction(r, n, m, m->hydrostatic_strength, 1.0 / 3, INFINITY));
-        m->surface = surface_of_hydrostatic(tension, m->hydrostatic_strength);
+        material_set_surface(m, space, surface_of_hydrostatic(tension, m->hydrostatic_strength));
     } else {
         TRY(check_fraction(r, n, m, m->biaxial_strength, 0.5, 1));
-        m->surface = surface_of_biaxial(tension, m->biaxial_strength);
+        material_set_surface(m, space, surface_of_biaxial(tension, m->biaxial_strength));
     }
     return OK;
 }
@@ -54,10 +54,13 @@ static status surface_from(struct reader *r, const struct yaml_node *n, const ch
 /* Returns the length E G_c/strength^2 of material m, from its critical stretch where G_c is not given [m]. */
 static real characteristic_length(const struct scene *s, const struct material *m)
 {
-    static const real factor[] = {3, 4 * M_PI / 9, 5 * M_PI / 12, 5.0 / 6}; /* s_c^2 E delta/G_c of bonds */
-    const real release_rate = isnan(m->energy_release_rate)
-                                  ? square(m->critical_stretch) * m->young * s->horizon * s->spacing / factor[s->space]
-                                  : m->energy_release_rate;
+    struct material unit = *m;
+    unit.energy_release_rate = 1;
+    const real release_rate =
+        isnan(m->energy_release_rate)
+            ? square(m->critical_stretch /
+                     material_critical_stretch(&unit, s->space, s->horizon * s->spacing, STRETCH_BOND))
+            : m->energy_release_rate;
     return m->young * release_rate / square(m->tensile_strength);
 }
 

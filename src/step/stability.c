@@ -36,15 +36,14 @@ enum { MOMENTS = 256 };        /* samples of a function of time */
  * by component) at present [m/s]. */
 static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
-    const real moving = real_max(diagnostics_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
-                                 diagnostics_largest_speed(p, p->list_free, p->n_free));
+    const real moving = real_max(particles_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
+                                 particles_largest_speed(p, p->list_free, p->n_free));
     return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
 }
 
 void stability_store_start_speed(struct stability *s, const struct particles *p)
 {
-    s->start_speed = real_max(diagnostics_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
-                              diagnostics_largest_speed(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
+    s->start_speed = particles_largest_speed_of_all(p);
     growth_samples_add(&s->speed, 0, square(s->start_speed));
 }
 

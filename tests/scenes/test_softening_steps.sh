@@ -29,7 +29,8 @@ between "dissipated energy: a thousandth of a step and eight steps" "$(last fine
 # Equal bits.
 same() { if cmp "$work/$1/history.csv" "$work/$2/history.csv"; then pass; else fail "$1 and $2 differ"; fi; }
 same one two
-"$cleave" run "$work/notch.yaml" -o "$work/cut" -t 2 -q -s output.checkpoint=0 $coarse -s time.wall=0.3 2>/dev/null
+part=$(compute "0.2 * $(figure "$work/two" wall_seconds)")
+"$cleave" run "$work/notch.yaml" -o "$work/cut" -t 2 -q -s output.checkpoint=0 $coarse -s time.wall="$part" 2>/dev/null
 is "cut" $? 130
 "$cleave" run "$work/notch.yaml" -o "$work/cut" -t 1 -q -s output.checkpoint=0 $coarse --resume 2>"$work/cut.err" || fail "cut: $(cat "$work/cut.err")"
 same one cut

@@ -87,7 +87,8 @@ between "it breaks" "$(last one fracture)" 1e-4 1
 same() { if cmp "$work/$1/history.csv" "$work/$2/history.csv" && cmp "$work/$1/frames/000012.hdf" "$work/$2/frames/000012.hdf"
     then pass; else fail "$1 and $2 differ"; fi; }
 same one two
-"$cleave" run "$work/strip.yaml" -o "$work/cut" -t 2 -q $surface -s time.wall=0.7 2>/dev/null
+part=$(compute "0.2 * $(figure "$work/two" wall_seconds)")
+"$cleave" run "$work/strip.yaml" -o "$work/cut" -t 2 -q $surface -s time.wall="$part" 2>/dev/null
 is "cut" $? 130
 "$cleave" run "$work/strip.yaml" -o "$work/cut" -t 1 -q $surface -s time.wall=1 --resume 2>/dev/null
 "$cleave" run "$work/strip.yaml" -o "$work/cut" -t 1 -q $surface --resume 2>"$work/cut.err" || fail "cut: $(cat "$work/cut.err")"

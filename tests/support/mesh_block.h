@@ -7,7 +7,7 @@
 
 #include "cloud.h"
 #include "near.h"
-#include "kernels/pd/polar.h"
+#include "base/polar.h"
 #include "sets.h"
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};

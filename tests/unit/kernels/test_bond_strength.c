@@ -30,7 +30,7 @@ static void body_make(struct surface_body *s, enum space space, real shake, int 
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         struct material *k = &s->c.material[m];
         k->tensile_strength = 0.4 * CRITICAL * k->young;
-        k->surface = surface_of_compression(k->tensile_strength, 10 * k->tensile_strength);
+        material_set_surface(k, space, surface_of_compression(k->tensile_strength, 10 * k->tensile_strength));
         k->surface_means = means;
     }
     cloud_source(&s->c);
@@ -306,8 +306,9 @@ static void test_unstretched(void **state)
     body_make(&s, SPACE_SOLID, 0, 1, false);
     struct bonds *b = &s.c.bonds;
     for (int m = 0; m < CLOUD_MATERIALS; m++)
-        s.c.material[m].surface =
-            surface_of_compression(s.c.material[m].tensile_strength, s.c.material[m].tensile_strength);
+        material_set_surface(
+            &s.c.material[m], SPACE_SOLID,
+            surface_of_compression(s.c.material[m].tensile_strength, s.c.material[m].tensile_strength));
     struct bonds old = *b;
     bonds_make(b, NULL, &s.c.p, &s.c.source);
     bonds_free(&old);

@@ -94,6 +94,15 @@ static void test_gradient(void **state)
     }
 }
 
+/* Creates a body whose bonds soften, moves it, and lets their largest stretches follow. l: empty; receives the bonds.
+ */
+static void body_soften(struct soft_body *s, struct softening_list *l)
+{
+    body_make(s, SPACE_PLANE_STRESS);
+    body_move(&s->c, 11, 2e-3);
+    follow(s, l);
+}
+
 /* The factor of the displacements at which an energy is dissipated; with it as new k the balance of the bonds says the
  * same. Largest stretches are floats. */
 static void test_factor(void **state)
@@ -101,9 +110,7 @@ static void test_factor(void **state)
     (void)state;
     struct soft_body s;
     struct softening_list l = {0};
-    body_make(&s, SPACE_PLANE_STRESS);
-    body_move(&s.c, 11, 2e-3);
-    follow(&s, &l);
+    body_soften(&s, &l);
     const real whole = softening_list_spent(&l, 1), wanted = 0.3 * whole;
     assert_close(bonds_fracture_energy(&s.c.bonds), whole, 1e-6);
     const real factor = softening_list_factor(&l, wanted, 1);
@@ -122,9 +129,7 @@ static void test_undo(void **state)
     (void)state;
     struct soft_body s;
     struct softening_list l = {0};
-    body_make(&s, SPACE_PLANE_STRESS);
-    body_move(&s.c, 11, 2e-3);
-    follow(&s, &l);
+    body_soften(&s, &l);
     softening_settle(&s.c.bonds, &s.c.p, &s.c.source.limit);
     const real spent = bonds_fracture_energy(&s.c.bonds);
     forces(&s);

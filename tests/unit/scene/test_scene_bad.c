@@ -364,71 +364,72 @@ static void test_bytes(void **state)
     test_free(many);
 }
 
+/* Overrides that are refused, and what is said of them. */
+static const struct {
+    struct scene_override o;
+    const char *message;
+} wrong[] = {
+    {{"material.yuong", "70e9"}, "-s material.yuong=70e9: yuong: unknown key; the nearest is young"},
+    {{"material.young", "70 kg"}, "-s material.young=70 kg: young: 70 kg is a mass; a stress is expected, as 190 GPa"},
+    {{"material.young", "[1]"},
+     "-s material.young=[1]: young: a list is not a number; a stress is expected, as 190 GPa"},
+    {{"materials[0].young", "70e9"},
+     "-s materials[0].young=70e9: materials: is no list in this scene; [0] has no meaning"},
+    {{"body", "{}"}, "-s body={}: body: given beside bodies; keep one of the two"},
+    {{"materiel.young", "1"}, "-s materiel.young=1: materiel: unknown key; the nearest is material"},
+    {{"material", "steel"}, "-s material=steel: material: steel is not a mapping of keys to values"},
+    {{"boundary.velocity", "[1, 0]"},
+     "-s boundary.velocity=[1, 0]: boundary: has 2 items, and velocity is the name of none; refer to an item "
+     "by its number (from 0) or by name (impact, pull)"},
+    {{"boundary.2.velocity", "[1, 0]"},
+     "-s boundary.2.velocity=[1, 0]: boundary: has 2 items, and 2 is beyond the last; refer to an item by its "
+     "number (from 0) or by name (impact, pull)"},
+    {{"boundary.0.velocity.2", "1"},
+     "-s boundary.0.velocity.2=1: velocity: has 2 items, and 2 is beyond the last; refer to an item by its number "
+     "(from 0)"},
+    {{"boundary.0.velocity", "[0, 20 kg]"},
+     "-s boundary.0.velocity=[0, 20 kg]: velocity[1]: 20 kg is a mass; a velocity is expected, as 22 m/s"},
+    {{"material.0.young", "1"}, "-s material.0.young=1: material: is no list in this scene; 0 has no meaning"},
+    {{"growth.0.speed", "1"}, "-s growth.0.speed=1: growth: is no list in this scene; 0 has no meaning"},
+    {{"probes.a.att", "[0, 0]"}, "-s probes.a.att=[0, 0]: att: unknown key; the nearest is at"},
+    {{"boundary[2].velocity", "[1, 0]"},
+     "-s boundary[2].velocity=[1, 0]: boundary: has 2 items, and [2] is beyond the last one (the first is [0])"},
+    {{"boundary[0].velocity", "[0, 20 kg]"},
+     "-s boundary[0].velocity=[0, 20 kg]: velocity[1]: 20 kg is a mass; a velocity is expected, as 22 m/s"},
+    {{"boundary[0].velocity[1]", "fre"},
+     "-s boundary[0].velocity[1]=fre: velocity[1]: fre is not a number; a velocity is expected, as 22 m/s"},
+    {{"duration.x", "1"},
+     "-s duration.x=1: x: duration has the value 50 us and no keys below it; `cleave help` shows the path of every "
+     "key"},
+    {{"duration[0]", "1"}, "-s duration[0]=1: duration: is no list in this scene; [0] has no meaning"},
+    {{"material..young", "1"},
+     "-s material..young=1: material..young: not a path of keys; material.young or boundary.0.velocity is one"},
+    {{"", "1"}, "-s =1: no key; material.young=70e9 is an override"},
+    {{"boundary[0][0].velocity", "2"},
+     "-s boundary[0][0].velocity=2: boundary[0]: is no list in this scene; [0] has no meaning"},
+    {{"[0]", "1"}, "-s [0]=1: is no list in this scene; [0] has no meaning"},
+    {{"particles.irregularity", ""},
+     "-s particles.irregularity=: irregularity: is not in the scene; an empty value takes a key away"},
+    {{"particles.horizon", "0.8"},
+     "-s particles.horizon=0.8: horizon: 0.8 is smaller than one spacing; 3.015 is usual"},
+    {{"probes[1].point.att", "[0, 0]"}, "-s probes[1].point.att=[0, 0]: att: unknown key; the nearest is at"},
+    {{"method", "[pd"},
+     "-s method=[pd: not YAML: did not find expected ',' or ']'; spaces (not tabs) indent, a key "
+     "ends in `: `, brackets close"},
+    {{"method", "a: b: c"},
+     "-s method=a: b: c: not YAML: mapping values are not allowed in this context; spaces (not tabs) "
+     "indent, a key ends in `: `, brackets close"},
+    {{"method", "*a"}, "-s method=*a: an alias (*) is not allowed in a scene; write the value out"},
+    {{"material.poisson", "0.3"},
+     "-s material.poisson=0.3: poisson: a Poisson's ratio of 0.3 is impossible with bonds, which have 1/3 in space "
+     "plane stress; "
+     "`model: ospd` has any"},
+    {{"duration", ""}, "x:1:1: duration: missing; a time is expected, as 20 us"},
+};
+
 static void test_overrides(void **state)
 {
     (void)state;
-    static const struct {
-        struct scene_override o;
-        const char *message;
-    } wrong[] = {
-        {{"material.yuong", "70e9"}, "-s material.yuong=70e9: yuong: unknown key; the nearest is young"},
-        {{"material.young", "70 kg"},
-         "-s material.young=70 kg: young: 70 kg is a mass; a stress is expected, as 190 GPa"},
-        {{"material.young", "[1]"},
-         "-s material.young=[1]: young: a list is not a number; a stress is expected, as 190 GPa"},
-        {{"materials[0].young", "70e9"},
-         "-s materials[0].young=70e9: materials: is no list in this scene; [0] has no meaning"},
-        {{"body", "{}"}, "-s body={}: body: given beside bodies; keep one of the two"},
-        {{"materiel.young", "1"}, "-s materiel.young=1: materiel: unknown key; the nearest is material"},
-        {{"material", "steel"}, "-s material=steel: material: steel is not a mapping of keys to values"},
-        {{"boundary.velocity", "[1, 0]"},
-         "-s boundary.velocity=[1, 0]: boundary: has 2 items, and velocity is the name of none; refer to an item "
-         "by its number (from 0) or by name (impact, pull)"},
-        {{"boundary.2.velocity", "[1, 0]"},
-         "-s boundary.2.velocity=[1, 0]: boundary: has 2 items, and 2 is beyond the last; refer to an item by its "
-         "number (from 0) or by name (impact, pull)"},
-        {{"boundary.0.velocity.2", "1"},
-         "-s boundary.0.velocity.2=1: velocity: has 2 items, and 2 is beyond the last; refer to an item by its number "
-         "(from 0)"},
-        {{"boundary.0.velocity", "[0, 20 kg]"},
-         "-s boundary.0.velocity=[0, 20 kg]: velocity[1]: 20 kg is a mass; a velocity is expected, as 22 m/s"},
-        {{"material.0.young", "1"}, "-s material.0.young=1: material: is no list in this scene; 0 has no meaning"},
-        {{"growth.0.speed", "1"}, "-s growth.0.speed=1: growth: is no list in this scene; 0 has no meaning"},
-        {{"probes.a.att", "[0, 0]"}, "-s probes.a.att=[0, 0]: att: unknown key; the nearest is at"},
-        {{"boundary[2].velocity", "[1, 0]"},
-         "-s boundary[2].velocity=[1, 0]: boundary: has 2 items, and [2] is beyond the last one (the first is [0])"},
-        {{"boundary[0].velocity", "[0, 20 kg]"},
-         "-s boundary[0].velocity=[0, 20 kg]: velocity[1]: 20 kg is a mass; a velocity is expected, as 22 m/s"},
-        {{"boundary[0].velocity[1]", "fre"},
-         "-s boundary[0].velocity[1]=fre: velocity[1]: fre is not a number; a velocity is expected, as 22 m/s"},
-        {{"duration.x", "1"},
-         "-s duration.x=1: x: duration has the value 50 us and no keys below it; `cleave help` shows the path of every "
-         "key"},
-        {{"duration[0]", "1"}, "-s duration[0]=1: duration: is no list in this scene; [0] has no meaning"},
-        {{"material..young", "1"},
-         "-s material..young=1: material..young: not a path of keys; material.young or boundary.0.velocity is one"},
-        {{"", "1"}, "-s =1: no key; material.young=70e9 is an override"},
-        {{"boundary[0][0].velocity", "2"},
-         "-s boundary[0][0].velocity=2: boundary[0]: is no list in this scene; [0] has no meaning"},
-        {{"[0]", "1"}, "-s [0]=1: is no list in this scene; [0] has no meaning"},
-        {{"particles.irregularity", ""},
-         "-s particles.irregularity=: irregularity: is not in the scene; an empty value takes a key away"},
-        {{"particles.horizon", "0.8"},
-         "-s particles.horizon=0.8: horizon: 0.8 is smaller than one spacing; 3.015 is usual"},
-        {{"probes[1].point.att", "[0, 0]"}, "-s probes[1].point.att=[0, 0]: att: unknown key; the nearest is at"},
-        {{"method", "[pd"},
-         "-s method=[pd: not YAML: did not find expected ',' or ']'; spaces (not tabs) indent, a key "
-         "ends in `: `, brackets close"},
-        {{"method", "a: b: c"},
-         "-s method=a: b: c: not YAML: mapping values are not allowed in this context; spaces (not tabs) "
-         "indent, a key ends in `: `, brackets close"},
-        {{"method", "*a"}, "-s method=*a: an alias (*) is not allowed in a scene; write the value out"},
-        {{"material.poisson", "0.3"},
-         "-s material.poisson=0.3: poisson: a Poisson's ratio of 0.3 is impossible with bonds, which have 1/3 in space "
-         "plane stress; "
-         "`model: ospd` has any"},
-        {{"duration", ""}, "x:1:1: duration: missing; a time is expected, as 20 us"},
-    };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct scene s;
         if (scene_read_text(&s, good, strlen(good), "x", &wrong[k].o, 1) != REFUSED)

@@ -95,38 +95,39 @@ static void overrides_set_them(void **state)
     scene_free(&s);
 }
 
+/* Lines of variables that are refused, and what is said of them. */
+static const struct {
+    const char *line, *message;
+} wrong[] = {
+    {"a: b/2", "2:3: b: 2*a + 4 mm needs b, which depends on itself"},
+    {"a: a", "2:3: b: 2*a + 4 mm needs a, which depends on itself"},
+    {"a: 3 s",
+     "2:3: b: 2*a + 4 mm combines a time and a length by + (character 5); both are expected to have the same unit"},
+    {"a: 3", "2:3: b: 2*a + 4 mm combines a plain number and a length by + (character 5); both are expected to have "
+             "the same unit"},
+    {"aa: 3 mm", "2:3: b: 2*a + 4 mm has an unknown name a; the nearest variable is aa"},
+    {"a: 3 mm\n  a: 2 mm", "4:3: a: given twice, first in line 3; keep one"},
+    {"a: 3 mm\n  s: 1", "4:3: s: is a unit in expressions; another name is expected, as s1"},
+    {"a: 3 mm\n  m2: 1", "4:3: m2: is a unit in expressions; another name is expected, as m21"},
+    {"a: 3 mm\n  x: 1", "4:3: x: is a coordinate in expressions; another name is expected, as x1"},
+    {"a: 3 mm\n  t: 1", "4:3: t: is the time in expressions; another name is expected, as t1"},
+    {"a: 3 mm\n  exp: 1", "4:3: exp: is the name of a function in expressions; another name is expected, as exp1"},
+    {"a: 3 mm\n  pi: 3", "4:3: pi: is a number in expressions; another name is expected, as pi1"},
+    {"a: 3 mm\n  a-b: 3",
+     "4:3: a-b: cannot be the name of a variable; up to 40 letters, digits and _ are expected, a letter first"},
+    {"a: 3 mm\n  2a: 3",
+     "4:3: 2a: cannot be the name of a variable; up to 40 letters, digits and _ are expected, a letter first"},
+    {"a: 3 mm\n  d: [1]", "4:3: d: a list is not a number or an expression"},
+    {"a: 3 mm\n  d: x", "4:3: d: x contains x, which has no meaning in this key"},
+    {"a: 3 mm\n  d: red", "4:3: d: red has an unknown name red; the nearest variable is rho"},
+    {"a: 1/0*1 mm", "2:3: b: 2*a + 4 mm needs a, which divides by 0 (character 2)"},
+    {"a: 1e40 mm", "2:3: b: 2*a + 4 mm needs a, which is above 1e30 in SI units"},
+};
+
 /* Each line replaces `a: 3 mm`; the expected message follows the file's name. */
 static void wrong_ones_are_refused(void **state)
 {
     (void)state;
-    static const struct {
-        const char *line, *message;
-    } wrong[] = {
-        {"a: b/2", "2:3: b: 2*a + 4 mm needs b, which depends on itself"},
-        {"a: a", "2:3: b: 2*a + 4 mm needs a, which depends on itself"},
-        {"a: 3 s",
-         "2:3: b: 2*a + 4 mm combines a time and a length by + (character 5); both are expected to have the same unit"},
-        {"a: 3",
-         "2:3: b: 2*a + 4 mm combines a plain number and a length by + (character 5); both are expected to have "
-         "the same unit"},
-        {"aa: 3 mm", "2:3: b: 2*a + 4 mm has an unknown name a; the nearest variable is aa"},
-        {"a: 3 mm\n  a: 2 mm", "4:3: a: given twice, first in line 3; keep one"},
-        {"a: 3 mm\n  s: 1", "4:3: s: is a unit in expressions; another name is expected, as s1"},
-        {"a: 3 mm\n  m2: 1", "4:3: m2: is a unit in expressions; another name is expected, as m21"},
-        {"a: 3 mm\n  x: 1", "4:3: x: is a coordinate in expressions; another name is expected, as x1"},
-        {"a: 3 mm\n  t: 1", "4:3: t: is the time in expressions; another name is expected, as t1"},
-        {"a: 3 mm\n  exp: 1", "4:3: exp: is the name of a function in expressions; another name is expected, as exp1"},
-        {"a: 3 mm\n  pi: 3", "4:3: pi: is a number in expressions; another name is expected, as pi1"},
-        {"a: 3 mm\n  a-b: 3",
-         "4:3: a-b: cannot be the name of a variable; up to 40 letters, digits and _ are expected, a letter first"},
-        {"a: 3 mm\n  2a: 3",
-         "4:3: 2a: cannot be the name of a variable; up to 40 letters, digits and _ are expected, a letter first"},
-        {"a: 3 mm\n  d: [1]", "4:3: d: a list is not a number or an expression"},
-        {"a: 3 mm\n  d: x", "4:3: d: x contains x, which has no meaning in this key"},
-        {"a: 3 mm\n  d: red", "4:3: d: red has an unknown name red; the nearest variable is rho"},
-        {"a: 1/0*1 mm", "2:3: b: 2*a + 4 mm needs a, which divides by 0 (character 2)"},
-        {"a: 1e40 mm", "2:3: b: 2*a + 4 mm needs a, which is above 1e30 in SI units"},
-    };
     static const struct {
         struct scene_override o;
         const char *message;

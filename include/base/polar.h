@@ -1,7 +1,7 @@
 /* Polar rotation: the rotation R nearest to a matrix M. R maximises R : M, i.e. M = R U with U symmetric and positive
  * definite. Matrices are row major, dim x dim. */
-#ifndef CLEAVE_KERNELS_POLAR
-#define CLEAVE_KERNELS_POLAR
+#ifndef CLEAVE_BASE_POLAR
+#define CLEAVE_BASE_POLAR
 
 #include <math.h>
 
