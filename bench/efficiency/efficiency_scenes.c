@@ -68,6 +68,8 @@ status efficiency_make(struct run *e, struct scene *s, const struct scene_case *
     if (strstr(c->path, "plate_hole")) override[n++] = (struct scene_override){"mpm.origin", ""};
     if (c->spacing) override[n++] = (struct scene_override){"particles.spacing", c->spacing};
     if (dt > 0) override[n++] = (struct scene_override){"time.step", step};
+    if (!(dt > 0) && c->spacing)
+        override[n++] = (struct scene_override){"time.step", "auto"}; /* finer than the scene */
     return bench_engine_make(e, s, c->path, NULL, override, n);
 }
 
