@@ -17,7 +17,7 @@
 struct active_set {
     bool is_current;               /* levels are up to date; until then all blocks are active */
     int64_t blocks, active, empty; /* number of blocks; active ones; ones without particles */
-    uint8_t *level, *moved;        /* [blocks]; working memory */
+    uint8_t *level, *moved;        /* [blocks + LANES], [blocks]; moved: working memory */
     int32_t *list;                 /* [active] ascending: the blocks that the hot loops visit */
     bool resumed;                  /* all blocks are visited in the first step after a restart */
     bool over;                     /* sets of row blocks: all active blocks have moved, so no other becomes active */

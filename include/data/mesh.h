@@ -215,6 +215,27 @@ static inline bool mesh_nodes_are_at_rest(const uint8_t *levels, int64_t first)
     return (levels[first / LANES] | levels[(first + LANES - 1) / LANES]) == 0;
 }
 
+/* Blocks `first` to `end` - 1 of eight nodes of a row that contain all its nodes with mass, counted from the begin of
+ * the row. */
+struct mesh_row_blocks {
+    int64_t first, end;
+};
+
+/* Returns the blocks of row number `row` of nodes that contain all its nodes with mass. */
+static inline struct mesh_row_blocks mesh_blocks_of_row(const struct mesh *mesh, int64_t row)
+{
+    const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
+    if (first == end) return (struct mesh_row_blocks){0, 0};
+    return (struct mesh_row_blocks){(first - start) / LANES, (end - start + LANES - 1) / LANES};
+}
+
+/* Returns the number of the first block of eight nodes, from `block` on, that is not at rest; `end` if there is none.
+ * levels: activity levels of the blocks of a row. */
+static inline int64_t mesh_next_active_block(const uint8_t *levels, int64_t block, int64_t end)
+{
+    return block < end && levels[block] ? block : next_marked_index(levels, block, end);
+}
+
 /* Returns the value of the linear shape function of a corner node at a quadrature point of its cell [1]. corner, point:
  * number of the corner, and of the corner next to the point; bit d is set on the upper side in direction d. The value
  * is a product over the directions: 3/4 where these bits agree, 1/4 elsewhere. */

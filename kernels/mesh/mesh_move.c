@@ -68,16 +68,20 @@ static void walls_move(struct mesh *mesh, real dt)
     }
 }
 
+/* Sets the force component `force` of the active nodes of a row to 0. */
+static void row_clear(const struct mesh *mesh, int64_t row, real *force)
+{
+    const struct mesh_row_blocks blocks = mesh_blocks_of_row(mesh, row);
+    const uint8_t *levels = mesh_row_activity_levels(mesh, row);
+    for (int64_t b = blocks.first; (b = mesh_next_active_block(levels, b, blocks.end)) < blocks.end; b++)
+        lanes_store(force + row * mesh->grid.count[0] + b * LANES, lanes_broadcast(0));
+}
+
 void mesh_clear(struct mesh *mesh)
 {
-    const int dim = mesh->grid.dim;
 #pragma omp parallel for schedule(static)
     for (int64_t r = 0; r < mesh->rows; r++)
-        for (int64_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I += LANES)
-            for (int d = 0;
-                 d < dim && !mesh_nodes_are_at_rest(mesh_row_activity_levels(mesh, r), I - r * mesh->grid.count[0]);
-                 d++)
-                lanes_store(mesh->grid.force[d] + I, lanes_broadcast(0));
+        for (int d = 0; d < mesh->grid.dim; d++) row_clear(mesh, r, mesh->grid.force[d]);
 }
 
 /* Advances velocity and displacement of the active nodes of a row (along x) by a leap-frog step, eight at a time;
@@ -86,14 +90,15 @@ void mesh_clear(struct mesh *mesh)
  * [m^2/s^2], INFINITY if one is not finite. Maxima ignore NaN, so the sum of all components is tested. */
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
-    const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
+    const int64_t start = row * mesh->grid.count[0];
+    const struct mesh_row_blocks blocks = mesh_blocks_of_row(mesh, row);
     const uint8_t *levels = mesh_row_activity_levels(mesh, row);
     lanes most = lanes_broadcast(0), sum = lanes_broadcast(0);
     for (int d = 0; d < mesh->grid.dim; d++) {
         real *velocity = mesh->grid.velocity[d], *displacement = mesh->displacement[d];
         const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
-        for (int64_t I = first; I < end; I += LANES) {
-            if (mesh_nodes_are_at_rest(levels, I - start)) continue;
+        for (int64_t b = blocks.first; (b = mesh_next_active_block(levels, b, blocks.end)) < blocks.end; b++) {
+            const int64_t I = start + b * LANES;
             const lanes v = lanes_load(velocity + I) + dt_velocity * lanes_load(inverse + I) * lanes_load(force + I);
             lanes_store(velocity + I, v);
             lanes_store(displacement + I, ((lanes_load(displacement + I) + dt * v) + mesh->rounding) - mesh->rounding);

@@ -5,11 +5,12 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "data/particles.h"
 
 void active_set_make(struct active_set *r, int64_t blocks)
 {
     *r = (struct active_set){.blocks = blocks};
-    r->level = NEW("active_set.level", blocks, uint8_t);
+    r->level = NEW("active_set.level", blocks + LANES, uint8_t);
     r->moved = NEW("active_set.moved", blocks, uint8_t);
     r->list = NEW("active_set.list", blocks, int32_t);
     array_fill_bytes(r->level, 1, blocks, 1);

@@ -82,6 +82,8 @@ void loads_free(struct loads *l)
     memory_free(l->image);
     memory_free(l->share);
     memory_free(l->constrained_mesh.held);
+    memory_free(l->mesh_share);
+    memory_free(l->mesh_mark);
     memset(l, 0, sizeof *l);
 }
 

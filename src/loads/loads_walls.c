@@ -281,7 +281,7 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
 /* Adds the mass that the points of `load` contribute to each node I to share[mesh->grid.n] [kg], and sets mark[I] = 1
- * for these nodes. share is valid at marked nodes alone; `mark` is zeroed by the caller. */
+ * for these nodes. share is valid at marked nodes alone; all marks must be 0. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {
@@ -301,16 +301,17 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
 {
     const struct load *load = &l->load[which];
     const int64_t n = mesh->grid.n;
-    real *share = BARE("loads.mesh_share", n, real);
-    uint8_t *mark = NEW("loads.mesh_mark", n + LANES, uint8_t);
-    driven_masses(load, mesh, p, share, mark);
-    for (int64_t I = next_marked_index(mark, 0, n); I < n; I = next_marked_index(mark, I + 1, n))
+    if (!l->mesh_share) l->mesh_share = BLANK("loads.mesh_share", n, real);
+    if (!l->mesh_mark) l->mesh_mark = BLANK("loads.mesh_mark", n + LANES, uint8_t);
+    driven_masses(load, mesh, p, l->mesh_share, l->mesh_mark);
+    for (int64_t I = next_marked_index(l->mesh_mark, 0, n); I < n; I = next_marked_index(l->mesh_mark, I + 1, n)) {
+        const real share = l->mesh_share[I];
+        l->mesh_mark[I] = 0;
         for (int d = 0; d < p->dim; d++)
-            if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] &&
-                load->boundary->components >> d & 1 && !constrained_by_region(l, load, mesh, I, d))
+            if (share > 0 && share >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] && load->boundary->components >> d & 1 &&
+                !constrained_by_region(l, load, mesh, I, d))
                 constrained_add(&l->constrained_mesh, I, d, which);
-    memory_free(share);
-    memory_free(mark);
+    }
 }
 
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p)

@@ -11,7 +11,7 @@
 #include "grid/grid_part.h"
 
 enum { PAYS = 400000 }; /* number of particles left out above which this saves time; measured */
-enum { AHEAD = 4 };     /* range of cells around level 0 that have particles, as a margin for crack growth */
+enum { AHEAD = 8 };     /* range of cells around level 0 that have particles, as a margin for crack growth */
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
