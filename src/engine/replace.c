@@ -80,7 +80,6 @@ static status run_replace(struct run *e)
     status s = parts_save_or_load(e, &parts.archive);
     *old = *e;
     old->frame->hollow = (struct cells_without_particles){0};
-    memory_set_reuse(false);
     leave_derived(old);
     if (s == OK) s = engine_make_from_predecessor(e, old->scene, NULL, hollow, &before);
     if (s == OK) {
@@ -93,7 +92,6 @@ static status run_replace(struct run *e)
     memory_free(before.now);
     engine_free(old);
     memory_free(old);
-    memory_set_reuse(true);
     return s;
 }
 
