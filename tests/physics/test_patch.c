@@ -35,11 +35,11 @@ static void test_pd_rest(void **state)
     static const real strain[DIM_MAX][DIM_MAX] = {{0.01, 0.004, -0.003}, {0.002, -0.007, 0.005}, {0.001, 0.006, 0.008}};
     for (size_t k = 0; k < COUNT_OF(lattice); k++)
         for (int volume = VOLUME_WHOLE; volume <= VOLUME_CUT_RAMP; volume++) {
-            struct plotted_particles c;
+            struct particle_cloud c;
             struct cloud_plan plan = lattice[k];
             int checked = 0;
             plan.volume = (enum volume_rule)volume;
-            plotted_particles_make(&c, &plan);
+            particle_cloud_make(&c, &plan);
             cloud_bonds(&c);
             cloud_strain(&c, strain);
             bond_force_table[c.p.dim][PD_BOND](&c.bonds, &c.p, &c.source.limit, NULL);
@@ -51,20 +51,20 @@ static void test_pd_rest(void **state)
                 checked++;
             }
             assert_true(checked > 0);
-            plotted_particles_free(&c);
+            particle_cloud_free(&c);
         }
 }
 
 /* Computes the stress of the bonds of the middle particle over C11 times the strain, component by component. */
 static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
-    struct plotted_particles c;
-    plotted_particles_make(&c, plan);
+    struct particle_cloud c;
+    particle_cloud_make(&c, plan);
     cloud_bonds(&c);
     cloud_strain(&c, strain);
     bond_stress_table[c.p.dim][PD_BOND](&c.bonds, &c.p);
     for (int s = 0; s < symmetric_component_count(c.p.dim); s++) stress[s] = c.p.stress[s][c.p.n / 2];
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* Elastic constants C11, C12, C66 of the lattice and its dilatational stiffness, over those of the material. */
@@ -78,12 +78,12 @@ static struct constants lattice_constants(const struct cloud_plan *plan)
                       axial[DIM_MAX][DIM_MAX] = {{STRAIN}};
     static const real shear[DIM_MAX][DIM_MAX] = {{0, STRAIN}, {STRAIN, 0}};
     struct constants result = {1, 1, 1, 1};
-    struct plotted_particles c;
+    struct particle_cloud c;
     real stress[SYM_MAX];
     const int dim = space_dim(plan->space);
-    plotted_particles_make(&c, plan);
+    particle_cloud_make(&c, plan);
     const struct material m = c.material[0];
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
     lattice_stress(plan, dilatation, stress);
     result.dilatation = stress[0] / (STRAIN * (m.c11 + (dim - 1) * m.c12));
     lattice_stress(plan, axial, stress);
@@ -167,7 +167,7 @@ static void test_mpm_rest(void **state)
         for (int shape = 0; shape < SHAPES; shape++) {
             struct patch s = {0};
             const enum space space = dim == 1 ? SPACE_LINE : dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID;
-            plotted_particles_make(
+            particle_cloud_make(
                 &s.c,
                 &(struct cloud_plan){.space = space, .count = {12, 12, 12}, .horizon = 3, .optional = WITH_STRETCH});
             for (int64_t i = 0; i < s.c.p.n; i++) {
@@ -195,7 +195,7 @@ static real crossing_residual(enum shape shape, real lambda)
     real worst = 0;
     for (int k = 0; k < 500; k++) {
         struct patch s = {0};
-        plotted_particles_make(
+        particle_cloud_make(
             &s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {30}, .horizon = 3, .optional = WITH_STRETCH});
         struct particles *p = &s.c.p;
         for (int64_t i = 0; i < p->n; i++) {

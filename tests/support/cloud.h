@@ -29,7 +29,7 @@ struct cloud_plan {
 };
 
 /* A body; its arrays are owned. */
-struct plotted_particles {
+struct particle_cloud {
     struct particles p;
     struct material material[CLOUD_MATERIALS];
     real limit[CLOUD_MATERIALS * CLOUD_MATERIALS];
@@ -57,7 +57,7 @@ static inline real cloud_between(uint64_t *seed, real low, real high)
     return low + (high - low) * cloud_random(seed);
 }
 
-static inline void cloud_materials(struct plotted_particles *c, enum space space)
+static inline void cloud_materials(struct particle_cloud *c, enum space space)
 {
     static const real young[] = {200e9, 70e9}, density[] = {8000, 2700};
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
@@ -70,8 +70,9 @@ static inline void cloud_materials(struct plotted_particles *c, enum space space
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
 }
 
-/* Creates the particles: peridynamic, one body, material 0, at rest in the reference position. */
-static inline void plotted_particles_make(struct plotted_particles *c, const struct cloud_plan *plan)
+/* Creates the particles of cloud c by a plan: peridynamic, one body, material 0, at rest in the reference position. It
+ * has no bonds yet (cloud_bonds). Release it with particle_cloud_free. */
+static inline void particle_cloud_make(struct particle_cloud *c, const struct cloud_plan *plan)
 {
     static const real section[DIM_MAX + 1] = {0, 4e-6, 2e-3, 1};
     memset(c, 0, sizeof *c);
@@ -107,7 +108,7 @@ static inline void plotted_particles_make(struct plotted_particles *c, const str
 }
 
 /* Rounds the positions of a regular lattice to exact multiples of half a spacing, as fill.c does. */
-static inline void cloud_exact(struct plotted_particles *c)
+static inline void cloud_exact(struct particle_cloud *c)
 {
     const real half = nearbyint(0.5 * CLOUD_SPACING * 0x1p50) * 0x1p-50;
     for (int d = 0; d < c->p.dim; d++)
@@ -122,7 +123,7 @@ static inline void cloud_unfold(struct bonds *b)
 }
 
 /* Sets the source of bonds. Call after kinds, bodies and materials are set. */
-static inline void cloud_source(struct plotted_particles *c)
+static inline void cloud_source(struct particle_cloud *c)
 {
     struct bond_source *s = &c->source;
     particles_update_kind_lists(&c->p);
@@ -142,14 +143,14 @@ static inline void cloud_source(struct plotted_particles *c)
 }
 
 /* Creates the bonds. */
-static inline void cloud_bonds(struct plotted_particles *c)
+static inline void cloud_bonds(struct particle_cloud *c)
 {
     cloud_source(c);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
 /* Sets x = X + strain X. */
-static inline void cloud_strain(struct plotted_particles *c, const real strain[DIM_MAX][DIM_MAX])
+static inline void cloud_strain(struct particle_cloud *c, const real strain[DIM_MAX][DIM_MAX])
 {
     struct particles *p = &c->p;
     for (int64_t i = 0; i < p->n; i++)
@@ -159,7 +160,7 @@ static inline void cloud_strain(struct plotted_particles *c, const real strain[D
         }
 }
 
-static inline void plotted_particles_free(struct plotted_particles *c)
+static inline void particle_cloud_free(struct particle_cloud *c)
 {
     if (c->bonds.column) bonds_free(&c->bonds);
     if (c->cells.start) cells_free(&c->cells);

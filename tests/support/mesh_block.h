@@ -14,7 +14,7 @@ static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID}
 
 /* A block of points with a hole in one corner, so that it has complete and partial cells. */
 struct block {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct mesh mesh;
     struct elastic elastic[CLOUD_MATERIALS];
     struct law law[CLOUD_MATERIALS]; /* of materials with a flow law */
@@ -30,7 +30,7 @@ static void block_make_with(struct block *b, enum space space, bool hole, bool c
     struct grid like = {.dim = dim, .h = 2 * CLOUD_SPACING};
     memset(b, 0, sizeof *b);
     memcpy(plan.count, size[dim], sizeof plan.count);
-    plotted_particles_make(&b->c, &plan);
+    particle_cloud_make(&b->c, &plan);
     struct particles *p = &b->c.p;
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *k = &b->c.material[m];
@@ -69,7 +69,7 @@ static inline void block_average(struct block *b, bool mixed)
 static void block_free(struct block *b)
 {
     mesh_free(&b->mesh);
-    plotted_particles_free(&b->c);
+    particle_cloud_free(&b->c);
 }
 
 /* Sets random displacements of at most `by` spacings at every node with mass. */

@@ -20,7 +20,7 @@ static inline void is_near(const char *what, real value, real expected, real tol
 
 /* A patch of material points, or of both kinds, and its grid. */
 struct patch {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct grid g;
     struct transfer_order order;
     struct partial_stress partial;
@@ -72,7 +72,7 @@ static inline void patch_free(struct patch *s)
     partial_stress_free(&s->partial);
     transfer_order_free(&s->order);
     grid_free(&s->g);
-    plotted_particles_free(&s->c);
+    particle_cloud_free(&s->c);
 }
 
 #endif

@@ -7,12 +7,12 @@
 
 /* A body whose bonds soften. */
 struct soft_body {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct softening_curve curve;
     struct softening_pair pair[CLOUD_MATERIALS * CLOUD_MATERIALS];
 };
 
-/* Creates the bonds of a body, with `onset` and `critical` for all pairs of materials, after plotted_particles_make. */
+/* Creates the bonds of a body, with `onset` and `critical` for all pairs of materials, after particle_cloud_make. */
 static inline void soft_bonds(struct soft_body *s, enum softening law, real onset, real critical)
 {
     s->curve = softening_curve_of(law);

@@ -30,10 +30,10 @@ static void search_equals_all_pairs(const struct particles *p, const struct cell
 
 static void searches(const struct cloud_plan *plan, real edge, bool outlier)
 {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct cells cells;
     uint64_t seed = 7;
-    plotted_particles_make(&c, plan);
+    particle_cloud_make(&c, plan);
     if (outlier) /* a mostly empty box must not need a cell for every spacing */
         for (int d = 0; d < c.p.dim; d++) c.p.X[d][c.p.n - 1] = 1e3 * CLOUD_SPACING;
     cells_make(&cells, &c.p, edge);
@@ -45,7 +45,7 @@ static void searches(const struct cloud_plan *plan, real edge, bool outlier)
         search_equals_all_pairs(&c.p, &cells, X, cloud_random(&seed) * edge, -1);
     }
     cells_free(&cells);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 static void test_search(void **state)
@@ -116,11 +116,11 @@ static real crack_corner[DIM_MAX + 1][4][DIM_MAX] = {
 static const struct crack crack[DIM_MAX + 1] = {
     {0, NULL}, {1, crack_corner[1]}, {2, crack_corner[2]}, {4, crack_corner[3]}};
 
-static void case_make(struct plotted_particles *c, const struct rows_case *k)
+static void case_make(struct particle_cloud *c, const struct rows_case *k)
 {
     struct particles *p = NULL;
     uint64_t seed = 11;
-    plotted_particles_make(c, &k->plan);
+    particle_cloud_make(c, &k->plan);
     p = &c->p;
     for (int64_t i = 0; i < p->n; i++) {
         real x = p->X[0][i] / CLOUD_SPACING / k->plan.count[0];
@@ -136,7 +136,7 @@ static void case_make(struct plotted_particles *c, const struct rows_case *k)
     cloud_bonds(c);
 }
 
-static bool case_cut(const struct plotted_particles *c, int64_t i, int64_t j)
+static bool case_cut(const struct particle_cloud *c, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
     for (int d = 0; d < c->p.dim; d++) a[d] = c->p.X[d][i], b[d] = c->p.X[d][j];
@@ -144,14 +144,14 @@ static bool case_cut(const struct plotted_particles *c, int64_t i, int64_t j)
 }
 
 /* Returns true if the family of i contains a peridynamic particle. */
-static bool touches_pd(const struct plotted_particles *c, int64_t i)
+static bool touches_pd(const struct particle_cloud *c, int64_t i)
 {
     for (int64_t j = 0; j < c->p.n; j++)
         if (c->p.kind[j] == KIND_PD && reference_bonded(&c->p, &c->source.family, i, j)) return true;
     return false;
 }
 
-static void check_bond(const struct plotted_particles *c, const real *w, const real *volume, int64_t i, int64_t j)
+static void check_bond(const struct particle_cloud *c, const real *w, const real *volume, int64_t i, int64_t j)
 {
     const struct particles *p = &c->p;
     bool stored = !isnan(w[i * p->n + j]), row = c->bonds.row_of[i] >= 0;
@@ -171,7 +171,7 @@ static void check_bond(const struct plotted_particles *c, const real *w, const r
 
 /* Compares the sums of the row of particle i with sums over all pairs. Tolerance 1e-6: volumes are in single precision,
  * sums have up to 100 terms. */
-static void check_row(const struct plotted_particles *c, int64_t i)
+static void check_row(const struct particle_cloud *c, int64_t i)
 {
     const struct particles *p = &c->p;
     int64_t row = c->bonds.row_of[i];
@@ -191,7 +191,7 @@ static void check_row(const struct plotted_particles *c, int64_t i)
 
 /* Checks that the flags of columns agree with their lanes, that no bond occurs twice in a row, and that padding
  * contributes nothing. */
-static void check_columns(const struct plotted_particles *c)
+static void check_columns(const struct particle_cloud *c)
 {
     const struct bonds *b = &c->bonds;
     int64_t stored = 0;
@@ -218,7 +218,7 @@ static void check_columns(const struct plotted_particles *c)
     memory_free(seen);
 }
 
-static void check_rows(const struct plotted_particles *c)
+static void check_rows(const struct particle_cloud *c)
 {
     const struct particles *p = &c->p;
     real *w = reference_table(&c->bonds, p), *volume = NULL;
@@ -252,14 +252,14 @@ static void test_rows(void **state)
 {
     (void)state;
     for (size_t k = 0; k < COUNT_OF(rows_case); k++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         case_make(&c, &rows_case[k]);
         /* The stiffness is c V V of two lattice particles, with c from the same lattice sum in another order of
          * terms. */
         real expected = reference_modulus(&c.source.family, &c.material[0]) * square(c.source.family.cell_volume);
         assert_true(fabs(c.bonds.stiffness / expected - 1) <= 1e-9); /* beta of the ramp is rounded to 1e-9 */
         check_rows(&c);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -278,7 +278,7 @@ static void check_row_block_like_new(const struct bonds *b, int64_t column, cons
 
 /* Checks that rows agree, except for bonds broken by load, with rows created from scratch. Returns the number of row
  * blocks with as many bonds as before. */
-static int64_t check_like_new(struct plotted_particles *c, const struct bonds *old)
+static int64_t check_like_new(struct particle_cloud *c, const struct bonds *old)
 {
     struct bonds *b = &c->bonds;
     struct bonds new;
@@ -309,7 +309,7 @@ static void test_rows_inherit(void **state)
     (void)state;
     int64_t taken = 0;
     for (size_t k = 0; k < COUNT_OF(rows_case); k++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         if (!(rows_case[k].what & MIXED)) continue;
         case_make(&c, &rows_case[k]);
         struct particles *p = &c.p;
@@ -332,7 +332,7 @@ static void test_rows_inherit(void **state)
         memory_free(before);
         memory_free(after);
         bonds_free(&old);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
     assert_true(taken > 0);
 }
@@ -348,8 +348,8 @@ static void test_rows_again(void **state)
         {.space = SPACE_SOLID, .count = {8, 6, 20}, .horizon = 2.015}};
     for (size_t k = 0; k < COUNT_OF(plan); k++) {
         int moved = 0, stayed = 0;
-        struct plotted_particles c;
-        plotted_particles_make(&c, &plan[k]);
+        struct particle_cloud c;
+        particle_cloud_make(&c, &plan[k]);
         const int last = c.p.dim - 1;
         for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[last][i] < 2e-3 ? KIND_PD : KIND_MPM;
         particles_update_kind_lists(&c.p);
@@ -370,7 +370,7 @@ static void test_rows_again(void **state)
             bonds_free(&old);
         }
         assert_true(moved > 1 && stayed > 1);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -392,9 +392,9 @@ static void test_rows_of_lattice(void **state)
         {.space = SPACE_SOLID, .count = {11, 6, 5}, .horizon = 2, .influence = INFLUENCE_GAUSSIAN},
     };
     for (size_t k = 0; k < 2 * COUNT_OF(plan); k++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct bonds searched;
-        plotted_particles_make(&c, &plan[k % COUNT_OF(plan)]);
+        particle_cloud_make(&c, &plan[k % COUNT_OF(plan)]);
         if (k >= COUNT_OF(plan)) cloud_exact(&c); /* then most rows follow stencils, if there is one material */
         for (int64_t i = 0; i < c.p.n && k < COUNT_OF(plan); i++) c.p.material[i] = i % 3 == 0;
         for (int64_t i = 2 * c.p.n / 3; i < c.p.n && k % 2; i++) c.p.kind[i] = KIND_MPM;
@@ -435,7 +435,7 @@ static void test_rows_of_lattice(void **state)
         assert_memory_equal(b->broken_volume, searched.broken_volume, rows * sizeof *b->broken_volume);
         assert_memory_equal(b->aligned, searched.aligned, (size_t)b->row_blocks * sizeof *b->aligned);
         bonds_free(&searched);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -443,7 +443,7 @@ static void test_rows_threads(void **state)
 {
     (void)state;
     for (size_t k = 0; k < COUNT_OF(rows_case); k++) {
-        struct plotted_particles c[2];
+        struct particle_cloud c[2];
         for (int t = 0; t < 2; t++) {
             omp_set_num_threads(t + 1);
             case_make(&c[t], &rows_case[k]);
@@ -453,7 +453,7 @@ static void test_rows_threads(void **state)
         assert_memory_equal(c[0].bonds.nbr, c[1].bonds.nbr, entries * sizeof(int32_t));
         assert_memory_equal(c[0].bonds.w, c[1].bonds.w, entries * sizeof(real));
         assert_memory_equal(c[0].bonds.inverse_length, c[1].bonds.inverse_length, entries * sizeof(real));
-        for (int t = 0; t < 2; t++) plotted_particles_free(&c[t]);
+        for (int t = 0; t < 2; t++) particle_cloud_free(&c[t]);
     }
 }
 

@@ -13,7 +13,7 @@
 enum { COLUMNS = 15, ROWS = 12, STEPS = 1000 };
 
 struct pulled {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct state_modulus modulus[CLOUD_MATERIALS];
     enum pd_model model;
 };
@@ -24,7 +24,7 @@ static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enu
         .space = SPACE_PLANE_STRESS, .count = {COLUMNS, ROWS}, .horizon = 3.015, .influence = influence};
     memset(b, 0, sizeof *b);
     b->model = model;
-    plotted_particles_make(&b->c, &plan);
+    particle_cloud_make(&b->c, &plan);
     for (int k = 0; k < CLOUD_MATERIALS; k++) {
         b->c.material[k].poisson = poisson;
         material_compute_derived_constants(&b->c.material[k], plan.space);
@@ -70,7 +70,7 @@ static void test_rotations(void **state)
                 pulled_make(&b, PD_MOSPD, n ? 0.45 : 0.2, influence[k], local);
                 real want = family_separation_work_per_area(&b.c.source.family, &b.modulus[0], local);
                 assert_true(fabs(separation(&b) / want - 1) < 3e-3);
-                plotted_particles_free(&b.c);
+                particle_cloud_free(&b.c);
             }
 }
 
@@ -88,7 +88,7 @@ static void test_ordinary(void **state)
             real s = material_critical_stretch(&m, SPACE_PLANE_STRESS, b.c.source.family.horizon, STRETCH_OSPD);
             real released = separation(&b) * square(s);
             assert_true(local ? released > 1.04 && released < 1.10 : fabs(released - 1) < 0.035);
-            plotted_particles_free(&b.c);
+            particle_cloud_free(&b.c);
         }
 }
 

@@ -12,11 +12,11 @@
 #include "kernels/kernels.h"
 
 /* Creates a lattice with exact positions, as fill.c does. */
-static void exact_cloud(struct plotted_particles *c, int dim, enum surface_rule surface,
+static void exact_cloud(struct particle_cloud *c, int dim, enum surface_rule surface,
                         const struct state_modulus *modulus)
 {
     static const enum space space[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
-    plotted_particles_make(
+    particle_cloud_make(
         c, &(struct cloud_plan){.space = space[dim], .count = {32, 14, 11}, .horizon = 3.015, .surface = surface});
     cloud_exact(c);
     c->source.modulus = modulus, c->source.rotates = true, c->source.local = true;
@@ -26,7 +26,7 @@ static void exact_cloud(struct plotted_particles *c, int dim, enum surface_rule 
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
-static void shake(struct plotted_particles *c, real most)
+static void shake(struct particle_cloud *c, real most)
 {
     uint64_t seed = 7;
     for (int64_t i = 0; i < c->p.n; i++)
@@ -56,7 +56,7 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
 
 /* Returns true if the row block is at an end of the body: eight neighbours in a row may begin before the first particle
  * or end after the last, and such row blocks are stored. */
-static bool at_an_end(const struct plotted_particles *c, int64_t row_block)
+static bool at_an_end(const struct particle_cloud *c, int64_t row_block)
 {
     return fmin(apart(&c->p, 0, row_block * LANES), apart(&c->p, c->p.n - 1, row_block * LANES + 7)) <
            c->source.family.cutoff;
@@ -68,7 +68,7 @@ static void test_who_follows(void **state)
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
-            struct plotted_particles c;
+            struct particle_cloud c;
             int64_t whole = 0;
             exact_cloud(&c, dim, surface, NULL);
             for (int64_t g = 0; g < c.bonds.row_blocks; g++) {
@@ -78,7 +78,7 @@ static void test_who_follows(void **state)
             }
             if (surface == SURFACE_NONE) assert_int_equal(whole, c.bonds.row_blocks / 2);
             assert_true(whole > 0 && (dim == 1 || count_folded(&c.bonds) > whole));
-            plotted_particles_free(&c);
+            particle_cloud_free(&c);
         }
 }
 
@@ -86,7 +86,7 @@ static void test_who_follows(void **state)
 static void test_what_is_stored(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     const struct particles *p = &c.p;
     const struct bonds *b = &c.bonds;
@@ -108,10 +108,10 @@ static void test_what_is_stored(void **state)
     assert_int_equal(count_folded(b), implicit);
     cloud_unfold(&c.bonds);
     assert_int_equal(count_folded(b), 0);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
-static void make_again(struct plotted_particles *c)
+static void make_again(struct particle_cloud *c)
 {
     bonds_free(&c->bonds);
     if (c->neighbour_volume) bonds_compute_neighbour_volume(c->neighbour_volume, &c->p, &c->source);
@@ -125,7 +125,7 @@ static void test_twins(void **state)
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
-            struct plotted_particles alike, alone;
+            struct particle_cloud alike, alone;
             exact_cloud(&alike, dim, surface, NULL), exact_cloud(&alone, dim, surface, NULL);
             alone.p.mass[0] *= 2;
             make_again(&alike), make_again(&alone);
@@ -141,7 +141,7 @@ static void test_twins(void **state)
             assert_memory_equal(a->nbr, b->nbr, (size_t)(b->columns * LANES) * sizeof *b->nbr);
             assert_memory_equal(a->inverse_length, b->inverse_length, (size_t)(b->columns * LANES) * sizeof(real));
             assert_memory_equal(a->w, b->w, (size_t)(b->columns * LANES) * sizeof(real));
-            plotted_particles_free(&alike), plotted_particles_free(&alone);
+            particle_cloud_free(&alike), particle_cloud_free(&alone);
         }
 }
 
@@ -157,7 +157,7 @@ static void made_add(struct made *m, const real *from, int64_t n)
     m->n += n;
 }
 
-static struct made make_all(struct plotted_particles *c, enum pd_model model)
+static struct made make_all(struct particle_cloud *c, enum pd_model model)
 {
     struct kernels k;
     struct made m = {NEW("test.made", 2 * (DIM_MAX + SYM_MAX) * c->p.n + 4, real), 0};
@@ -189,7 +189,7 @@ static void test_same_bits(void **state)
     const struct state_modulus modulus[CLOUD_MATERIALS] = {{3e11, 4e11}, {3e11, 4e11}};
     for (int dim = 2; dim <= DIM_MAX; dim++)
         for (size_t k = 0; k < COUNT_OF(models); k++) {
-            struct plotted_particles implicit, open;
+            struct particle_cloud implicit, open;
             const bool weighed = k == 0, states = models[k] != PD_BOND;
             exact_cloud(&implicit, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
             exact_cloud(&open, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
@@ -204,7 +204,7 @@ static void test_same_bits(void **state)
             assert_int_equal(a.n, b.n);
             assert_memory_equal(a.value, b.value, (size_t)a.n * sizeof *a.value);
             memory_free(a.value), memory_free(b.value);
-            plotted_particles_free(&implicit), plotted_particles_free(&open);
+            particle_cloud_free(&implicit), particle_cloud_free(&open);
         }
 }
 
@@ -212,7 +212,7 @@ static void test_same_bits(void **state)
 static void test_fault(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     struct bonds *b = &c.bonds;
     assert_null(bonds_find_inconsistency(b));
@@ -236,14 +236,14 @@ static void test_fault(void **state)
     assert_string_equal(bonds_find_inconsistency(b), "a bond leads farther than reach");
     b->row_of[b->particle[9]] = 3;
     assert_string_equal(bonds_find_inconsistency(b), "row_of does not lead back to the row of a particle");
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* A bond that changes makes its row block explicit, and no other. */
 static void test_who_leaves(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     const int64_t implicit = count_folded(&c.bonds), row_block = c.bonds.row_blocks / 2,
                   q = bond_writable_index(&c.bonds, row_block, 3, 4);
@@ -251,14 +251,14 @@ static void test_who_leaves(void **state)
     for (int64_t g = 0; g < c.bonds.row_blocks; g++)
         assert_true(c.bonds.stencil[g] ? g != row_block : g == row_block || at_an_end(&c, g));
     assert_int_equal(count_folded(&c.bonds), implicit - 1);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* The row block stays explicit when rows around it are rebuilt, with weights that no stencil has. */
 static void test_who_stays_out(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     bonds_free(&c.bonds);
     const int32_t point = (int32_t)c.p.n / 2 + 3;
@@ -282,7 +282,7 @@ static void test_who_stays_out(void **state)
     assert_int_equal(found, 1);
     assert_true(c.bonds.changed[row / LANES]);
     assert_null(c.bonds.stencil[row / LANES]);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* Lists the bonds of a row, lane by lane, without padding. Returns their number. */
@@ -314,7 +314,7 @@ static void assert_rows_equal(const struct bonds *a, const struct bonds *b)
 }
 
 /* Converts a tube of material points to peridynamic particles; its radius grows. */
-static void convert_tube(struct plotted_particles *c, real radius)
+static void convert_tube(struct particle_cloud *c, real radius)
 {
     const struct particles *p = &c->p;
     for (int64_t i = 0; i < p->n; i++) {
@@ -330,7 +330,7 @@ static void test_beside_points(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct bonds searched;
         exact_cloud(&c, dim, SURFACE_VOLUME, NULL);
         bonds_free(&c.bonds);
@@ -348,7 +348,7 @@ static void test_beside_points(void **state)
             bonds_free(&searched);
         }
         assert_true(dim == 1 || count_folded(&c.bonds) > 0);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 

@@ -18,7 +18,7 @@ enum { STRAINS = 6 };
 
 /* A body, the requirements of its faces, and a factor for each particle and offset. */
 struct plain {
-    struct plotted_particles cloud;
+    struct particle_cloud cloud;
     struct near_faces body;
     struct surface_fit_targets faces;
     real *factor, alpha, prior, full[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX];
@@ -121,7 +121,7 @@ static real objective(const struct plain *s)
 static void plain_make(struct plain *s, const struct cloud_plan *plan)
 {
     *s = (struct plain){.dim = space_dim(plan->space)};
-    plotted_particles_make(&s->cloud, plan);
+    particle_cloud_make(&s->cloud, plan);
     cloud_exact(&s->cloud);
     cloud_source(&s->cloud);
     int64_t apart[2];
@@ -163,7 +163,7 @@ static void plain_free(struct plain *s)
     surface_fit_targets_free(&s->faces);
     near_faces_free(&s->body);
     memory_free(s->factor);
-    plotted_particles_free(&s->cloud);
+    particle_cloud_free(&s->cloud);
 }
 
 /* Returns the derivative of the functional by the factor of one bond, at both of its ends. */
@@ -263,8 +263,8 @@ static real bending_energy(enum space space, enum surface_rule surface, int leng
                               .horizon = 3.015,
                               .surface = surface,
                               .shells = SHELLS_ISOTROPIC};
-    struct plotted_particles c;
-    plotted_particles_make(&c, &plan);
+    struct particle_cloud c;
+    particle_cloud_make(&c, &plan);
     cloud_exact(&c);
     cloud_bonds(&c);
     struct particles *p = &c.p;
@@ -279,7 +279,7 @@ static real bending_energy(enum space space, enum surface_rule surface, int leng
     const real width = p->dim > 2 ? layers * CLOUD_SPACING : c.source.family.section;
     const real inertia = width * pow(layers * CLOUD_SPACING, 3) / 12;
     const real unit = 0.5 * c.material[0].young * inertia * square(curvature);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
     return energy / unit;
 }
 
@@ -315,12 +315,12 @@ static void half_is_as_the_whole(void **state)
     (void)state;
     struct cloud_plan plan = {
         .space = SPACE_PLANE_STRESS, .count = {14, 9}, .horizon = 3.015, .surface = SURFACE_MOMENTS};
-    struct plotted_particles whole, half;
+    struct particle_cloud whole, half;
     struct loads loads = {0};
-    plotted_particles_make(&whole, &plan);
+    particle_cloud_make(&whole, &plan);
     for (int64_t i = 0; i < whole.p.n; i++) whole.p.X[0][i] -= 7 * CLOUD_SPACING;
     plan.count[0] = 7;
-    plotted_particles_make(&half, &plan);
+    particle_cloud_make(&half, &plan);
     assert_int_equal(loads_make(&loads, mirror, 1, &half.p, CLOUD_SPACING, half.source.family.cutoff, 0), OK);
     loads_update_mirror_images(&loads, &half.p);
     half.source.image = loads.image;
@@ -335,8 +335,8 @@ static void half_is_as_the_whole(void **state)
                 if (!(fabs(one - other) <= 1e-7)) fail_msg("particle %d, %d %d: %g, %g", (int)i, x, y, one, other);
             }
     loads_free(&loads);
-    plotted_particles_free(&whole);
-    plotted_particles_free(&half);
+    particle_cloud_free(&whole);
+    particle_cloud_free(&half);
 }
 
 /* The residual of the solver tells whether it gave up: not with the products that it may use, but with three. */

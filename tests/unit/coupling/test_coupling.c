@@ -23,7 +23,7 @@ struct interface {
 };
 
 /* Sets the stress of every material point by Hooke's law; stores its components. */
-static void set_stress(struct plotted_particles *c, const real strain[DIM_MAX][DIM_MAX], real *stress)
+static void set_stress(struct particle_cloud *c, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     const struct material *m = &c->material[0];
     const int dim = c->p.dim;
@@ -46,7 +46,7 @@ static real interface_residual(const struct interface *k, const real strain[DIM_
     struct patch s = {0};
     const int *count = k->plan.count;
     real from[DIM_MAX], to[DIM_MAX], reach = ceil(k->plan.horizon) + 2 * k->ratio;
-    plotted_particles_make(&s.c, &k->plan);
+    particle_cloud_make(&s.c, &k->plan);
     struct particles *p = &s.c.p;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->X[0][i] > k->split * CLOUD_SPACING ? KIND_MPM : KIND_PD;
     cloud_bonds(&s.c);
@@ -142,9 +142,9 @@ static void test_share_given(void **state)
 {
     (void)state;
     static const real given[] = {1.0 / 4, 2.0 / 3, 11.0 / 12};
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct partial_stress partial = {0};
-    plotted_particles_make(&c, &bar);
+    particle_cloud_make(&c, &bar);
     for (int64_t i = 16; i < c.p.n; i++) c.p.kind[i] = KIND_MPM;
     cloud_bonds(&c);
     partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
@@ -156,15 +156,15 @@ static void test_share_given(void **state)
             is_near("share given", 1 - partial.matrix[partial.index[i]], given[k], 1e-12);
     }
     partial_stress_free(&partial);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* Computes the partial stress of a bar of 2 x 2 lines, half of it bonds. off: its last particle, which no bond reaches,
  * is off the lattice, so that the tables are not used. */
-static void shares_make(struct plotted_particles *c, struct partial_stress *partial, real horizon, bool off)
+static void shares_make(struct particle_cloud *c, struct partial_stress *partial, real horizon, bool off)
 {
     const struct cloud_plan plan = {.space = SPACE_SOLID, .count = {24, 2, 2}, .horizon = horizon};
-    plotted_particles_make(c, &plan);
+    particle_cloud_make(c, &plan);
     if (off)
         for (int64_t i = 0; i < c->p.n; i++)
             c->p.X[0][i] += c->p.X[0][i] > 23 * CLOUD_SPACING ? 0.01 * CLOUD_SPACING : 0;
@@ -179,7 +179,7 @@ static void test_wide_families(void **state)
     (void)state;
     static const real horizon[] = {3.015, 7.015, 8.015};
     for (size_t k = 0; k < COUNT_OF(horizon); k++) {
-        struct plotted_particles c[2];
+        struct particle_cloud c[2];
         struct partial_stress partial[2] = {0};
         int crossed = 0;
         for (int off = 0; off < 2; off++) shares_make(&c[off], &partial[off], horizon[k], off);
@@ -192,14 +192,14 @@ static void test_wide_families(void **state)
             crossed += a >= 0;
         }
         assert_true(crossed >= 4 * (int)horizon[k]);
-        for (int off = 0; off < 2; off++) partial_stress_free(&partial[off]), plotted_particles_free(&c[off]);
+        for (int off = 0; off < 2; off++) partial_stress_free(&partial[off]), particle_cloud_free(&c[off]);
     }
 }
 
 /* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
 /* Returns the energy of bonds, plus 1/2 sigma_given : C^-1 sigma of the points [J]. */
-static real energy_of(const struct plotted_particles *c, const struct partial_stress *partial)
+static real energy_of(const struct particle_cloud *c, const struct partial_stress *partial)
 {
     const struct particles *p = &c->p;
     real sum = c->bonds.rows > 0 ? bond_energy_table[1][PD_BOND](&c->bonds, p) : 0;
@@ -222,10 +222,10 @@ static void test_energy_at_start(void **state)
         real handshake, partial;
     } row[] = {{1, 1, -0.5}, {2, 11.0 / 6, -1.0 / 3}, {3, 7.0 / 3, 0}, {4, 7.0 / 3, 0}, {9, 7.0 / 3, 0}};
     for (size_t k = 0; k < COUNT_OF(row); k++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct partial_stress partial = {0};
         real stress[SYM_MAX];
-        plotted_particles_make(&c, &bar);
+        particle_cloud_make(&c, &bar);
         for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM;
         cloud_source(&c);
         cloud_strain(&c, strain);
@@ -243,7 +243,7 @@ static void test_energy_at_start(void **state)
         partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
         is_near("partial stress", (energy_of(&c, &partial) - before) / particle, row[k].partial, 1e-4);
         partial_stress_free(&partial);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -254,7 +254,7 @@ static void test_energy_in_run(void **state)
     (void)state;
     static const real strain[DIM_MAX][DIM_MAX] = {{STRAIN}};
     for (int coupling = COUPLING_PARTIAL_STRESS; coupling <= COUPLING_HANDSHAKE; coupling++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct particles before;
         struct partial_stress partial = {0};
         struct conversion conversion = {.first_time = NAN};
@@ -262,7 +262,7 @@ static void test_energy_in_run(void **state)
             .criteria = CONVERT_ON_STRESS | CONVERT_ON_BREAK, .stress = NAN, .alpha = 1, .block = true};
         real stress[SYM_MAX];
         bool with = coupling == COUPLING_PARTIAL_STRESS;
-        plotted_particles_make(&c, &bar);
+        particle_cloud_make(&c, &bar);
         struct particles *p = &c.p;
         for (int64_t i = 0; i < p->n; i++) p->kind[i] = KIND_MPM, p->v[0][i] = (real)(i % 5);
         cloud_bonds(&c);
@@ -288,7 +288,7 @@ static void test_energy_in_run(void **state)
         is_near("jump", (energy_of(&c, &partial) - energy) / particle, with ? 0 : 7.0 / 3, 1e-4);
         particles_free(&before);
         partial_stress_free(&partial);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -298,16 +298,16 @@ static void test_energy_in_run(void **state)
 static void test_block_in_its_body(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct conversion conversion = {.first_time = NAN};
     const struct conversion_rule rule = {.criteria = CONVERT_ON_BREAK, .stress = NAN, .alpha = 1, .block = true};
-    plotted_particles_make(&c, &bar);
+    particle_cloud_make(&c, &bar);
     for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 17;
     cloud_bonds(&c);
     c.p.flag[15] |= FLAG_NEAR;
     assert_int_equal(convert_flagged_points(&conversion, &rule, &c.p, &c.bonds, &c.source, NULL, NULL, 3e-6), 5);
     for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i >= 12 && i < 17 ? KIND_PD : KIND_MPM);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* A pre-crack converts the points with bonds across it. Two bodies of four rows, the crack in the middle of the lower
@@ -318,14 +318,14 @@ static void test_crack_in_its_body(void **state)
     const struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .count = {10, 8}, .horizon = 3.015};
     real corner[2][DIM_MAX] = {{-CLOUD_SPACING, 2 * CLOUD_SPACING}, {11 * CLOUD_SPACING, 2 * CLOUD_SPACING}};
     const struct crack crack = {.n = 2, .corner = corner};
-    struct plotted_particles c;
-    plotted_particles_make(&c, &plan);
+    struct particle_cloud c;
+    particle_cloud_make(&c, &plan);
     for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 40;
     cloud_source(&c);
     c.source.crack = &crack, c.source.cracks = 1;
     convert_particles_at_precracks(&c.p, &c.source, NULL);
     for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i < 40 ? KIND_PD : KIND_MPM);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* Three bodies side by side, and a rigid one below the last: a point is marked if a particle of another body, or the
@@ -340,10 +340,9 @@ static void test_approach(void **state)
     const struct region shape = {.n = 1, .solid = &box};
     const real rest[DIM_MAX] = {0}, reach = 3 * CLOUD_SPACING;
     struct rigid_body rigid = {.name = "below"};
-    struct plotted_particles c;
+    struct particle_cloud c;
     int64_t marked = 0;
-    plotted_particles_make(&c,
-                           &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {WIDE, HIGH}, .horizon = 3.015});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {WIDE, HIGH}, .horizon = 3.015});
     assert_int_equal(rigid_make(&rigid, &shape, 2, 1.3, rest, CLOUD_SPACING), OK);
     struct particles *p = &c.p;
     p->low_since = NEW("test.low_since", p->n, real);
@@ -362,7 +361,7 @@ static void test_approach(void **state)
         marked += near;
     }
     assert_true(marked > 4 * HIGH && marked < p->n - 4 * HIGH);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* Faces of a notch 0.3 spacings wide become peridynamic where they will close the gap: by their displacement and, if
@@ -376,9 +375,9 @@ static void test_faces_meet(void **state)
     const real h = CLOUD_SPACING, ahead = 1.7e-6;
     real corner[2][DIM_MAX] = {{-h, h}, {(WIDE + 1) * h, h}};
     struct crack slit = {.n = 2, .corner = corner, .width = 0.3 * h};
-    struct plotted_particles c;
+    struct particle_cloud c;
     int32_t face[2 * WIDE];
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {WIDE, 2}, .horizon = 3.015});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {WIDE, 2}, .horizon = 3.015});
     for (int64_t i = 0; i < c.p.n; i++) {
         const int k = (int)(c.p.X[0][i] / h);
         face[i] = (int32_t)i;
@@ -392,7 +391,7 @@ static void test_faces_meet(void **state)
         const int k = (int)(c.p.X[0][i] / h);
         assert_int_equal((c.p.flag[i] & FLAG_NEAR) != 0, moved[k] + real_max(way[k], 0) > 0.3);
     }
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 int main(void)

@@ -8,13 +8,13 @@
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
 /* Creates a body whose left half is peridynamic, with random displacements. */
-static void half_make(struct plotted_particles *c, struct interface_zone *r, enum space space, real shake)
+static void half_make(struct particle_cloud *c, struct interface_zone *r, enum space space, real shake)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {40, 0, 0}, {20, 14, 0}, {14, 8, 8}};
     struct cloud_plan plan = {.space = space, .horizon = 3, .shake = shake, .seed = 7};
     const int dim = space_dim(space);
     memcpy(plan.count, size[dim], sizeof plan.count);
-    plotted_particles_make(c, &plan);
+    particle_cloud_make(c, &plan);
     for (int64_t i = 0; i < c->p.n; i++)
         c->p.kind[i] = c->p.X[0][i] < 0.5 * size[dim][0] * CLOUD_SPACING ? KIND_PD : KIND_MPM;
     cloud_source(c);
@@ -22,10 +22,10 @@ static void half_make(struct plotted_particles *c, struct interface_zone *r, enu
     assert_true(r->points > 0 && r->n > r->points);
 }
 
-static void half_free(struct plotted_particles *c, struct interface_zone *r)
+static void half_free(struct particle_cloud *c, struct interface_zone *r)
 {
     interface_zone_free(r);
-    plotted_particles_free(c);
+    particle_cloud_free(c);
 }
 
 /* Sums of momentum, angular momentum x_a p_b - x_b p_a, and twice the kinetic energy; scale: sums of the magnitudes of
@@ -51,7 +51,7 @@ static void test_kept(void **state)
 {
     (void)state;
     for (size_t k = 0; k < COUNT_OF(spaces); k++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct interface_zone r = {0};
         real before[SUMS], after[SUMS], scale[SUMS];
         uint64_t seed = 11;
@@ -78,7 +78,7 @@ static void test_rigid(void **state)
 {
     (void)state;
     for (size_t k = 0; k < COUNT_OF(spaces); k++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct interface_zone r = {0};
         half_make(&c, &r, spaces[k], 0.2);
         const int dim = c.p.dim;
@@ -105,7 +105,7 @@ static void test_waves(void **state)
     const real pi = 3.14159265358979323846;
     const real wave_number[] = {3.14159265358979323846, 1.0, 0.2};
     for (size_t k = 0; k < COUNT_OF(wave_number); k++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct interface_zone r = {0};
         half_make(&c, &r, SPACE_LINE, 0);
         const int32_t middle = 21; /* the zone is points 20 .. 23; its inner points have complete neighbourhoods */
@@ -127,7 +127,7 @@ static void test_parted(void **state)
     real corner[2][DIM_MAX] = {{-CLOUD_SPACING, 6 * CLOUD_SPACING}, {21 * CLOUD_SPACING, 6 * CLOUD_SPACING}};
     const struct crack crack = {.n = 2, .corner = corner};
     for (int parted = 0; parted < 3; parted++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct interface_zone r = {0};
         real change = 0;
         half_make(&c, &r, SPACE_PLANE_STRESS, 0);

@@ -11,7 +11,7 @@
 #define STRAIN 1e-6 /* bonds stretch with finite deformation: deviations from linear theory of this order */
 
 struct setting {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct elastic elastic[CLOUD_MATERIALS];
     struct reversion_rule rule;
 };
@@ -19,7 +19,7 @@ struct setting {
 static void setting_make(struct setting *s, const struct cloud_plan *plan)
 {
     memset(s, 0, sizeof *s);
-    plotted_particles_make(&s->c, plan);
+    particle_cloud_make(&s->c, plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *k = &s->c.material[m];
         s->elastic[m] =
@@ -110,7 +110,7 @@ static void test_bar(void **state)
     memory_free(list);
     particles_free(&before);
     partial_stress_free(&partial);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* A whole bar reverts during a standing wave of stress E e exp(-(4 X/width)^2): energy is lost by the smoothing of
@@ -140,7 +140,7 @@ static void test_wave(void **state)
         reversion_apply(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
         assert_near(0.5 * (energy_of(&s, &partial) / before - 1), row[k].change, row[k].within);
         memory_free(list);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -177,7 +177,7 @@ static void test_surfaces(void **state)
             if (p->stretch[0]) assert_near(p->stretch[1][i], 1 + strain[1][1], 1e-11);
         }
         memory_free(list);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -230,7 +230,7 @@ static void test_who_stays(void **state)
         }
         assert_true(k == n && stay == p->n - n && stay > 20);
         memory_free(list);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -278,7 +278,7 @@ static void test_dwell_and_gap(void **state)
         p->stress[0][20] = p->stress[0][20 + gap + 1] = 0;
         memory_free(list);
     }
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
@@ -334,7 +334,7 @@ static void test_mesh(void **state)
     assert_near((mesh_kinetic(&mesh) + lost) / kinetic, 1, 1e-13);
     assert_true(lost > 0); /* velocities of nodes are random: averaging dissipates */
     mesh_free(&mesh);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 int main(void)

@@ -28,10 +28,10 @@ struct both {
 static void both_make(struct both *b, const struct partners *k)
 {
     memset(b, 0, sizeof *b);
-    struct plotted_particles *c = &b->s.c;
+    struct particle_cloud *c = &b->s.c;
     struct cloud_plan plan = k->plan;
     plan.optional = WITH_ENDS | (k->model == PD_MOSPD ? WITH_ROTATIONS : 0);
-    plotted_particles_make(c, &plan);
+    particle_cloud_make(c, &plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         c->material[m].poisson = k->poisson;
         material_compute_derived_constants(&c->material[m], k->plan.space);
@@ -41,7 +41,7 @@ static void both_make(struct both *b, const struct partners *k)
 }
 
 /* Sets the stress of Hooke's law in the material points. */
-static void stress_set(struct plotted_particles *c, const real strain[DIM_MAX][DIM_MAX])
+static void stress_set(struct particle_cloud *c, const real strain[DIM_MAX][DIM_MAX])
 {
     real vector[SYM_MAX] = {0}, stiffness[SYM_MAX * SYM_MAX];
     const int dim = c->p.dim, n = symmetric_component_count(dim);
@@ -60,7 +60,7 @@ static void stress_set(struct plotted_particles *c, const real strain[DIM_MAX][D
 /* Computes the forces of bonds after the points at their ends have been evaluated. */
 static void forces(struct both *b, enum pd_model model)
 {
-    struct plotted_particles *c = &b->s.c;
+    struct particle_cloud *c = &b->s.c;
     partial_stress_make(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
     bonded_points_strain_from_stress(&b->s.partial, &c->p, c->material);
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
@@ -170,7 +170,7 @@ static void test_torque(void **state)
 /* Returns the energy of bonds, plus 1/2 sigma_given : C^-1 sigma of the points [J]. */
 static real energy_of(const struct both *b, enum pd_model model)
 {
-    const struct plotted_particles *c = &b->s.c;
+    const struct particle_cloud *c = &b->s.c;
     const int dim = c->p.dim, n = symmetric_component_count(dim);
     real sum = c->bonds.rows > 0 ? state_energy_table[dim][model](&c->bonds, &c->p) : 0, compliance[SYM_MAX * SYM_MAX];
     material_compliance_matrix(&c->material[0], dim, compliance);
@@ -198,7 +198,7 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     for (int d = 0; d < 2; d++)
         box.from[d] = (16 - edge / 2) * CLOUD_SPACING, box.to[d] = (16 + edge / 2) * CLOUD_SPACING;
     both_make(&b, &k);
-    struct plotted_particles *c = &b.s.c;
+    struct particle_cloud *c = &b.s.c;
     for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = KIND_MPM;
     cloud_source(c);
     cloud_strain(c, strain);
@@ -242,7 +242,7 @@ static void test_response(void **state)
         .plan = {.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 2.015}, .model = PD_MOSPD, .poisson = 0.2};
     struct both b;
     both_make(&b, &k);
-    struct plotted_particles *c = &b.s.c;
+    struct particle_cloud *c = &b.s.c;
     for (int64_t i = 0; i < c->p.n; i++) c->p.material[i] = i % 2;
     cloud_bonds(c);
     int64_t tried = 0;
@@ -266,7 +266,7 @@ static void test_response(void **state)
     is_near("half", particle_half_edge(&c->p, &c->source, 3), 0.5 * CLOUD_SPACING, 1e-12);
     c->p.volume0[3] *= 4;
     is_near("half", particle_half_edge(&c->p, &c->source, 3), CLOUD_SPACING, 1e-12);
-    plotted_particles_free(c);
+    particle_cloud_free(c);
 }
 
 /* The energies of rows add up to the total, including those of points at the ends of bonds, which rotate with their
@@ -338,7 +338,7 @@ static void test_positive(void **state)
                 for (int e = 0; e < n; e++) product += rest[a * n + e] * taken[e * n + c];
                 assert_true(fabs(product) < 1e-9 * square(V * m->c11));
             }
-        plotted_particles_free(&b.s.c);
+        particle_cloud_free(&b.s.c);
     }
 }
 

@@ -10,13 +10,13 @@
 #include "data/transfer_order.h"
 
 /* Scatters points over cells -20 .. 20 around node 0, some of them peridynamic. */
-static void scatter_points(struct plotted_particles *c, int dim, struct grid *g)
+static void scatter_points(struct particle_cloud *c, int dim, struct grid *g)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
     uint64_t seed = 5;
     real from[DIM_MAX], to[DIM_MAX];
     bool changed;
-    plotted_particles_make(c, &(struct cloud_plan){.space = space[dim], .count = {600}, .horizon = 3});
+    particle_cloud_make(c, &(struct cloud_plan){.space = space[dim], .count = {600}, .horizon = 3});
     *g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING};
     for (int d = 0; d < dim; d++) {
         g->anchor[d] = 0.37 * CLOUD_SPACING;
@@ -78,7 +78,7 @@ static void test_transfer_order(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct grid g;
         struct transfer_order o = {0};
         scatter_points(&c, dim, &g);
@@ -98,7 +98,7 @@ static void test_transfer_order(void **state)
         memory_free(seen);
         transfer_order_free(&o);
         grid_free(&g);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -107,7 +107,7 @@ static void test_transfer_order_growth(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct grid g;
         struct transfer_order small = {0}, large = {0};
         bool changed;
@@ -127,7 +127,7 @@ static void test_transfer_order_growth(void **state)
         transfer_order_free(&small);
         transfer_order_free(&large);
         grid_free(&g);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -136,7 +136,7 @@ static void test_transfer_order_threads(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct grid g;
         struct transfer_order one = {0}, many = {0};
         scatter_points(&c, dim, &g);
@@ -154,7 +154,7 @@ static void test_transfer_order_threads(void **state)
         transfer_order_free(&one);
         transfer_order_free(&many);
         grid_free(&g);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 

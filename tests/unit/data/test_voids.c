@@ -151,9 +151,9 @@ static void joined_and_mirrored(void **state)
 static void bits_of_particles(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .horizon = 3, .count = {11, 9}};
-    plotted_particles_make(&c, &plan);
+    particle_cloud_make(&c, &plan);
     cloud_source(&c);
     struct particles *p = &c.p;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
@@ -188,7 +188,7 @@ static void bits_of_particles(void **state)
     }
     assert_true(near > 10);
     memory_free(v.near); /* shape and body are on the stack */
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* ---- slits ------------------------------------------------------------------------------------------------------- */

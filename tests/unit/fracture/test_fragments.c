@@ -9,14 +9,13 @@ static void test_fragments(void **state)
 {
     (void)state;
     enum { COLUMNS = 9, ROWS = 5, PIECES = 3 };
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct fragments f;
     uint64_t seed = 5;
     real corner[2][2][DIM_MAX] = {{{3 * CLOUD_SPACING, -1}, {3 * CLOUD_SPACING, 1}},
                                   {{8 * CLOUD_SPACING, -1}, {8 * CLOUD_SPACING, 1}}};
     const struct crack crack[] = {{.n = 2, .corner = corner[0]}, {.n = 2, .corner = corner[1]}};
-    plotted_particles_make(&c,
-                           &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {COLUMNS, ROWS}, .horizon = 3});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {COLUMNS, ROWS}, .horizon = 3});
     struct particles *p = &c.p;
     for (int64_t i = 0; i < p->n; i++) {
         p->mass[i] *= i % 3 ? 1 : 2.7;
@@ -49,7 +48,7 @@ static void test_fragments(void **state)
         }
     }
     fragments_free(&f);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* Particles without bonds are not fragments; their number and mass are reported. */
@@ -57,9 +56,9 @@ static void test_alone(void **state)
 {
     (void)state;
     enum { COLUMNS = 6 };
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct fragments f;
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {COLUMNS}, .horizon = 1.015});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {COLUMNS}, .horizon = 1.015});
     struct particles *p = &c.p;
     real corner[3][1][DIM_MAX] = {{{CLOUD_SPACING}}, {{2 * CLOUD_SPACING}}, {{5 * CLOUD_SPACING}}}, alone = 0;
     const struct crack crack[] = {
@@ -75,7 +74,7 @@ static void test_alone(void **state)
     for (int64_t i = 0; i < p->n; i++) alone += i < 2 || i == 5 ? p->mass[i] : 0;
     assert_close(f.mass_singles, alone, 1e-12);
     fragments_free(&f);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 int main(void)

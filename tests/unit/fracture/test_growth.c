@@ -12,7 +12,7 @@
 #define HORIZON (3.015 * CLOUD_SPACING)
 
 struct stage {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct state_modulus modulus[CLOUD_MATERIALS];
     struct growth_rule rule;
     struct growing_crack g;
@@ -25,7 +25,7 @@ struct stage {
 static void stage_lay(struct stage *s, enum pd_model model, bool local)
 {
     memset(s, 0, sizeof *s);
-    plotted_particles_make(
+    particle_cloud_make(
         &s->c, &(struct cloud_plan){
                    .space = SPACE_PLANE_STRAIN, .count = {24, 24}, .horizon = 3.015, .shake = 0.2, .seed = 11});
     for (int k = 0; k < CLOUD_MATERIALS && model != PD_BOND; k++) {
@@ -55,7 +55,7 @@ static void stage_set(struct stage *s)
 static void stage_free(struct stage *s)
 {
     growing_crack_free(&s->g);
-    plotted_particles_free(&s->c);
+    particle_cloud_free(&s->c);
 }
 
 static int64_t steps(struct stage *s, int from, int n)

@@ -12,7 +12,7 @@
 /* ---- one bond ---------------------------------------------------------------------------------------------------- */
 
 /* Returns the force of a single bond of two particles at stretch s, over stiffness and weight. */
-static real pulled(struct plotted_particles *c, real s)
+static real pulled(struct particle_cloud *c, real s)
 {
     c->p.x[0][1] = c->p.x[0][0] + (c->p.X[0][1] - c->p.X[0][0]) * (1 + s);
     bond_force_table[1][PD_BOND_PLASTIC](&c->bonds, &c->p, &c->source.limit, NULL);
@@ -21,9 +21,9 @@ static real pulled(struct plotted_particles *c, real s)
     return c->p.f[0][0] / (c->bonds.stiffness * c->bonds.w[q]);
 }
 
-static void pair_make(struct plotted_particles *c)
+static void pair_make(struct particle_cloud *c)
 {
-    plotted_particles_make(c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
+    particle_cloud_make(c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     c->yield[0] = YIELD, c->hardening[0] = HARDENING;
     cloud_bonds(c);
     assert_int_equal(c->bonds.columns, 1);
@@ -53,7 +53,7 @@ static void test_path(void **state)
                             {-2 * y, -second + 2 * y},
                             {again, second},
                             {again + y, second + slope * y}};
-    struct plotted_particles c;
+    struct particle_cloud c;
     real dissipated = 0;
     pair_make(&c);
     for (size_t k = 0; k < COUNT_OF(path); k++) {
@@ -63,7 +63,7 @@ static void test_path(void **state)
         assert_true(work >= dissipated);
         dissipated = work;
     }
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* The work done on a bond along this path equals elastic energy plus plastic work. Trapezoidal rule with 40,000 steps:
@@ -73,7 +73,7 @@ static void test_work(void **state)
 {
     (void)state;
     const real corner[] = {0, 3, -4, 6, 2};
-    struct plotted_particles c;
+    struct particle_cloud c;
     real work = 0, before = 0;
     pair_make(&c);
     int64_t q = bond_writable_index(&c.bonds, 0, 0, 0);
@@ -87,7 +87,7 @@ static void test_work(void **state)
             before = force;
         }
     assert_close(bond_energy_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p) + bond_plastic_work(&c.bonds), work, 1e-7);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* A bond that breaks keeps its plastic work in the balance, once: path (s_y + H path/2) times its stiffness and
@@ -95,7 +95,7 @@ static void test_work(void **state)
 static void test_broken(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     pair_make(&c);
     const int64_t q = bond_writable_index(&c.bonds, 0, 0, 0);
     const real scale = c.bonds.stiffness * c.bonds.w[q] / c.bonds.inverse_length[q], path = 2 * YIELD / (1 + HARDENING);
@@ -105,7 +105,7 @@ static void test_broken(void **state)
     c.limit[0] = 2.9 * YIELD;
     assert_int_equal(bond_break_row_block(&c.bonds, &c.p, &c.source.limit, 0), 2);
     assert_close(bond_plastic_work(&c.bonds), work, 1e-9);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
@@ -125,9 +125,9 @@ static real twin_force(struct twin *t, real stretch, real yield, real hardening)
     return stretch - t->plastic;
 }
 
-static void body_make(struct plotted_particles *c, enum space space, uint64_t seed)
+static void body_make(struct particle_cloud *c, enum space space, uint64_t seed)
 {
-    plotted_particles_make(
+    particle_cloud_make(
         c, &(struct cloud_plan){.space = space, .count = {9, 7, 5}, .horizon = 2.015, .shake = 0.2, .seed = seed});
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->yield[k] = 1e-3 * (1 + k), c->hardening[k] = 0.5 * k;
     for (int64_t i = 0; i < c->p.n; i++) c->p.material[i] = (uint8_t)(i % 2);
@@ -135,7 +135,7 @@ static void body_make(struct plotted_particles *c, enum space space, uint64_t se
     cloud_bonds(c);
 }
 
-static void shake(struct plotted_particles *c, uint64_t *seed)
+static void shake(struct particle_cloud *c, uint64_t *seed)
 {
     for (int64_t i = 0; i < c->p.n; i++)
         for (int d = 0; d < c->p.dim; d++)
@@ -143,7 +143,7 @@ static void shake(struct plotted_particles *c, uint64_t *seed)
 }
 
 /* Computes the force on row r from the scalar bonds [N]. */
-static void twin_row(const struct plotted_particles *c, struct twin *twin, int64_t r, real *force)
+static void twin_row(const struct particle_cloud *c, struct twin *twin, int64_t r, real *force)
 {
     const struct bonds *b = &c->bonds;
     const struct particles *p = &c->p;
@@ -170,7 +170,7 @@ static void test_lanes(void **state)
     (void)state;
     const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
     for (int dim = 1; dim <= DIM_MAX; dim++) {
-        struct plotted_particles c;
+        struct particle_cloud c;
         uint64_t seed = 5;
         body_make(&c, spaces[dim - 1], 3);
         struct twin *twin = NEW("test.twin", c.bonds.columns * LANES, struct twin);
@@ -186,7 +186,7 @@ static void test_lanes(void **state)
         }
         assert_true(bond_plastic_work(&c.bonds) > 0);
         memory_free(twin);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -194,7 +194,7 @@ static void test_lanes(void **state)
 static void test_ends(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     uint64_t seed = 9;
     int64_t checked = 0;
     body_make(&c, SPACE_PLANE_STRESS, 4);
@@ -216,7 +216,7 @@ static void test_ends(void **state)
             }
         }
     assert_true(checked > 100);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* ---- initialisation from material points ------------------------------------------------------------------------- */
@@ -225,9 +225,9 @@ static void test_ends(void **state)
 static void test_taken_over(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     const real strain = 3e-4, E = 200e9, stress = E * (YIELD + 0.5 * (strain - YIELD));
-    plotted_particles_make(
+    particle_cloud_make(
         &c, &(struct cloud_plan){.space = SPACE_LINE, .count = {24}, .horizon = 3, .optional = WITH_PLASTIC});
     c.yield[0] = YIELD, c.hardening[0] = HARDENING;
     for (int64_t i = 0; i < c.p.n; i++) {
@@ -249,7 +249,7 @@ static void test_taken_over(void **state)
         assert_close(c.p.stress[0][i], stress * (1 + strain), 1e-11); /* the virial uses current lengths */
         assert_near(c.p.f[0][i], 0, 1e-11 * stress * 4e-6);
     }
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* In 2D, points with different stresses and plastic strains: the plastic stretch of a bond is its stretch minus the
@@ -258,10 +258,10 @@ static void test_taken_over(void **state)
 static void test_taken_over_in_the_plane(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     const real E = 200e9, nu = 1.0 / 3;
     uint64_t seed = 7;
-    plotted_particles_make(
+    particle_cloud_make(
         &c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {6, 5}, .horizon = 2, .optional = WITH_PLASTIC});
     c.yield[0] = YIELD, c.hardening[0] = HARDENING;
     for (int64_t i = 0; i < c.p.n; i++) {
@@ -285,7 +285,7 @@ static void test_taken_over_in_the_plane(void **state)
             assert_near(c.bonds.plastic_stretch[it.bond.entry], length * it.bond.inverse_length - 1 - elastic, 1e-14);
             assert_close(c.bonds.plastic_path[it.bond.entry], path, 1e-12);
         }
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 int main(void)

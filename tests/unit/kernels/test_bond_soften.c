@@ -16,7 +16,7 @@
 /* One step: bonds begin to soften, forces. Returns the number of bonds broken. */
 static int64_t soft_forces(struct soft_body *s)
 {
-    struct plotted_particles *c = &s->c;
+    struct particle_cloud *c = &s->c;
     return bond_forces(bond_force_table[c->p.dim][PD_BOND_SOFT], &c->bonds, &c->p, &c->source.limit, NULL);
 }
 
@@ -26,7 +26,7 @@ static void pair_make(struct soft_body *s, enum softening law)
 {
     memset(s, 0, sizeof *s);
     omp_set_num_threads(1); /* a team for two particles would only wait */
-    plotted_particles_make(&s->c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
+    particle_cloud_make(&s->c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     soft_bonds(s, law, ONSET, CRITICAL);
 }
 
@@ -73,7 +73,7 @@ static void test_cycles(void **state)
             assert_near(pulled(&s, -0.7 * ONSET), -0.7 * ONSET, 1e-12);
             assert_close(pulled(&s, peaks[k]), top, 1e-6);
         }
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -109,7 +109,7 @@ static void test_work(void **state)
         assert_int_equal(s.c.bonds.broken[0] + s.c.bonds.broken[1], 2);
         assert_close(bonds_fracture_energy(&s.c.bonds), 0.5 * square(CRITICAL) * scale, 2e-6);
         assert_exact(pulled(&s, 1.02 * end), 0);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -126,7 +126,7 @@ static void test_at_once(void **state)
     p->v[0][1] = CLOUD_SPACING * 5.5 * ONSET / 1e-9;
     assert_int_equal(soft_forces(&s), 2);
     assert_close(bonds_fracture_energy(&s.c.bonds), 0.5 * square(CRITICAL) * s.c.bonds.stiffness * CLOUD_SPACING, 1e-9);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
@@ -135,7 +135,7 @@ static void body_make(struct soft_body *s, enum space space, enum softening law,
 {
     memset(s, 0, sizeof *s);
     omp_set_num_threads(2);
-    plotted_particles_make(
+    particle_cloud_make(
         &s->c, &(struct cloud_plan){.space = space, .count = {9, 7, 5}, .horizon = 2.015, .shake = 0.2, .seed = seed});
     for (int64_t i = 0; i < s->c.p.n; i++) s->c.p.material[i] = (uint8_t)(i % 2);
     soft_bonds(s, law, ONSET, CRITICAL);
@@ -145,7 +145,7 @@ static void body_make(struct soft_body *s, enum space space, enum softening law,
 }
 
 /* Moves particles at random, with stretches up to 3 s_0 and, in the end, beyond s_f. */
-static void shake(struct plotted_particles *c, uint64_t *seed, real size)
+static void shake(struct particle_cloud *c, uint64_t *seed, real size)
 {
     for (int64_t i = 0; i < c->p.n; i++)
         for (int d = 0; d < c->p.dim; d++)
@@ -193,7 +193,7 @@ static void test_lanes(void **state)
         assert_true(ended >= 2 && softened >= 20);
         soften_reference_free(&r);
         memory_free(w), memory_free(block), memory_free(row);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -230,7 +230,7 @@ static void test_ends(void **state)
             }
         }
     assert_true(checked > 100);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* ---- a uniformly strained family --------------------------------------------------------------------------------- */
@@ -270,7 +270,7 @@ static void test_family(void **state)
         struct soft_body s = {0};
         const real phi = k == 0 ? 1.096 : 1.281;
         real peak = 0, expected_peak = 0;
-        plotted_particles_make(
+        particle_cloud_make(
             &s.c, &(struct cloud_plan){
                       .space = spaces[k], .count = {11, 11, 11}, .horizon = 3.015, .shells = SHELLS_ISOTROPIC});
         cloud_exact(&s.c);
@@ -295,7 +295,7 @@ static void test_family(void **state)
         }
         assert_close(peak, expected_peak, 1e-3);
         assert_close(peak, s.c.material[0].young * SMALL * phi, 0.05);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -310,7 +310,7 @@ static void test_line(void **state)
     enum { HORIZON = 60 };
     const real onset = 1e-6, critical = 1e-4, end = square(critical) / onset; /* kappa = 1e4 */
     struct soft_body s = {0};
-    plotted_particles_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {128}, .horizon = HORIZON});
+    particle_cloud_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {128}, .horizon = HORIZON});
     soft_bonds(&s, SOFTENING_LINEAR, onset, critical);
     struct particles *p = &s.c.p;
     const real strength = s.c.material[0].young * s.c.source.family.section * onset;
@@ -323,7 +323,7 @@ static void test_line(void **state)
         for (int64_t i = 0; i < p->n / 2; i++) force += p->f[0][i];
         assert_near(force / strength, square(1 - 0.1 * k), 1.0 / HORIZON);
     }
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* ---- compression ------------------------------------------------------------------------------------------------- */
@@ -337,8 +337,7 @@ static void test_compression(void **state)
     for (int k = 0; k < 3; k++)
         for (int pressed = 1; pressed >= 0; pressed--) {
             struct soft_body s = {0};
-            plotted_particles_make(&s.c,
-                                   &(struct cloud_plan){.space = spaces[k], .count = {9, 9, 9}, .horizon = 3.015});
+            particle_cloud_make(&s.c, &(struct cloud_plan){.space = spaces[k], .count = {9, 9, 9}, .horizon = 3.015});
             cloud_exact(&s.c);
             soft_bonds(&s, SOFTENING_LINEAR, ONSET, CRITICAL);
             const real nu = k == 1 ? 1.0 / 3 : s.c.material[0].poisson, axial = -5 * ONSET;
@@ -351,7 +350,7 @@ static void test_compression(void **state)
             soft_forces(&s);
             assert_true(-nu * axial > 1.2 * ONSET);
             assert_true((bonds_fracture_energy(&s.c.bonds) > 0) == !pressed);
-            plotted_particles_free(&s.c);
+            particle_cloud_free(&s.c);
         }
 }
 

@@ -12,7 +12,7 @@
 
 /* A body of a material with a strength surface. */
 struct surface_body {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct softening_curve curve;
     struct softening_pair pair[CLOUD_MATERIALS * CLOUD_MATERIALS];
     struct crack crack;
@@ -24,7 +24,7 @@ static void body_make(struct surface_body *s, enum space space, real shake, int 
 {
     memset(s, 0, sizeof *s);
     omp_set_num_threads(2);
-    plotted_particles_make(
+    particle_cloud_make(
         &s->c, &(struct cloud_plan){.space = space, .count = {11, 9, 7}, .horizon = 2.5, .shake = shake, .seed = 4});
     s->curve = softening_curve_of(SOFTENING_LINEAR);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
@@ -49,7 +49,7 @@ static void body_make(struct surface_body *s, enum space space, real shake, int 
 /* Forces of the softening bonds. */
 static void soft_forces(struct surface_body *s)
 {
-    struct plotted_particles *c = &s->c;
+    struct particle_cloud *c = &s->c;
     bond_forces(bond_force_table[c->p.dim][PD_BOND_SOFT], &c->bonds, &c->p, &c->source.limit, NULL);
 }
 
@@ -92,7 +92,7 @@ static void test_uniform(void **state)
             for (int64_t i = 0; i < p->n; i++) assert_close(share[i], expected, 1e-9);
             assert_true(expected > 0.1);
             memory_free(share);
-            plotted_particles_free(&s.c);
+            particle_cloud_free(&s.c);
         }
 }
 
@@ -163,7 +163,7 @@ static void test_means(void **state)
         }
         assert_true(most > least + 0.2);
         memory_free(share), memory_free(strain);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -219,7 +219,7 @@ static void test_start(void **state)
         soft_forces(&s);
         assert_true(bonds_fracture_energy(b) > 0.1 * bond_energy_table[p->dim][PD_BOND_SOFT](b, p));
         memory_free(share), memory_free(before);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -261,7 +261,7 @@ static void test_ends(void **state)
             }
         }
     assert_true(checked > 100);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* Where strength scatters, a particle of factor f starts at a share of f, the others at 1. */
@@ -295,7 +295,7 @@ static void test_scatter(void **state)
         }
     }
     memory_free(share);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* A surface that does not depend on pressure is reached under uniaxial compressive strain, which stretches no bond. */
@@ -318,7 +318,7 @@ static void test_unstretched(void **state)
         bonds_start_by_surface(b, &s.c.p, &s.c.source);
         assert_exact(started(b), strain < -5e-4 ? 1 : 0);
     }
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 int main(void)

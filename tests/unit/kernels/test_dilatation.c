@@ -20,7 +20,7 @@
 /* A cloud of material points on a grid whose cells are `edge` spacings long. The materials have stress = STIFF strain,
  * component by component. */
 struct setting {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct grid g;
     struct transfer_order order;
     struct partial_stress none;
@@ -49,7 +49,7 @@ static void setting_make(struct setting *s, int dim, enum shape shape, enum tran
                               .shake = 0.3,
                               .seed = 8,
                               .optional = optional};
-    plotted_particles_make(&s->c, &plan);
+    particle_cloud_make(&s->c, &plan);
     struct particles *p = &s->c.p;
     for (int64_t i = 0; i < p->n; i++) {
         p->kind[i] = KIND_MPM;
@@ -77,7 +77,7 @@ static void setting_free(struct setting *s)
 {
     transfer_order_free(&s->order);
     grid_free(&s->g);
-    plotted_particles_free(&s->c);
+    particle_cloud_free(&s->c);
 }
 
 /* Moves the points by the nodal velocities in g->velocity times `sign`, and stores half the difference of both signs

@@ -26,7 +26,7 @@ static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {45}, {12, 9}, {6, 5, 5}
 enum { REGULAR = 0, SHAKEN = 1, MIXED = 2, WAYS = 4 };
 
 /* Creates a strained, irregular body of two materials. MIXED: two of three particles are material points. */
-static void body_make(struct plotted_particles *c, int dim, int way)
+static void body_make(struct particle_cloud *c, int dim, int way)
 {
     struct cloud_plan plan = {.space = space_of[dim],
                               .horizon = dim == 3 ? 2.015 : 3.015,
@@ -34,7 +34,7 @@ static void body_make(struct plotted_particles *c, int dim, int way)
                               .shake = way & SHAKEN ? 0.3 : 0};
     uint64_t seed = 31;
     memcpy(plan.count, count_of[dim], sizeof plan.count);
-    plotted_particles_make(c, &plan);
+    particle_cloud_make(c, &plan);
     struct particles *p = &c->p;
     for (int64_t i = 0; i < p->n; i++) {
         p->kind[i] = way & MIXED && cloud_random(&seed) < 0.67 ? KIND_MPM : KIND_PD;
@@ -52,7 +52,7 @@ static void body_make(struct plotted_particles *c, int dim, int way)
 
 /* ---- force and breaking ------------------------------------------------------------------------------------------ */
 
-static void check_force(const struct plotted_particles *c, const struct particles *before, const real *w)
+static void check_force(const struct particle_cloud *c, const struct particles *before, const real *w)
 {
     const struct particles *p = &c->p;
     real *force = NEW("test.force", p->n, real), *got = NEW("test.got", p->n, real);
@@ -71,7 +71,7 @@ static void check_force(const struct plotted_particles *c, const struct particle
 
 /* Checks every bond of row i: broken if and only if stretched beyond its limit; recorded energy of the row. Returns the
  * number of broken bonds. */
-static int64_t check_breaking(const struct plotted_particles *c, const real *w, const real *after, int64_t i)
+static int64_t check_breaking(const struct particle_cloud *c, const real *w, const real *after, int64_t i)
 {
     const struct particles *p = &c->p;
     int64_t row = c->bonds.row_of[i], broken = 0;
@@ -101,7 +101,7 @@ static int64_t check_breaking(const struct plotted_particles *c, const real *w, 
  * call: without it. */
 static void force_case(bond_force_fn *bond_force, int dim, int way)
 {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct particles before;
     body_make(&c, dim, way);
     cloud_copy(&before, &c.p, 0);
@@ -124,7 +124,7 @@ static void force_case(bond_force_fn *bond_force, int dim, int way)
     memory_free(after);
     memory_free(acting);
     particles_free(&before);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 static void test_bond_force(void **state)
@@ -140,13 +140,13 @@ static void test_equality_keeps(void **state)
 {
     (void)state;
     for (int beyond = 0; beyond < 2; beyond++) {
-        struct plotted_particles c;
-        plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
+        struct particle_cloud c;
+        particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
         c.limit[0] = 0.25;
         for (int i = 0; i < 2; i++) c.p.X[0][i] = i * 0x1p-10, c.p.x[0][i] = i * 0x1p-10 * (1.25 + beyond * 1e-6);
         cloud_bonds(&c);
         assert_int_equal(bond_force_table[1][PD_BOND](&c.bonds, &c.p, &c.source.limit, NULL), 2 * beyond);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -157,7 +157,7 @@ static void test_bond_momentum(void **state)
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) {
-                struct plotted_particles c;
+                struct particle_cloud c;
                 real sum = 0, size = 0, moment = 0, moments = 0;
                 body_make(&c, dim, way);
                 struct particles *p = &c.p;
@@ -170,20 +170,20 @@ static void test_bond_momentum(void **state)
                     moments += fabs(p->x[0][i] * p->f[1][i]) + fabs(p->x[1][i] * p->f[0][i]);
                 }
                 assert_true(fabs(sum) <= CONSERVED * size && fabs(moment) <= CONSERVED * moments);
-                plotted_particles_free(&c);
+                particle_cloud_free(&c);
             }
 }
 
 /* ---- common data of columns -------------------------------------------------------------------------------------- */
 
 /* Creates a displaced lattice of one material; some bonds are broken by load, one is partially released. */
-static void site_map_make(struct plotted_particles *c, int dim, bool state)
+static void site_map_make(struct particle_cloud *c, int dim, bool state)
 {
     uint64_t seed = 5;
-    plotted_particles_make(c, &(struct cloud_plan){.space = space_of[dim],
-                                                   .count = {17, 11, 9},
-                                                   .horizon = dim == 3 ? 2.015 : 3.015,
-                                                   .surface = SURFACE_VOLUME});
+    particle_cloud_make(c, &(struct cloud_plan){.space = space_of[dim],
+                                                .count = {17, 11, 9},
+                                                .horizon = dim == 3 ? 2.015 : 3.015,
+                                                .surface = SURFACE_VOLUME});
     static struct state_modulus modulus;
     modulus = state_modulus_of_material(&c->material[0], space_of[dim], true);
     if (state) c->source.modulus = &modulus, c->source.rotates = true, c->source.local = true;
@@ -199,7 +199,7 @@ static void site_map_make(struct plotted_particles *c, int dim, bool state)
 
 /* Computes the forces, then again after `alike` and then `lattice` are cleared in all columns: [3][dim n]. kinds:
  * receives which kinds of columns exist. */
-static real *forces_by_kind(struct plotted_particles *c, bond_force_fn *force, bool kinds[3])
+static real *forces_by_kind(struct particle_cloud *c, bond_force_fn *force, bool kinds[3])
 {
     const int64_t all = c->p.dim * c->p.n;
     real *f = NEW("test.forces", 3 * all, real);
@@ -227,7 +227,7 @@ static void test_column_kinds(void **unused)
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int model = PD_BOND; model <= PD_MOSPD; model++) {
             const bool state = model >= PD_OSPD;
-            struct plotted_particles c;
+            struct particle_cloud c;
             if (model == PD_BOND_PLASTIC || (dim == 1 && state)) continue;
             site_map_make(&c, dim, state);
             const size_t bytes = (size_t)(dim * c.p.n) * sizeof(real);
@@ -238,7 +238,7 @@ static void test_column_kinds(void **unused)
             else
                 assert_memory_equal(f, f + 2 * dim * c.p.n, bytes);
             memory_free(f);
-            plotted_particles_free(&c);
+            particle_cloud_free(&c);
         }
     assert_true(kinds[0] && kinds[1] && kinds[2]);
 }
@@ -251,7 +251,7 @@ static void test_bond_energy(void **state)
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) {
-                struct plotted_particles c;
+                struct particle_cloud c;
                 real expected = 0;
                 body_make(&c, dim, way);
                 real *w = reference_table(&c.bonds, &c.p);
@@ -259,7 +259,7 @@ static void test_bond_energy(void **state)
                 real energy = bond_energy_table[dim][model](&c.bonds, &c.p);
                 assert_true(expected > 0 && fabs(energy - expected) <= CLOSE * expected);
                 memory_free(w);
-                plotted_particles_free(&c);
+                particle_cloud_free(&c);
             }
 }
 
@@ -269,7 +269,7 @@ static void test_bond_stress(void **state)
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) {
-                struct plotted_particles c;
+                struct particle_cloud c;
                 body_make(&c, dim, way);
                 real *w = reference_table(&c.bonds, &c.p), *stress = NEW("test.stress", c.p.n, real);
                 for (int s = 0; s < symmetric_component_count(dim); s++) /* material points keep their own */
@@ -286,7 +286,7 @@ static void test_bond_stress(void **state)
                     }
                 memory_free(stress);
                 memory_free(w);
-                plotted_particles_free(&c);
+                particle_cloud_free(&c);
             }
 }
 
@@ -298,7 +298,7 @@ static void test_pd_move(void **state)
     const real dt = 3e-8, dt_velocity = 1.5e-8;
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int way = 0; way < WAYS; way++) {
-            struct plotted_particles c;
+            struct particle_cloud c;
             struct particles old;
             body_make(&c, dim, way);
             cloud_copy(&old, &c.p, 0);
@@ -315,7 +315,7 @@ static void test_pd_move(void **state)
                 assert_true(cloud_difference(c.p.x[d], old.x[d], old.n) <= 1e-15);
             }
             particles_free(&old);
-            plotted_particles_free(&c);
+            particle_cloud_free(&c);
         }
 }
 
@@ -327,7 +327,7 @@ static void test_bond_threads(void **state)
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) {
-                struct plotted_particles c[2];
+                struct particle_cloud c[2];
                 real energy[2];
                 for (int t = 0; t < 2; t++) {
                     omp_set_num_threads(t + 1);
@@ -340,7 +340,7 @@ static void test_bond_threads(void **state)
                 }
                 assert_memory_equal(&energy[0], &energy[1], sizeof(real));
                 assert_same_particles(&c[0].p, &c[1].p, 0);
-                for (int t = 0; t < 2; t++) plotted_particles_free(&c[t]);
+                for (int t = 0; t < 2; t++) particle_cloud_free(&c[t]);
             }
 }
 
@@ -367,7 +367,7 @@ static real least_kept(const struct material *m, int dim, const real *M)
 
 /* Compares the matrix of point q with T : C^-1 sigma for unit stresses. Returns false if bonds would carry more than
  * the whole stress. */
-static bool check_partial(const struct plotted_particles *c, const struct partial_stress *partial, const real *w,
+static bool check_partial(const struct particle_cloud *c, const struct partial_stress *partial, const real *w,
                           int64_t q)
 {
     const struct particles *p = &c->p;
@@ -395,7 +395,7 @@ static bool check_partial(const struct plotted_particles *c, const struct partia
     return true;
 }
 
-static void check_partials(const struct plotted_particles *c, const struct partial_stress *partial, int whole[2])
+static void check_partials(const struct particle_cloud *c, const struct partial_stress *partial, int whole[2])
 {
     real *w = reference_table(&c->bonds, &c->p);
     for (int64_t q = 0; q < c->p.n; q++) whole[check_partial(c, partial, w, q)]++;
@@ -409,7 +409,7 @@ static void test_partial_stress(void **state)
     int whole[2] = {0}; /* points whose bonds would carry more than the stress, and others */
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int way = 0; way < WAYS; way++) {
-            struct plotted_particles c;
+            struct particle_cloud c;
             struct partial_stress partial = {0};
             body_make(&c, dim, way | MIXED);
             for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[0][i] < 2.2e-3 ? KIND_PD : KIND_MPM;
@@ -430,7 +430,7 @@ static void test_partial_stress(void **state)
             partial_stress_make(&partial, &c.p, &c.bonds, &c.source, changed, COUNT_OF(changed));
             check_partials(&c, &partial, whole);
             partial_stress_free(&partial);
-            plotted_particles_free(&c);
+            particle_cloud_free(&c);
         }
     assert_true(whole[false] > 10 && whole[true] > 100);
 }
@@ -439,9 +439,9 @@ static void test_partial_stress(void **state)
 static void test_partial_stress_corner(void **state)
 {
     (void)state;
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct partial_stress partial = {0};
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_SOLID, .count = {8, 8, 8}, .horizon = 3.015});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_SOLID, .count = {8, 8, 8}, .horizon = 3.015});
     for (int64_t i = 1; i < c.p.n; i++) c.p.kind[i] = KIND_MPM;
     cloud_bonds(&c);
     int whole[2] = {0};
@@ -449,7 +449,7 @@ static void test_partial_stress_corner(void **state)
     check_partials(&c, &partial, whole);
     assert_int_equal(whole[false], 0);
     partial_stress_free(&partial);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 int main(void)

@@ -15,8 +15,8 @@ enum { PHASES = 16 }; /* phases of the first step relative to its length */
  * energy at its limit is 3/4 of the kinetic energy. Elongation V/omega sin(omega t); step: in units of 2/omega. */
 static real parted(enum last_force rule, real step, real phase, real *fracture)
 {
-    struct plotted_particles c;
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
+    struct particle_cloud c;
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c.limit[k] = LIMIT;
     cloud_bonds(&c);
     struct particles *p = &c.p;
@@ -33,7 +33,7 @@ static real parted(enum last_force rule, real step, real phase, real *fracture)
     const real end = p->v[0][1] - p->v[0][0], energy = 0.5 * stiffness * square(LIMIT * CLOUD_SPACING);
     assert_int_equal(c.bonds.broken[0] + c.bonds.broken[1], 2);
     *fracture = bonds_fracture_energy(&c.bonds) / energy;
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
     return end / speed;
 }
 
@@ -65,7 +65,7 @@ static void test_two_particles(void **state)
 /* ---- bodies that burst ------------------------------------------------------------------------------------------- */
 
 struct burst {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct state_modulus modulus[CLOUD_MATERIALS];
     struct kernels k;
 };
@@ -76,7 +76,7 @@ static void burst_make(struct burst *b, int dim, enum pd_model model, bool local
     struct cloud_plan plan = {.space = space, .count = {12, 11}, .horizon = 3.015, .shake = 0.2, .seed = 5};
     uint64_t seed = 9;
     if (dim == 3) plan.count[0] = plan.count[1] = plan.count[2] = 6, plan.horizon = 2.015;
-    plotted_particles_make(&b->c, &plan);
+    particle_cloud_make(&b->c, &plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         if (model >= PD_OSPD)
             b->c.material[m].poisson = 0.2, material_compute_derived_constants(&b->c.material[m], space);
@@ -126,7 +126,7 @@ static real burst_lost(int dim, enum pd_model model, bool local, real dt, real d
     const real elastic = b.k.bond_energy(&b.c.bonds, p), fracture = bonds_fracture_energy(&b.c.bonds);
     assert_true(broken > b.c.bonds.n / 40 && broken < b.c.bonds.n && fracture > 0.02 * start);
     for (int d = 0; d < dim; d++) memory_free(before[d]);
-    plotted_particles_free(&b.c);
+    particle_cloud_free(&b.c);
     return (kinetic + elastic + fracture - start) / fracture;
 }
 

@@ -10,7 +10,7 @@
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
 struct body {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct state_modulus modulus[CLOUD_MATERIALS];
     enum pd_model model;
 };
@@ -21,7 +21,7 @@ static void body_make(struct body *b, const struct cloud_plan *plan, enum pd_mod
     const bool rotates = model == PD_MOSPD;
     memset(b, 0, sizeof *b);
     b->model = model;
-    plotted_particles_make(&b->c, plan);
+    particle_cloud_make(&b->c, plan);
     for (int k = 0; k < CLOUD_MATERIALS; k++) {
         struct material *m = &b->c.material[k];
         m->poisson = poisson;
@@ -160,7 +160,7 @@ static void test_ospd_plane_stress(void **state)
             cloud_bonds(&b.c);
             assert_near(patch_ratio(&b, count, (enum patch_load)load, SPACE_PLANE_STRESS), want[k].ratio[load],
                         load == DILATATION ? 1e-5 : 6e-4);
-            plotted_particles_free(&b.c);
+            particle_cloud_free(&b.c);
         }
 }
 
@@ -185,7 +185,7 @@ static void test_mospd_exact(void **state)
                               PD_MOSPD, poisson[k], local);
                     cloud_bonds(&b.c);
                     assert_near(patch_ratio(&b, count, (enum patch_load)load, spaces[s]), 1, 1e-5);
-                    plotted_particles_free(&b.c);
+                    particle_cloud_free(&b.c);
                 }
 }
 
@@ -202,7 +202,7 @@ static void test_turned_stress(void **state)
                       rotates ? PD_MOSPD : PD_OSPD, 0.3, true);
             cloud_bonds(&b.c);
             check_quarter_turn(&b);
-            plotted_particles_free(&b.c);
+            particle_cloud_free(&b.c);
         }
 }
 
@@ -254,7 +254,7 @@ static void test_ospd_spaces(void **state)
                     assert_near(ratio, load == UNIAXIAL ? 0.94 : 1.10, 0.015);
                 else if (spaces[s] == SPACE_PLANE_STRESS && poisson[k] == 0.3)
                     assert_near(ratio, load == UNIAXIAL ? 1.012 : 0.965, 6e-4);
-                plotted_particles_free(&b.c);
+                particle_cloud_free(&b.c);
             }
 }
 
@@ -325,7 +325,7 @@ static void gradient_case(enum space space, enum pd_model model, bool local)
             assert_near(kept[d][i], -(above - below) / (2 * h), 2e-6 * largest);
         }
     for (int d = 0; d < dim; d++) memory_free(kept[d]);
-    plotted_particles_free(&b.c);
+    particle_cloud_free(&b.c);
 }
 
 static void test_gradient(void **state)
@@ -361,7 +361,7 @@ static void test_rotation(void **state)
                     for (int64_t i = 0; i < p->n; i++)
                         assert_near(p->f[d][i], 0,
                                     1e-12 * 200e9 * pow(CLOUD_SPACING, p->dim - 1) * (solid ? 1 : 2e-3) * 10);
-                plotted_particles_free(&b.c);
+                particle_cloud_free(&b.c);
             }
 }
 
@@ -387,7 +387,7 @@ static void test_volumes(void **state)
             Q[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[i]];
             corner[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[0]];
             if (local) assert_close(Q[1], state_row_intact_weighted_volume(&b.c.bonds, b.c.bonds.row_of[i]), 1e-6);
-            plotted_particles_free(&b.c);
+            particle_cloud_free(&b.c);
         }
         assert_close(Q[0], Q[1], 1e-6);
         assert_close(corner[0], Q[1], 1e-6);
@@ -413,7 +413,7 @@ static void test_volumes_at_faces(void **state)
     assert_true(b.c.source.surface && b.c.surface.class_of[0] > 0);
     const real Q = bonds->state.weighted[bonds->row_of[0]];
     assert_close(Q, 1.37 * bonds->state.weighted[bonds->row_of[8]], 1e-12);
-    plotted_particles_free(&b.c);
+    particle_cloud_free(&b.c);
 }
 
 /* ---- critical step ----------------------------------------------------------------------------------------------- */
@@ -441,7 +441,7 @@ static void test_critical_step(void **state)
         const real light = lattice_critical_time_step(&b.c.source, state_force_table[2][want[k].model], 8000 * 0x1p-80,
                                                       (real[]){1, 1}, NULL);
         assert_close(light, step * 0x1p-40, 1e-12);
-        plotted_particles_free(&b.c);
+        particle_cloud_free(&b.c);
     }
 }
 

@@ -20,7 +20,7 @@ static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_P
 static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 61}};
 
 struct body {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct state_modulus modulus[CLOUD_MATERIALS];
     uint8_t *loaded;
 };
@@ -41,7 +41,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
     uint64_t seed = 77 + (uint64_t)way;
     memcpy(plan.count, count_of[dim], sizeof plan.count);
     plan.optional = model >= PD_OSPD ? WITH_ENDS | (model == PD_MOSPD ? WITH_ROTATIONS : 0) : 0;
-    plotted_particles_make(&b->c, &plan);
+    particle_cloud_make(&b->c, &plan);
     struct particles *p = &b->c.p;
     b->loaded = NEW("test.loaded", p->n + LANES, uint8_t);
     for (int64_t i = 0; i < p->n; i++) {
@@ -66,7 +66,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
 static void body_free(struct body *b)
 {
     memory_free(b->loaded);
-    plotted_particles_free(&b->c);
+    particle_cloud_free(&b->c);
 }
 
 /* Returns the motion after the step, in which dt v is some hundredths of a spacing. */

@@ -22,7 +22,7 @@
 /* ---- points on a grid -------------------------------------------------------------------------------------------- */
 
 struct scene {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct grid g;
     struct transfer_order order;
     struct partial_stress partial;
@@ -104,7 +104,7 @@ static void scene_make(struct scene *s, const struct choice *k, real spin)
                   (k->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0);
     struct cloud_plan plan = {.space = space[k->dim], .horizon = 3, .shake = 0.3, .seed = 8, .optional = s->optional};
     memcpy(plan.count, count[k->dim], sizeof plan.count);
-    plotted_particles_make(&s->c, &plan);
+    particle_cloud_make(&s->c, &plan);
     random_state(s, &seed, spin);
     random_partial(s, &seed);
     scene_grid(s);
@@ -129,7 +129,7 @@ static void scene_free(struct scene *s)
     memory_free(s->partial.matrix);
     transfer_order_free(&s->order);
     grid_free(&s->g);
-    plotted_particles_free(&s->c);
+    particle_cloud_free(&s->c);
 }
 
 /* Performs a step of the kernels, as the time loop does. */

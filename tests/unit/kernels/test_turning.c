@@ -14,7 +14,7 @@
 #define CLOSE 1e-12
 
 struct scene {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct grid g;
     struct transfer_order order;
     struct rotation_groups turning;
@@ -38,7 +38,7 @@ static void scene_make(struct scene *s, int dim, int shape)
     real from[DIM_MAX], to[DIM_MAX];
     *s = (struct scene){.seed = 31, .dim = dim, .shape = shape};
     memcpy(plan.count, count[dim], sizeof plan.count);
-    plotted_particles_make(&s->c, &plan);
+    particle_cloud_make(&s->c, &plan);
     struct particles *p = &s->c.p;
     for (int64_t i = 0; i < p->n; i++) {
         p->body[i] = p->X[0][i] > 8.3 * CLOUD_SPACING;
@@ -69,7 +69,7 @@ static void scene_free(struct scene *s)
     rotation_groups_free(&s->turning);
     transfer_order_free(&s->order);
     grid_free(&s->g);
-    plotted_particles_free(&s->c);
+    particle_cloud_free(&s->c);
 }
 
 static void node_place(const struct grid *g, int64_t I, real *x)

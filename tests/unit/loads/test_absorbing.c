@@ -30,10 +30,10 @@ static void test_kick(void **state)
     const struct impedance *const all[MOVERS] = {
         [MOVED_BY_BONDS] = bond, [MOVED_BY_GRID] = other, [MOVED_BY_MESH] = other};
     const real dt = 1e-6, area = CLOUD_SPACING * 2e-3;
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
     real taken = 0, kick = 0, impulse[2] = {0};
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {5, 4}, .horizon = 3});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {5, 4}, .horizon = 3});
     struct particles *p = &c.p;
     for (int64_t i = 0; i < p->n; i++) p->material[i] = i % 3 == 0;
     assert_ok(loads_make(&l, row, 2, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
@@ -71,7 +71,7 @@ static void test_kick(void **state)
     for (int d = 0; d < 2; d++) assert_near(l.impulse[d], impulse[d], 1e-12 * taken);
     loads_free(&l);
     memory_free(before);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* ---- waves leave ------------------------------------------------------------------------------------------------- */

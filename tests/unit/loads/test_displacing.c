@@ -21,12 +21,12 @@ static void by_x(struct expression *e, bool with_time)
 
 /* A body under one boundary. */
 struct displaced {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
 };
 static void displaced_make(struct displaced *m, const struct boundary *b)
 {
-    plotted_particles_make(&m->c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {7, 5}, .horizon = 3});
+    particle_cloud_make(&m->c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {7, 5}, .horizon = 3});
     assert_ok(loads_make(&m->l, b, 1, &m->c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     assert_true(m->l.load[0].n == m->c.p.n);
 }
@@ -34,7 +34,7 @@ static void displaced_make(struct displaced *m, const struct boundary *b)
 static void displaced_free(struct displaced *m)
 {
     loads_free(&m->l);
-    plotted_particles_free(&m->c);
+    particle_cloud_free(&m->c);
 }
 
 /* A free component is 0 whatever its value; numbers and formulas are multiplied by the function of time. */

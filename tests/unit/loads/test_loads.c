@@ -22,10 +22,10 @@ static void test_sine(void **state)
                                   .value = {2e6, -3e6},
                                   .time = {.kind = TIME_RAMP, .until = 4},
                                   .profile = {PROFILE_SINE, length, {CLOUD_SPACING, -CLOUD_SPACING}, {3, 4}}};
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
     real sum[2] = {0};
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 3});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 3});
     struct particles *p = &c.p;
     assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
@@ -52,7 +52,7 @@ static void test_sine(void **state)
     assert_close(l.work, work, 1e-8);             /* displacements of 1e-6 at positions near 1e-2, accurate to 1e-18 */
     assert_true(fabs(work) > 1e-9);
     loads_free(&l);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* Loads of the same particles are combined, with terms of equal shares as one; results equal the sum of separate loads
@@ -78,10 +78,10 @@ static void check_together(int threads, bool together, real *impulse, real *work
         {.name = "even", .kind = BOUNDARY_BODY_FORCE, .body = 0, .value = {1e6, 0}},
         {.name = "first", .kind = BOUNDARY_BODY_FORCE, .body = 1, .value = {-4e6, 4e6}},
         {.name = "face", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 2e6}, .face = 1, .side = 1}};
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
     team_set_threads(threads);
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {71, 53}, .horizon = 3});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {71, 53}, .horizon = 3});
     for (int64_t i = 0; i < c.p.n; i++) c.p.body[i] = i % 3 == 0;
     impulse[0] = impulse[1] = *work = 0;
     for (size_t k = 0; k < (together ? 1 : COUNT_OF(row)); k++) {
@@ -101,7 +101,7 @@ static void check_together(int threads, bool together, real *impulse, real *work
         loads_free(&l);
     }
     for (int d = 0; d < 2; d++) memcpy(f + d * c.p.n, c.p.f[d], (size_t)c.p.n * sizeof *f);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 static void test_together(void **state)
@@ -142,9 +142,9 @@ static void test_kicks(void **state)
     for (size_t k = 0; k < COUNT_OF(row); k++) {
         const struct boundary push = {
             .name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {3e6}, .time = row[k].time};
-        struct plotted_particles c;
+        struct particle_cloud c;
         struct loads l;
-        plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {4}, .horizon = 3});
+        particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {4}, .horizon = 3});
         assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
         for (int step = 0; step < 10; step++) {
             loads_clear_forces(&l, &c.p);
@@ -152,7 +152,7 @@ static void test_kicks(void **state)
         }
         assert_close(l.impulse[0], 4 * 3e6 * volume * row[k].until_now, 1e-12);
         loads_free(&l);
-        plotted_particles_free(&c);
+        particle_cloud_free(&c);
     }
 }
 
@@ -174,13 +174,13 @@ static void test_traction(void **state)
         for (int side = -1; side <= 1; side += 2) {
             const struct boundary pull = {
                 .name = "pull", .kind = BOUNDARY_TRACTION, .body = -1, .value = {t[0], t[1]}, .face = 0, .side = side};
-            struct plotted_particles c;
+            struct particle_cloud c;
             struct loads l;
-            plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS,
-                                                            .count = {columns, rows},
-                                                            .horizon = 3,
-                                                            .shake = shaken ? 0.3 : 0,
-                                                            .seed = 5});
+            particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS,
+                                                         .count = {columns, rows},
+                                                         .horizon = 3,
+                                                         .shake = shaken ? 0.3 : 0,
+                                                         .seed = 5});
             real sum[2] = {0}, first = 0, *X = c.p.X[0];
             even_volumes(&c.p);
             assert_ok(loads_make(&l, &pull, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
@@ -196,7 +196,7 @@ static void test_traction(void **state)
                 assert_near(first / (t[1] * area), (side > 0 ? high : low) + side * 0.5 * CLOUD_SPACING,
                             1e-9 * CLOUD_SPACING);
             loads_free(&l);
-            plotted_particles_free(&c);
+            particle_cloud_free(&c);
         }
 }
 
@@ -211,9 +211,9 @@ static void test_mean_displacement(void **state)
                                   .body = -1,
                                   .value = {2e6, -3e6},
                                   .profile = {PROFILE_SINE, length, {-0.3 * CLOUD_SPACING, 0}, {1, 0}}};
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {3, 4}, .horizon = 3});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {3, 4}, .horizon = 3});
     even_volumes(&c.p);
     assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     real shares = 0, moved = 0;
@@ -228,7 +228,7 @@ static void test_mean_displacement(void **state)
     assert_close(l.load[0].displacement[0], moved / shares, 1e-9);
     assert_near(l.load[0].displacement[1], 0, 1e-18);
     loads_free(&l);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* Force of a load at a time: its value, function and formula of time, times the volume of the particle. */
@@ -241,10 +241,10 @@ static void test_force_at(void **state)
                             .body = -1,
                             .value = {2e6, -3e6},
                             .time = {.kind = TIME_RAMP, .until = 4}};
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
     expression_make(&push.formula[0], step, 3, "x*t");
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {3, 4}, .horizon = 3});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {3, 4}, .horizon = 3});
     even_volumes(&c.p);
     assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t k = 0; k < l.load[0].n; k++) {
@@ -255,7 +255,7 @@ static void test_force_at(void **state)
         assert_close(force[1], 1.3 / 4 * -3e6 * volume, 1e-12);
     }
     loads_free(&l);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
     expression_free(&push.formula[0]);
 }
 
@@ -266,10 +266,10 @@ static void test_relief(void **state)
     const struct boundary shear[] = {
         {.name = "up", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 0}, .face = 1, .side = 1},
         {.name = "down", .kind = BOUNDARY_TRACTION, .body = -1, .value = {-1e6, 0}, .face = 1, .side = -1}};
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
     real sum[2] = {0}, moment = 0, size = 0;
-    plotted_particles_make(
+    particle_cloud_make(
         &c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {12, 9}, .horizon = 3, .shake = 0.2, .seed = 3});
     even_volumes(&c.p);
     assert_ok(loads_make(&l, shear, 2, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
@@ -282,7 +282,7 @@ static void test_relief(void **state)
     for (int d = 0; d < 2; d++) assert_near(sum[d], 0, 1e-12 * size);
     assert_near(moment, 0, 1e-12 * size * 12 * CLOUD_SPACING);
     loads_free(&l);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 int main(void)

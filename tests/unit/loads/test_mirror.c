@@ -18,7 +18,7 @@
 
 /* A quarter with planes of symmetry x = 0 and y = 0, and the whole body. */
 struct quarter {
-    struct plotted_particles whole, part;
+    struct particle_cloud whole, part;
     struct loads loads;
     int32_t *twin; /* particle of the whole at the position of a particle of the quarter */
 };
@@ -60,9 +60,9 @@ static void quarter_bodies(struct quarter *q, enum space space, enum surface_rul
     struct cloud_plan plan = {
         .space = space, .count = {n[0], n[1], 4}, .horizon = dim == 3 ? 2.015 : 3.015, .surface = surface};
     memset(q, 0, sizeof *q);
-    plotted_particles_make(&q->part, &plan);
+    particle_cloud_make(&q->part, &plan);
     for (int d = 0; d < 2; d++) plan.count[d] *= 2;
-    plotted_particles_make(&q->whole, &plan);
+    particle_cloud_make(&q->whole, &plan);
     for (int64_t i = 0; i < q->whole.p.n; i++)
         for (int d = 0; d < 2; d++) {
             int64_t at = d == 0 ? i % plan.count[0] : i / plan.count[0] % plan.count[1];
@@ -89,8 +89,8 @@ static void quarter_free(struct quarter *q)
 {
     memory_free(q->twin);
     loads_free(&q->loads);
-    plotted_particles_free(&q->whole);
-    plotted_particles_free(&q->part);
+    particle_cloud_free(&q->whole);
+    particle_cloud_free(&q->part);
 }
 
 /* Returns the largest difference between a field of the quarter and of the whole. */
@@ -106,7 +106,7 @@ static real deviation(const struct quarter *q, const real *part, const real *who
 static void check_forces(struct quarter *q)
 {
     const int dim = q->part.p.dim;
-    struct plotted_particles *both[] = {&q->part, &q->whole};
+    struct particle_cloud *both[] = {&q->part, &q->whole};
     real energy[2];
     for (int k = 0; k < 2; k++) {
         bond_force_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p, &both[k]->source.limit, NULL);
@@ -225,7 +225,7 @@ static void test_mirror_convert(void **state)
 static void quarter_families(struct quarter *q, enum space space, enum pd_model model, struct state_modulus *modulus)
 {
     static const int axis[] = {0, 1};
-    struct plotted_particles *both[] = {&q->part, &q->whole};
+    struct particle_cloud *both[] = {&q->part, &q->whole};
     for (int k = 0; k < 2; k++)
         for (int m = 0; m < CLOUD_MATERIALS; m++) {
             both[k]->material[m].poisson = 0.2;
@@ -245,7 +245,7 @@ static void breaks_case(enum space space, enum pd_model model)
     struct state_modulus modulus[CLOUD_MATERIALS];
     quarter_bodies(&q, space, SURFACE_NONE, 99);
     if (model >= PD_OSPD) quarter_families(&q, space, model, modulus);
-    struct plotted_particles *both[] = {&q.part, &q.whole};
+    struct particle_cloud *both[] = {&q.part, &q.whole};
     struct kernels kernels;
     int64_t broken[2];
     kernels_choose(&kernels, dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
@@ -383,9 +383,9 @@ static void points_case(enum space space, enum shape shape, enum transfer transf
     struct points part, whole;
     struct cloud_plan plan = {.space = space, .count = {n[0], n[1], 4}, .optional = WITH_GRADIENT | WITH_STRETCH};
     plan.horizon = 3;
-    plotted_particles_make(&q.part, &plan);
+    particle_cloud_make(&q.part, &plan);
     for (int d = 0; d < 2; d++) plan.count[d] *= 2;
-    plotted_particles_make(&q.whole, &plan);
+    particle_cloud_make(&q.whole, &plan);
     for (int64_t i = 0; i < q.whole.p.n; i++)
         for (int d = 0; d < 2; d++) q.whole.p.X[d][i] -= n[d] * CLOUD_SPACING;
     find_twins(&q);
@@ -408,8 +408,8 @@ static void points_case(enum space space, enum shape shape, enum transfer transf
     points_free(&part);
     points_free(&whole);
     memory_free(q.twin);
-    plotted_particles_free(&q.whole);
-    plotted_particles_free(&q.part);
+    particle_cloud_free(&q.whole);
+    particle_cloud_free(&q.part);
 }
 
 static void test_mirror_points(void **state)
@@ -434,10 +434,10 @@ static void test_mirror_places(void **state)
         {.name = "low", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 0},
         {.name = "high", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 4 * CLOUD_SPACING},
     };
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
     const real reach = 3.015 * CLOUD_SPACING;
-    plotted_particles_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {6, 4, 1}, .horizon = 3.015});
+    particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {6, 4, 1}, .horizon = 3.015});
     assert_int_equal(loads_make(&l, strip, COUNT_OF(strip), &c.p, CLOUD_SPACING, reach, 0), OK);
     for (int64_t i = 0; i < c.p.n; i++)
         for (int d = 0; d < 2; d++) c.p.x[d][i] = c.p.X[d][i] + 1e-13 * CLOUD_SPACING * sin((real)(i + d));
@@ -452,7 +452,7 @@ static void test_mirror_places(void **state)
             assert_true(c.p.x[0][of_j] - c.p.x[0][i->source] == -(c.p.x[0][of_i] - c.p.x[0][j->source]));
         }
     loads_free(&l);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 int main(void)

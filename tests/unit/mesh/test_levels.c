@@ -14,7 +14,7 @@ static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID}
 /* A block of points with coarse cells except near one corner and along an angled band of cells near its middle: coarse
  * cells adjoin finer ones at convex and concave corners. */
 struct plate {
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct mesh mesh;
     struct mesh_levels levels;
     struct elastic elastic[CLOUD_MATERIALS];
@@ -60,7 +60,7 @@ static void plate_make_of(struct plate *b, enum space space, int levels, int len
     struct grid like = {.dim = dim, .h = 2 * CLOUD_SPACING};
     real density[CLOUD_MATERIALS];
     memset(b, 0, sizeof *b);
-    plotted_particles_make(&b->c, &plan);
+    particle_cloud_make(&b->c, &plan);
     struct particles *p = &b->c.p;
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *k = &b->c.material[m];
@@ -89,7 +89,7 @@ static void plate_free(struct plate *b)
 {
     levels_free(&b->levels);
     mesh_free(&b->mesh);
-    plotted_particles_free(&b->c);
+    particle_cloud_free(&b->c);
 }
 
 /* Returns true if node I of a level is independent: it has mass. */

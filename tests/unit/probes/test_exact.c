@@ -234,13 +234,13 @@ static void flux_is_the_force_across(void **state)
                                     .seed = 5,
                                     .calibration = CALIBRATION_CONTINUUM};
     const struct boundary wall = {.kind = BOUNDARY_MIRROR, .name = "wall"};
-    struct plotted_particles c;
+    struct particle_cloud c;
     struct loads l;
     struct bar bar = {0};
     struct particles *p = &c.p;
     real flux[40], scale = 0;
     uint64_t seed = 3;
-    plotted_particles_make(&c, &plan);
+    particle_cloud_make(&c, &plan);
     assert_ok(loads_make(&l, &wall, 1, p, CLOUD_SPACING, c.source.family.cutoff, 0));
     for (int i = 0; i < 40; i++) {
         p->x[0][i] = p->X[0][i] + cloud_between(&seed, -0.01, 0.01) * CLOUD_SPACING;
@@ -278,7 +278,7 @@ static void flux_is_the_force_across(void **state)
     assert_true(scale > 1e7); /* 1 Pa is negligible */
     memory_free(bar.order), memory_free(bar.rank);
     loads_free(&l);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 /* ---- the probe --------------------------------------------------------------------------------------------------- */

@@ -16,14 +16,14 @@ static void body_make(struct soft_body *s, enum space space)
 {
     memset(s, 0, sizeof *s);
     omp_set_num_threads(2);
-    plotted_particles_make(
+    particle_cloud_make(
         &s->c, &(struct cloud_plan){.space = space, .count = {7, 6, 5}, .horizon = 2.015, .shake = 0.2, .seed = 4});
     soft_bonds(s, space == SPACE_SOLID ? SOFTENING_BILINEAR : SOFTENING_LINEAR, ONSET, CRITICAL);
     softening_settle(&s->c.bonds, &s->c.p, &s->c.source.limit);
 }
 
 /* Stretches the body by `strain` along x and moves its particles at random. */
-static void body_move(struct plotted_particles *c, uint64_t seed, real strain)
+static void body_move(struct particle_cloud *c, uint64_t seed, real strain)
 {
     for (int64_t i = 0; i < c->p.n; i++)
         for (int d = 0; d < c->p.dim; d++)
@@ -90,7 +90,7 @@ static void test_gradient(void **state)
         assert_true(l.n > p->n); /* many bonds take part */
         for (int d = 0; d < p->dim; d++) memory_free(f[d]);
         memory_free(l.bond);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -119,7 +119,7 @@ static void test_factor(void **state)
     softening_list_store(&l, &s.c.bonds, factor);
     assert_close(bonds_fracture_energy(&s.c.bonds), wanted, 1e-5);
     memory_free(l.bond);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* A trial that is undone leaves energy and forces as they were, to the bit; forces are those of the stored k, so that
@@ -145,7 +145,7 @@ static void test_undo(void **state)
     forces(&s);
     assert_exact(s.c.p.f[0][0], force);
     memory_free(l.bond);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 /* Bonds whose k has reached their end break, in both rows, and all they dissipate is fracture energy. */
@@ -155,7 +155,7 @@ static void test_end(void **state)
     struct soft_body s;
     struct softening_list l = {0};
     memset(&s, 0, sizeof s);
-    plotted_particles_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
+    particle_cloud_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     soft_bonds(&s, SOFTENING_LINEAR, ONSET, CRITICAL);
     softening_settle(&s.c.bonds, &s.c.p, &s.c.source.limit);
     s.c.p.x[0][1] += 5 * ONSET * CLOUD_SPACING;
@@ -165,7 +165,7 @@ static void test_end(void **state)
     assert_int_equal(bonds_end_softened(&s.c.bonds, &s.c.p), 2);
     assert_close(bonds_fracture_energy(&s.c.bonds), 0.5 * square(CRITICAL) * s.c.bonds.stiffness * CLOUD_SPACING, 1e-6);
     memory_free(l.bond);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 int main(void)

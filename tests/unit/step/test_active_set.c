@@ -21,14 +21,14 @@
 static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
 {
     static const enum space space[DIM_MAX + 1] = {0, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
-    struct plotted_particles c;
+    struct particle_cloud c;
     uint64_t random = seed;
     struct cloud_plan plan = {.space = space[dim],
                               .count = {dim == 1 ? 300 : 19, 17, dim == 3 ? 11 : 0},
                               .horizon = 3.015,
                               .shake = seed % 2 ? 0.4 : 0,
                               .seed = seed};
-    plotted_particles_make(&c, &plan);
+    particle_cloud_make(&c, &plan);
     const real size = cloud_between(&random, 0.1, 10);
     for (int d = 0; d < dim; d++) {
         const real away = cloud_between(&random, -1e3, 1e3) * (seed % 3 == 0 ? 1 : 1e-3);
@@ -49,7 +49,7 @@ static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < c.p.n; i++) assert_true(c.p.f[d][i] == 0);
     assert_true(k.bond_energy(&c.bonds, &c.p) == 0);
-    plotted_particles_free(&c);
+    particle_cloud_free(&c);
 }
 
 static void test_at_rest(void **state)
