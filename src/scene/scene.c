@@ -24,6 +24,7 @@ status scene_from_tree(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     TRY(expect_node_kind(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
+    r->root = root;
     TRY(check_keys_known(r, root, ""));
     TRY(read_space(r, root));
     TRY(read_regions(r, root));

@@ -414,7 +414,8 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *model = yaml_node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     const bool moments = surface && s->surface == SURFACE_MOMENTS;
     if (moments && (s->dim == 1 || s->irregularity > 0))
-        return fault(r, surface, "moments needs a regular lattice in 2D or 3D; volume or none is expected");
+        return fault(r, surface, "moments needs a regular lattice in 2D or 3D; %s is expected",
+                     s->model == MODEL_BOND ? "volume or none" : "none");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
         return fault(r, surface,
                      "with model %s the surface correction moments is possible only with method: pd and "
@@ -440,16 +441,16 @@ status check_solver(struct reader *r, const struct yaml_node *root)
     TRY(check_load_step_keys_unused(r, root));
     if (!solver || scene_is_dynamic(s)) return OK;
     if (scene_has_load_steps(s)) return check_load_steps(r, root);
+    for (int m = 0; m < s->materials; m++)
+        if (material_yields(&s->material[m]))
+            return fault(r, solver, "%s is for elastic materials, and material %s yields; solver: explicit is expected",
+                         node_text(r, solver), s->material[m].name);
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
         return fault(r, solver, "cg is for method pd; relaxation is expected with material points");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
         return fault(r, solver,
                      "relaxation with transfer flip was measured to creep (light nodes at the border never "
                      "come to rest); mpm.transfer apic, with a shape that is not linear, is expected");
-    for (int m = 0; m < s->materials; m++)
-        if (material_yields(&s->material[m]))
-            return fault(r, solver, "%s is for elastic materials, and material %s yields; solver: explicit is expected",
-                         node_text(r, solver), s->material[m].name);
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
             return fault(r, solver,

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "scene_internal.h"
+#include "scene_remedies.h"
 
 /* Sets face->body[2] to the indices of the two bodies that an interface joins, found by name. n: node of the interface.
  * Returns REFUSED for unknown or rigid bodies, equal bodies and pairs that have an interface already. */
@@ -91,8 +92,7 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
     for (int b = 0; b < s->bodies; b++) s->body[b].joined = b;
     if (!list) return OK;
     TRY(expect_list(r, key_find("", "interfaces"), list));
-    if (s->method == METHOD_ADAPTIVE)
-        return fault(r, list, "bodies are joined by bonds, or by their grid; method: pd or mpm is expected");
+    if (s->method == METHOD_ADAPTIVE) return refuse_interfaces(r, list);
     s->interface = NEW("interfaces", list->n, struct scene_interface);
     s->interfaces = list->n;
     const struct yaml_node *n = list->first;

@@ -45,6 +45,7 @@ struct reader {
     const struct scene_override *override;
     int overrides;
     struct scene *scene;                 /* the scene that is being filled */
+    const struct yaml_node *root;        /* tree of the scene */
     int dim;                             /* dimensions of points: dim of the scene, or 2 in an extrusion */
     bool bounded;                        /* solids being read belong to a body: no infinite bounds */
     bool cutting;                        /* ... and are cut out of it: infinite bounds are allowed */

@@ -1,5 +1,6 @@
 /* Reads laws by which metals yield: hardening curves, kinematic hardening, Johnson-Cook, heating (data/law.h). */
 #include "scene_internal.h"
+#include "scene_remedies.h"
 
 #include <math.h>
 
@@ -132,10 +133,7 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
  * messages. */
 static status check_law_place(struct reader *r, const struct yaml_node *law_node)
 {
-    if (r->scene->method == METHOD_MPM) return OK;
-    return fault(r, law_node,
-                 "is for material points; `method: mpm` is expected, or linear hardening by yield_hardening, which "
-                 "bonds have");
+    return r->scene->method == METHOD_MPM ? OK : refuse_flow_law(r, law_node);
 }
 
 status read_flow_law(struct reader *r, const struct yaml_node *n, struct material *m)

@@ -1,5 +1,6 @@
 /* Reads the materials, bodies, initial states and growth rules of a scene. */
 #include "scene_internal.h"
+#include "scene_remedies.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,13 +42,11 @@ static status read_strength(struct reader *r, const struct yaml_node *n, struct 
 static status check_poisson(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
-    real bond = bond_based_poisson_ratio(s->space);
+    const real bond = bond_based_poisson_ratio(s->space);
     const struct yaml_node *poisson = yaml_node_find(n, "poisson");
     if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
     if (fabs(m->poisson - bond) <= 1e-6) return OK;
-    return fault(r, poisson, "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; %s",
-                 node_text(r, poisson), s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4", space_names[s->space],
-                 material_yields(m) ? "`method: mpm` has any, and yields" : "`model: ospd` has any");
+    return refuse_poisson(r, poisson);
 }
 
 /* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from one of the keys yield_tangent
@@ -144,11 +143,7 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
     TRY(read_scatter(r, yaml_node_find(n, "scatter"), m));
     TRY(read_viscosity(r, yaml_node_find(n, "viscosity"), m));
     const struct yaml_node *yield = yaml_node_find(n, "yield_stress");
-    if (s->model != MODEL_BOND && material_yields(m))
-        return fault(r, yield ? yield : n,
-                     "model %s does not yield; `model: bond` does, or, with any Poisson's ratio, `method: mpm` without "
-                     "the key model",
-                     s->model == MODEL_OSPD ? "ospd" : "mospd");
+    if (s->model != MODEL_BOND && material_yields(m)) return refuse_state_yield(r, yield ? yield : n);
     material_compute_derived_constants(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return read_softening(r, n, m);
@@ -317,17 +312,8 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
     s->bodies = 0;
     sort_bodies(s, n_bodies);
     if (s->bodies == 0) return fault(r, many, "only rigid bodies; one with a material is expected");
-    if (s->rigids > 0 && s->method == METHOD_MPM)
-        return fault(r, many,
-                     "rigid bodies meet peridynamic particles only; `method: pd` or `adaptive` is expected, or, for a "
-                     "smooth wall "
-                     "at rest, a boundary `mirror` in its place");
-    if (s->rigids > 0 && scene_is_single_equilibrium(s))
-        return fault(r, many,
-                     "rigid bodies move in steps of time; `solver: explicit` is expected, or, for a smooth wall at "
-                     "rest, a boundary "
-                     "`mirror` in its place");
-    return OK;
+    if (s->rigids == 0) return OK;
+    return s->method == METHOD_MPM || scene_is_single_equilibrium(s) ? refuse_rigid(r, many) : OK;
 }
 
 /* ---- initial states ---------------------------------------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 
 #include "data/softening.h"
 #include "scene_internal.h"
+#include "scene_remedies.h"
 
 /* Returns REFUSED if bonds of material m would break before its tensile strength is reached, or if the strength is
  * above a tenth of Young's modulus. m->onset_stretch must be set. n: node of the tensile strength. */
@@ -19,9 +20,9 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
                      m->critical_stretch, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space));
     return fault(r, n,
                  "bonds of this horizon, %.4g m, break at %.4g Pa by the energy release rate, before this strength is "
-                 "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
+                 "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected%s",
                  s->horizon * s->spacing, m->critical_stretch * material_uniaxial_tension_modulus(m, s->space), most,
-                 most / s->horizon);
+                 most / s->horizon, strength_unit_hint(s, most));
 }
 
 /* Returns REFUSED for a key of a strength surface in a material without tensile strength. */
@@ -36,6 +37,14 @@ static status check_no_surface(struct reader *r, const struct yaml_node *n)
     return OK;
 }
 
+/* Returns true if load steps could do the softening of a material: with bonds alone and without a strength surface. n:
+ * node of the material. */
+static bool steps_can_soften(const struct scene *s, const struct yaml_node *n)
+{
+    return s->method == METHOD_PD && !yaml_node_find(n, "compressive_strength") &&
+           !yaml_node_find(n, "hydrostatic_strength") && !yaml_node_find(n, "biaxial_strength");
+}
+
 status read_softening(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;
@@ -44,16 +53,19 @@ status read_softening(struct reader *r, const struct yaml_node *n, struct materi
     m->onset_stretch = m->critical_stretch;
     if (law && !strength) return fault(r, law, "says how bonds lose their tensile_strength, which is expected with it");
     if (!strength) return check_no_surface(r, n);
-    const char *why = s->method == METHOD_MPM  ? "is of bonds; method: pd or adaptive is expected"
-                      : s->model != MODEL_BOND ? "is of model bond so far, whose bonds soften; without this key, bonds "
-                                                 "of any model are brittle"
-                      : scene_is_single_equilibrium(s) ? "is of bonds that break, and none does in a single "
-                                                         "equilibrium; solver: explicit or static is expected"
-                      : material_yields(m)             ? "is of bonds that do not yield; one of yield_stress and "
-                                                         "tensile_strength is expected"
+    if (!material_yields(m) && (s->method == METHOD_MPM || s->model != MODEL_BOND))
+        return refuse_softening(r, strength);
+    const char *why = material_yields(m) ? "is of bonds that do not yield; one of yield_stress and tensile_strength is "
+                                           "expected"
+                      : scene_is_single_equilibrium(s)
+                          ? steps_can_soften(s, n)
+                                ? "is of bonds that break, and none does in a single equilibrium; solver: explicit or "
+                                  "static is expected"
+                                : "is of bonds that break, and none does in a single equilibrium; solver: explicit is "
+                                  "expected"
                       : !isfinite(m->critical_stretch)
-                          ? "tells the stress but not the energy at which bonds end; "
-                            "energy_release_rate, toughness or critical_stretch is expected, too"
+                          ? "tells the stress but not the energy at which bonds end; energy_release_rate, toughness or "
+                            "critical_stretch is expected, too"
                           : NULL;
     if (why) return fault(r, strength, "%s", why);
     if (scatter && m->scatter.of != SCATTER_STRENGTH && m->scatter.of != SCATTER_STRETCH)

@@ -3,6 +3,7 @@
 
 #include "data/softening.h"
 #include "scene_internal.h"
+#include "scene_remedies.h"
 
 /* kappa of bonds that soften before a surface has started them; with less, lattices trap cracks */
 #define OWN_RATIO 2
@@ -76,8 +77,8 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
     if (most >= s->horizon * s->spacing) return OK;
     return fault(r, n,
                  "bonds of this horizon, %.4g m, soften by themselves at %.4g Pa, before the strength surface is "
-                 "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
-                 s->horizon * s->spacing, own, most, most / s->horizon);
+                 "reached; a horizon below %.4g m, particles.spacing below %.4g m, is expected%s",
+                 s->horizon * s->spacing, own, most, most / s->horizon, strength_unit_hint(s, most));
 }
 
 status read_surface(struct reader *r, const struct yaml_node *n, struct material *m)

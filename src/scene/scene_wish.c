@@ -7,6 +7,7 @@
 #include "scene/scene_read.h"
 #include "scene/spacings.h"
 #include "scene_internal.h"
+#include "scene_remedies.h"
 
 #define WITHIN_USUAL 0.01
 #define BUDGET_USUAL 300.0 /* default of accuracy.budget [s] */
@@ -42,15 +43,6 @@ static status accuracy_read(struct reader *r, const struct yaml_node *root, stru
 
 /* ---- the scene with a provisional method ------------------------------------------------------------------------- */
 
-/* Returns true if a material of the scene has this key. root: tree of the scene. */
-static bool material_key(const struct yaml_node *root, const char *key)
-{
-    const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
-    bool has = one && yaml_node_find(one, key);
-    for (const struct yaml_node *n = many ? many->first : NULL; n; n = n->next) has = has || yaml_node_find(n, key);
-    return has;
-}
-
 /* Reads the scene in text[length] into s with the given method, and with provisional values for the other choices of
  * the pilot runs that contradict no key of the scene. spacing: used if the scene has none [m]. Returns REFUSED, with s
  * freed, if the scene is invalid. */
@@ -67,7 +59,8 @@ static status provisional_read(struct reader *r, const char *text, size_t length
         if (tree_find(root, dropped[k])) read = tree_apply_override(&own, root, dropped[k], "");
     const struct yaml_node *space = read == OK ? tree_find(root, "space") : NULL;
     const bool line = space && strcmp(space->text, "line") == 0,
-               bonds = read == OK && (material_key(root, "yield_stress") || material_key(root, "viscosity"));
+               bonds = read == OK &&
+                       (scene_material_gives(root, "yield_stress") || scene_material_gives(root, "viscosity"));
     if (read == OK && !tree_find(root, "particles.spacing"))
         read = tree_apply_override(&own, root, "particles.spacing", number_write_shortest(number, spacing));
     if (read == OK) read = tree_apply_override(&own, root, "method", method);

@@ -1,0 +1,232 @@
+/* What the method of a scene could be changed to, for refusals: a remedy in a message must be one that the scene then
+ * passes with. A table says what each method and model can do; what a scene has is compared with it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene_remedies.h"
+
+/* Things that not every method and model can do; bits. */
+enum {
+    HAS_RIGID = 1,       /* rigid bodies */
+    HAS_RATIO = 2,       /* a Poisson's ratio that bonds do not have */
+    HAS_YIELD = 4,       /* yield_stress with linear hardening */
+    HAS_FLOW = 8,        /* another law of plasticity */
+    HAS_SOFTENING = 16,  /* tensile_strength */
+    HAS_VISCOSITY = 32,  /* bulk viscosity */
+    HAS_INTERFACES = 64, /* bodies that are joined */
+};
+
+/* What scenes may have with a method and model. Models of method mpm do not matter, but `bond` has no other keys. */
+static const struct {
+    enum method method;
+    enum model model;
+    unsigned can;
+} combination[] = {
+    {METHOD_PD, MODEL_BOND, HAS_RIGID | HAS_YIELD | HAS_SOFTENING | HAS_VISCOSITY | HAS_INTERFACES},
+    {METHOD_ADAPTIVE, MODEL_BOND, HAS_RIGID | HAS_YIELD | HAS_SOFTENING | HAS_VISCOSITY},
+    {METHOD_PD, MODEL_OSPD, HAS_RIGID | HAS_RATIO | HAS_INTERFACES},
+    {METHOD_ADAPTIVE, MODEL_OSPD, HAS_RIGID | HAS_RATIO},
+    {METHOD_MPM, MODEL_BOND, HAS_RATIO | HAS_YIELD | HAS_FLOW | HAS_VISCOSITY | HAS_INTERFACES},
+};
+
+/* Names of what a scene has, in the order of the bits. */
+static const char *const had[] = {"rigid bodies",     "a Poisson's ratio that bonds do not have",
+                                  "yield_stress",     "a law of plasticity other than linear hardening",
+                                  "tensile_strength", "viscosity",
+                                  "interfaces"};
+
+bool scene_material_gives(const struct yaml_node *root, const char *key)
+{
+    const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
+    bool has = one && yaml_node_find(one, key);
+    for (const struct yaml_node *n = many ? many->first : NULL; n; n = n->next) has = has || yaml_node_find(n, key);
+    return has;
+}
+
+/* Returns true if an item of the list `bodies` of the scene is rigid. */
+static bool has_rigid_bodies(const struct yaml_node *root)
+{
+    const struct yaml_node *many = yaml_node_find(root, "bodies");
+    bool rigid = false;
+    for (const struct yaml_node *n = many ? many->first : NULL; n; n = n->next) {
+        const struct yaml_node *flag = yaml_node_find(n, "rigid");
+        rigid = rigid || (flag && flag->kind == NODE_SCALAR && strcmp(flag->text, "true") == 0);
+    }
+    return rigid;
+}
+
+/* Returns what the scene has of the things that not every method can do (bits HAS_...). Poisson's ratios of materials
+ * that have not been read are not known yet and count as those of bonds. */
+static unsigned scene_has(const struct reader *r)
+{
+    const struct scene *s = r->scene;
+    const struct yaml_node *root = r->root;
+    unsigned has = 0;
+    if (has_rigid_bodies(root)) has |= HAS_RIGID;
+    if (yaml_node_find(root, "interfaces")) has |= HAS_INTERFACES;
+    if (scene_material_gives(root, "yield_stress")) has |= HAS_YIELD;
+    if (scene_material_gives(root, "hardening") || scene_material_gives(root, "kinematic") ||
+        scene_material_gives(root, "johnson_cook"))
+        has |= HAS_FLOW;
+    if (scene_material_gives(root, "tensile_strength")) has |= HAS_SOFTENING;
+    if (scene_material_gives(root, "viscosity")) has |= HAS_VISCOSITY;
+    for (int m = 0; m < s->materials && s->dim > 1; m++)
+        if (s->material[m].young > 0 && fabs(s->material[m].poisson - bond_based_poisson_ratio(s->space)) > 1e-6)
+            has |= HAS_RATIO;
+    return has;
+}
+
+/* Returns the row of the table for a method that can do all of `has`, with the model of the scene if possible; -1 if
+ * there is none. */
+static int row_of_method(const struct scene *s, enum method method, unsigned has)
+{
+    int row = -1;
+    for (size_t k = 0; k < COUNT_OF(combination); k++) {
+        if (combination[k].method != method || (has & ~combination[k].can) != 0) continue;
+        if (row < 0 || combination[k].model == s->model) row = (int)k;
+    }
+    return row;
+}
+
+/* Writes the change of the scene to the method and model of a row of the table to text[capacity]. A model that is not
+ * used may stay, unless the scene has plasticity, which state-based models do not have. has: what the scene has. */
+static void write_change(const struct scene *s, int row, unsigned has, char *text, size_t capacity)
+{
+    static const char *const methods[] = {
+        [METHOD_PD] = "`method: pd`", [METHOD_MPM] = "`method: mpm`", [METHOD_ADAPTIVE] = "`method: adaptive`"};
+    static const char *const models[] = {[MODEL_BOND] = "`model: bond`", [MODEL_OSPD] = "`model: ospd`"};
+    const enum method method = combination[row].method;
+    const char *model = models[combination[row].model];
+    const bool other = combination[row].model != s->model;
+    if (method == s->method)
+        snprintf(text, capacity, "%s", model);
+    else if (method == METHOD_MPM)
+        snprintf(text, capacity, "%s%s", methods[method],
+                 other && has & (HAS_YIELD | HAS_FLOW) ? " without the key model" : "");
+    else
+        snprintf(text, capacity, "%s%s%s", methods[method], other ? " with " : "", other ? model : "");
+}
+
+/* Returns the changes of method or model by which the scene could have all of `has`, as words of a message in the
+ * arena: that of the model alone if it suffices; NULL if there is none. */
+static const char *changes_that_allow(struct reader *r, unsigned has)
+{
+    static const enum method methods[] = {METHOD_PD, METHOD_ADAPTIVE, METHOD_MPM};
+    const struct scene *s = r->scene;
+    const int same = row_of_method(s, s->method, has);
+    char text[160] = "", one[80];
+    if (same >= 0) write_change(s, same, has, text, sizeof text);
+    for (size_t k = 0; k < COUNT_OF(methods) && same < 0; k++) {
+        const int row = row_of_method(s, methods[k], has);
+        const size_t used = strlen(text);
+        if (row < 0) continue;
+        write_change(s, row, has, one, sizeof one);
+        snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? " or " : "", one);
+    }
+    return *text ? arena_text(r, text, strlen(text)) : NULL;
+}
+
+/* Returns the names of the things `has`, joined by "and", in the arena. */
+static const char *names_of(struct reader *r, unsigned has)
+{
+    char text[240] = "";
+    for (size_t bit = 0; bit < COUNT_OF(had); bit++) {
+        const size_t used = strlen(text);
+        if (has >> bit & 1) snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? " and " : "", had[bit]);
+    }
+    return arena_text(r, text, strlen(text));
+}
+
+/* ---- refusals ---------------------------------------------------------------------------------------------------- */
+
+/* Returns the Poisson's ratio of bonds in the space of the scene, as text. */
+static const char *ratio_of_bonds(const struct scene *s) { return s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4"; }
+
+status refuse_poisson(struct reader *r, const struct yaml_node *n)
+{
+    const unsigned has = scene_has(r) | HAS_RATIO;
+    const char *change = changes_that_allow(r, has), *bonds = ratio_of_bonds(r->scene);
+    if (change)
+        return fault(r, n, "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; %s has any",
+                     node_text(r, n), bonds, space_names[r->scene->space], change);
+    return fault(r, n,
+                 "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; this ratio is expected, "
+                 "as no method has another one together with %s",
+                 node_text(r, n), bonds, space_names[r->scene->space], names_of(r, has & ~(unsigned)HAS_RATIO));
+}
+
+status refuse_state_yield(struct reader *r, const struct yaml_node *n)
+{
+    const unsigned has = scene_has(r);
+    const char *model = r->scene->model == MODEL_OSPD ? "ospd" : "mospd", *change = changes_that_allow(r, has);
+    if (change) return fault(r, n, "model %s does not yield; %s does", model, change);
+    return fault(r, n, "model %s does not yield, and no method has all of %s; leave out one of them", model,
+                 names_of(r, has));
+}
+
+status refuse_flow_law(struct reader *r, const struct yaml_node *n)
+{
+    const struct scene *s = r->scene;
+    const unsigned has = scene_has(r), linear = (has & ~(unsigned)HAS_FLOW) | HAS_YIELD;
+    const char *points = changes_that_allow(r, has);
+    const int bonds = row_of_method(s, s->method, linear & ~(unsigned)HAS_RATIO);
+    const bool ratio = has & HAS_RATIO;
+    if (bonds < 0)
+        return fault(r, n, "is for material points; %s is expected",
+                     points ? points : "`method: mpm` without rigid bodies and tensile_strength");
+    return fault(r, n,
+                 "is for material points; %s%syield_stress with linear hardening by yield_hardening, which bonds%s "
+                 "have%s%s",
+                 points ? points : "", points ? " is expected, or " : "",
+                 s->model == MODEL_BOND ? "" : " (`model: bond`)", ratio ? " at a Poisson's ratio of " : "",
+                 ratio ? ratio_of_bonds(s) : "");
+}
+
+status refuse_softening(struct reader *r, const struct yaml_node *n)
+{
+    const unsigned has = scene_has(r);
+    const char *change = changes_that_allow(r, has);
+    if (change) return fault(r, n, "is of bonds of model bond, which soften; %s is expected", change);
+    return fault(r, n,
+                 "is of bonds of model bond, which soften and do not have %s; without this key, and softening, bonds "
+                 "are brittle",
+                 names_of(r, has & ~(unsigned)HAS_SOFTENING));
+}
+
+status refuse_rigid(struct reader *r, const struct yaml_node *n)
+{
+    const unsigned has = scene_has(r);
+    const char *change = changes_that_allow(r, has);
+    if (r->scene->method != METHOD_MPM)
+        return fault(r, n,
+                     "rigid bodies move in steps of time; `solver: explicit` is expected, or, for a smooth wall at "
+                     "rest, a boundary `mirror` in their place");
+    if (change)
+        return fault(r, n,
+                     "rigid bodies meet peridynamic particles only; %s is expected, or, for a smooth wall at rest, a "
+                     "boundary `mirror` in their place",
+                     change);
+    return fault(r, n,
+                 "rigid bodies meet peridynamic particles only, which do not have %s; a boundary `mirror` in place of "
+                 "a smooth wall at rest, or a body of a stiff elastic material, is expected",
+                 names_of(r, has & ~(unsigned)HAS_RIGID));
+}
+
+status refuse_interfaces(struct reader *r, const struct yaml_node *n)
+{
+    const unsigned has = scene_has(r);
+    const char *change = changes_that_allow(r, has);
+    if (change) return fault(r, n, "bodies are joined by bonds, or by their grid; %s is expected", change);
+    return fault(r, n,
+                 "bodies are joined by bonds, or by their grid, and no method has all of %s; leave out one of "
+                 "them",
+                 names_of(r, has));
+}
+
+const char *strength_unit_hint(const struct scene *s, real horizon)
+{
+    return horizon < 1e-3 * s->horizon * s->spacing
+               ? "; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (mm?)"
+               : "";
+}

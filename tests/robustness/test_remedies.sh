@@ -1,0 +1,163 @@
+#!/bin/sh
+# What a refusal names as a way out is one: for each combination that no method or model can do, the words of the message, and that the
+# scene passes `cleave check` with each change that it names.
+# Takes 10 s: 60 small scenes are read and set up.
+test_name=test_remedies
+. tests/support/summary.sh
+
+# A plate that bonds can do. Each case adds what they cannot, or what excludes it.
+cat >"$work/plate.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 10 us
+method: pd
+material: {name: m, young: 70 GPa, density: 2700}
+bodies:
+  - {name: plate, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: foot, fixed: all, face: x-}
+  - {name: end, displacement: [1 um, free], face: x+, time: {ramp: {until: 10 us}}}
+output: {frames: 0, samples: 1}
+END
+plate=$work/plate.yaml
+# The same with a rigid wall below, and what takes its place: a plane of symmetry, and a body of a stiff material.
+sed 's/^particles:/  - {name: wall, rigid: true, shape: {box: {from: [0, -5 mm], to: [20 mm, 0]}}}\n&/' "$plate" >"$work/wall.yaml"
+sed 's/^boundary:/&\n  - {name: wall, mirror: {axis: y, at: 0}}/' "$plate" >"$work/mirror.yaml"
+sed 's/^particles:/  - {name: wall, material: stiff, shape: {box: {from: [0, -5 mm], to: [20 mm, 0]}}}\n&/
+    s/^material: \(.*\)/materials:\n  - \1\n  - {name: stiff, young: 700 GPa, density: 7800}/; s/- {name: plate,/& material: m,/' "$plate" >"$work/stiff.yaml"
+wall=$work/wall.yaml
+
+# refused PATTERN SCENE ARGUMENT...: checks that the scene is refused with this text; keeps scene and arguments for `remedied`.
+refused()
+{
+    pattern=$1 scene=$2; shift 2
+    keep "$@"
+    "$cleave" check "$scene" --no-trial "$@" >"$work/said" 2>&1
+    is "refused: $pattern" $? 2
+    holds "refused: $pattern: $(cat "$work/said")" grep -qF "$pattern" "$work/said"
+}
+keep() { printf '%s\n' "$@" >"$work/kept"; }
+
+# remedied ARGUMENT...: checks that the scene refused last passes with further arguments, which follow the earlier ones. other SCENE
+# ARGUMENT...: that another scene does.
+other() { scene=$1; shift; remedied "$@"; }
+remedied()
+{
+    more=$# how=$*
+    while IFS= read -r argument; do set -- "$@" "$argument"; done <"$work/kept"
+    while [ $more -gt 0 ]; do first=$1; shift; set -- "$@" "$first"; more=$((more - 1)); done
+    "$cleave" check "$scene" --no-trial "$@" >"$work/said" 2>&1
+    holds "remedied: $pattern, by $scene $how: $(cat "$work/said")" grep -q ' is sound$\| can be run[;,]' "$work/said"
+}
+cook='-s material.johnson_cook.A=100MPa -s material.johnson_cook.B=100MPa -s material.johnson_cook.n=0.3 -s material.johnson_cook.C=0.01
+    -s material.johnson_cook.T_melt=900'
+yields='-s material.yield_stress=100MPa' soft='-s material.energy_release_rate=100 -s material.tensile_strength=10MPa'
+steps='-s solver=static -s duration=1s'
+
+# ---- Poisson's ratios --------------------------------------------------------------------------------------------------
+
+refused 'which have 1/3 in space plane stress; `model: ospd` has any' "$plate" -s material.poisson=0.2
+remedied -s model=ospd
+refused '`model: ospd` has any' "$plate" -s material.poisson=0.2 -s method=adaptive
+remedied -s model=ospd
+refused '`method: mpm` has any' "$plate" -s material.poisson=0.2 $yields
+remedied -s method=mpm
+refused '`method: mpm` has any' "$plate" -s material.poisson=0.2 $cook
+remedied -s method=mpm
+refused 'this ratio is expected, as no method has another one together with rigid bodies and yield_stress' "$wall" -s material.poisson=0.2 $yields
+remedied -s material.poisson=1/3
+refused 'this ratio is expected, as no method has another one together with tensile_strength' "$plate" -s material.poisson=0.2 $soft
+remedied -s material.poisson=1/3
+refused 'which have 1/4 in space plane strain; `method: mpm` has any' "$plate" -s material.poisson=0.2 -s 'space=plane strain' -s 'material.viscosity={}'
+remedied -s method=mpm
+
+# ---- rigid bodies ------------------------------------------------------------------------------------------------------
+
+refused 'only; `method: pd` or `method: adaptive` is expected, or, for a smooth wall at rest, a boundary `mirror`' "$wall" -s method=mpm
+remedied -s method=pd
+remedied -s method=adaptive
+other "$work/mirror.yaml"
+refused 'only; `method: pd` with `model: ospd` or `method: adaptive` with `model: ospd` is expected' "$wall" -s method=mpm -s material.poisson=0.2
+remedied -s method=pd -s model=ospd
+remedied -s method=adaptive -s model=ospd
+refused 'which do not have a law of plasticity other than linear hardening; a boundary `mirror` in place' "$wall" -s method=mpm $cook
+other "$work/mirror.yaml"
+keep -s method=mpm -s 'materials.m.johnson_cook={A: 100 MPa, B: 100 MPa, n: 0.3, C: 0.01, T_melt: 900}'
+other "$work/stiff.yaml"
+refused "which do not have a Poisson's ratio that bonds do not have and yield_stress; a boundary" "$wall" -s method=mpm -s material.poisson=0.2 $yields
+other "$work/mirror.yaml"
+refused '`solver: explicit` is expected, or, for a smooth wall at rest, a boundary `mirror`' "$wall" -s solver=cg
+remedied -s solver=explicit
+other "$work/mirror.yaml"
+
+# ---- plasticity --------------------------------------------------------------------------------------------------------
+
+refused 'model ospd does not yield; `model: bond` does' "$plate" -s model=ospd $yields
+remedied -s model=bond
+refused 'model mospd does not yield; `method: mpm` without the key model does' "$plate" -s model=mospd -s material.poisson=0.2 $yields
+remedied -s method=mpm -s model=
+refused "no method has all of rigid bodies and a Poisson's ratio that bonds do not have and yield_stress; leave out" "$wall" -s model=ospd \
+    -s material.poisson=0.2 $yields
+remedied -s material.yield_stress=
+remedied -s material.poisson= -s model=
+refused 'is for material points; `method: mpm` is expected, or yield_stress with linear hardening by yield_hardening, which bonds have' "$plate" $cook
+remedied -s method=mpm
+remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
+refused '`method: mpm` without the key model is expected, or yield_stress with linear hardening by yield_hardening, which bonds (`model: bond`) have at' \
+    "$plate" -s model=ospd -s material.poisson=0.2 -s material.yield_stress=100MPa -s material.hardening.voce.saturation=1MPa -s material.hardening.voce.rate=1
+remedied -s method=mpm -s model=
+remedied -s material.hardening= -s model=bond -s material.poisson=1/3 -s material.yield_hardening=1GPa
+refused 'is for material points; yield_stress with linear hardening by yield_hardening, which bonds have' "$wall" $cook
+remedied -s material.johnson_cook= $yields -s material.yield_hardening=1GPa
+refused 'material m yields; solver: explicit is expected' "$plate" $yields -s solver=cg
+remedied -s solver=explicit
+refused 'material m yields; solver: explicit is expected' "$plate" $yields -s solver=cg -s method=mpm
+remedied -s solver=explicit
+
+# ---- strength ----------------------------------------------------------------------------------------------------------
+
+refused 'which soften; `method: pd` or `method: adaptive` is expected' "$plate" $soft -s method=mpm
+remedied -s method=pd
+remedied -s method=adaptive
+refused 'which soften; `model: bond` is expected' "$plate" $soft -s model=ospd
+remedied -s model=bond
+refused "which soften and do not have a Poisson's ratio that bonds do not have; without this key, and softening, bonds are brittle" "$plate" $soft \
+    -s model=ospd -s material.poisson=0.2
+remedied -s material.tensile_strength=
+refused 'solver: explicit or static is expected' "$plate" $soft -s solver=cg
+remedied -s solver=explicit
+remedied $steps
+refused 'single equilibrium; solver: explicit is expected' "$plate" $soft -s material.compressive_strength=300MPa -s solver=cg
+remedied -s solver=explicit
+refused 'method: pd, which is expected' "$plate" $soft $steps -s method=adaptive
+remedied -s method=pd
+refused 'one of yield_stress and tensile_strength is expected' "$plate" $soft $yields
+remedied -s material.yield_stress=
+remedied -s material.tensile_strength=
+
+# ---- solvers, faces, interfaces ----------------------------------------------------------------------------------------
+
+refused 'relaxation is expected with material points' "$plate" -s solver=cg -s method=mpm
+remedied -s solver=relaxation
+refused 'so there is no friction' "$plate" -s contact.friction=0.3
+remedied -s contact.friction=0
+remedied -s contact.between=all
+refused 'moments needs a regular lattice in 2D or 3D; volume or none is expected' "$plate" -s pd.surface=moments -s particles.irregularity=0.1
+remedied -s pd.surface=volume
+remedied -s pd.surface=none
+refused 'moments needs a regular lattice in 2D or 3D; none is expected' "$plate" -s pd.surface=moments -s particles.irregularity=0.1 -s model=ospd
+remedied -s pd.surface=none
+refused 'goes with space plane strain, solid or line' "$plate" -s 'material.viscosity={}'
+remedied -s 'space=plane strain'
+refused 'a static equilibrium has no velocities; solver: explicit is expected' "$plate" -s damping=1e3 -s solver=cg
+remedied -s solver=explicit
+sed 's/^particles:/interfaces: [{bodies: [plate, wall]}]\n&/' "$work/stiff.yaml" >"$work/joined.yaml"
+refused 'by their grid; `method: pd` or `method: mpm` is expected' "$work/joined.yaml" -s method=adaptive
+remedied -s method=pd
+remedied -s method=mpm
+refused 'space plane stress; `method: pd` with `model: ospd` or `method: mpm` has any' "$work/joined.yaml" -s method=adaptive -s materials.m.poisson=0.2
+remedied -s method=pd -s model=ospd
+remedied -s method=mpm
+
+finish
