@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/busy.h"
 #include "base/memory_stream.h"
 #include "check_parts.h"
 #include "commands.h"
@@ -250,18 +251,27 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
     }
 }
 
+/* Prints that other programs keep the machine busy, if they do. load: before the trial steps, which count as well. */
+static void say_busy(double load, int threads)
+{
+    char text[256];
+    if (machine_describe_load(text, sizeof text, load, machine_cores(), threads)) printf("load           %s\n", text);
+}
+
 /* Estimates run time and memory by trial steps and prints both. threads: number of threads, which is printed; made:
  * processor time of the set-up [s]. The warnings of the trial steps are appended to *found. The run e cannot be used
  * afterwards. Returns FAILED if one of the first steps fails. */
 static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made, struct warnings *found)
 {
     struct cost cost = {.make = made};
+    const double load = machine_load();
     const status result = cost_measure_by_trial_steps(&cost, e, a);
     warnings_of_trial(found, &cost.found);
     warnings_free(&cost.found);
     TRY(result);
     say_contact_cost(e, &cost);
     say_cost(e, &cost, threads);
+    say_busy(load, threads);
     print_levels_saving(e, &cost);
     return OK;
 }

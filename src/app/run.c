@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "arguments.h"
+#include "base/busy.h"
 #include "commands.h"
 #include "engine/engine.h"
 #include "scene/scene_read.h"
@@ -92,7 +93,8 @@ static status open_folder(struct output *out, const struct scene *s, const struc
 static status run_engine(struct run *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {
-    double start = wall_clock();
+    char busy[256];
+    const double start = wall_clock(), load = machine_load();
     engine_announce_long_set_up(s);
     TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
     const double made = wall_clock();
@@ -109,6 +111,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
                 omp_get_num_procs());
+    if (!a->quiet && machine_describe_load(busy, sizeof busy, load, machine_cores(), threads)) printf("  %s\n", busy);
     e->report->stop = stop_signals_install();
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_load_checkpoint, e));
     if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)

@@ -1,0 +1,16 @@
+/* Other programs on the machine: by how much they make a computation take longer than its processor time. */
+#ifndef CLEAVE_BUSY
+#define CLEAVE_BUSY
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Returns the mean number of processes that used or waited for a processor of the machine in the last minute
+ * (getloadavg); 0 if it is not known. */
+double machine_load(void);
+
+/* Writes to text[capacity] a sentence that says by which factor wall time exceeds processor time: load processes and
+ * `threads` more share `cores` cores. Returns false, and writes nothing, if there are enough cores for all of them. */
+bool machine_describe_load(char *text, size_t capacity, double load, int cores, int threads);
+
+#endif

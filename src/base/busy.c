@@ -1,0 +1,24 @@
+/* Other programs on the machine, by the load average of the system. */
+#include "base/busy.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define UNNOTICED 0.5 /* processes too many that are not reported: the load of the last minute has ended, in part */
+
+double machine_load(void)
+{
+    double load;
+    return getloadavg(&load, 1) == 1 ? load : 0;
+}
+
+bool machine_describe_load(char *text, size_t capacity, double load, int cores, int threads)
+{
+    if (cores < 1 || load + threads <= cores + UNNOTICED) return false;
+    snprintf(
+        text, capacity,
+        "other programs use %.1f of this machine's %d core%s: on %d thread%s the wall time will be about %.2g times "
+        "the processor time",
+        load, cores, cores > 1 ? "s" : "", threads, threads > 1 ? "s" : "", (load + threads) / cores);
+    return true;
+}

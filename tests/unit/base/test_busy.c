@@ -1,0 +1,40 @@
+/* Tests of what is said about other programs on the machine (base/busy.h). */
+#include "tests/support/near.h"
+
+#include "base/busy.h"
+
+/* Returns true if something is said about a load, and checks that it contains the words `words`. */
+static bool said(double load, int cores, int threads, const char *words)
+{
+    char text[256] = "";
+    const bool busy = machine_describe_load(text, sizeof text, load, cores, threads);
+    if (busy && !strstr(text, words)) fail_msg("%s", text);
+    assert_int_equal(busy, text[0] != '\0');
+    return busy;
+}
+
+/* Idle machines, and those with a core for every thread, are not spoken of; 3 programs and 2 threads on 2 cores
+ * take 2.5 times as long. */
+static void load_is_described(void **state)
+{
+    (void)state;
+    assert_false(said(0, 2, 2, ""));
+    assert_false(said(0.4, 2, 2, ""));
+    assert_false(said(6, 16, 8, ""));
+    assert_false(said(5, 0, 8, ""));
+    assert_true(said(3, 2, 2, "use 3.0 of this machine's 2 cores: on 2 threads the wall time will be about 2.5 times"));
+    assert_true(said(1, 1, 1, "use 1.0 of this machine's 1 core: on 1 thread the wall time will be about 2 times"));
+    assert_true(said(12, 16, 8, "on 8 threads the wall time will be about 1.2 times"));
+}
+
+static void load_is_finite(void **state)
+{
+    (void)state;
+    assert_true(machine_load() >= 0 && machine_load() < 1e6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(load_is_described), cmocka_unit_test(load_is_finite)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
