@@ -12,10 +12,10 @@
 
 /* Words of the key `accept`, in the order of enum accept. */
 #define ACCEPT_WORDS                                                                                                   \
-    "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy|growth|contact|"        \
-    "coupling|cell|speed|shock|rayleigh"
+    "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy|growth|mass|"           \
+    "brittleness|times|contact|coupling|cell|speed|shock|rayleigh"
 
-/* Warnings that a scene can silence by the key `accept`, one bit each: those up to ACCEPT_GROWTH are about figures that
+/* Warnings that a scene can silence by the key `accept`, one bit each: those up to ACCEPT_TIMES are about figures that
  * look like mistakes of units (src/engine/warn_units.c). */
 enum accept {
     ACCEPT_WAVES,
@@ -31,6 +31,9 @@ enum accept {
     ACCEPT_THICKNESS,
     ACCEPT_ENERGY,
     ACCEPT_GROWTH,
+    ACCEPT_MASS,
+    ACCEPT_BRITTLENESS,
+    ACCEPT_TIMES,
     ACCEPT_CONTACT,  /* bodies or faces of cracks pass through each other */
     ACCEPT_COUPLING, /* a coupling that has no potential energy */
     ACCEPT_CELL,     /* one material point in a cell */

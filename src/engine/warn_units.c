@@ -7,9 +7,11 @@
 #include "engine_internal.h"
 
 enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are evaluated                             */
-#define STIFF 1e9 /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
+#define UNLIKE 30  /* factor between the densities of a rigid body and of materials in other units */
+#define EARLY 0.01 /* end of a function of time over the time step, below which the run does not see it */
+#define STIFF 1e9  /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
 
-enum { RULES = ACCEPT_GROWTH + 1 };
+enum { RULES = ACCEPT_TIMES + 1 };
 
 /* Smallest and largest plausible value of each quantity, its name and unit, and the input to be checked otherwise.
  * Waves: 18 km/s in diamond, 20 m/s in gels of 1 MPa. Stretch: a tenth of Young's modulus is the strength of crystals
@@ -17,7 +19,9 @@ enum { RULES = ACCEPT_GROWTH + 1 };
  * of waves in the duration [spacings]. Density: aerogels have 1 kg/m^3 and more, osmium 22,600. Yield: over Young's
  * modulus, 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves across all bodies in the duration. Energy:
  * twice the surface energy of waxes is 0.04 J/m^2, tough steels have 0.2 MJ/m^2. Growth: the energy release rate of a
- * crack as long as the body, over that of the material (units_of_growth). */
+ * crack as long as the body, over that of the material (units_of_growth). Mass: foams have 50 kg/m^3, and more than
+ * osmium's has none. Brittleness: E G_c/strength^2 is below 1 m but for concrete with fibres. Times: largest load of
+ * the run over the largest of all times. */
 static const struct {
     real least, most;
     const char *what, *unit, *look;
@@ -47,20 +51,32 @@ static const struct {
         {0.1, INFINITY,
          "no crack can grow: what one as long as the body could release, over the energy release rate, is", "",
          "energy_release_rate (J/m^2; kJ?), loads (Pa), lengths (mm?) and young (GPa?)"},
+    [ACCEPT_MASS] = {50, 25e3, "its mass over its volume is", " kg/m^3", "mass (kg; g?) and lengths (mm?)"},
+    [ACCEPT_BRITTLENESS] = {0, 30, "its length E G_c/tensile_strength^2 over the longest edge of the bodies is", "",
+                            "energy_release_rate (J/m^2; kJ?), tensile_strength (MPa?) and lengths (mm?)"},
+    [ACCEPT_TIMES] = {0.1, INFINITY, "the largest load within the duration, over the largest at any time, is", "",
+                      "its times (us?) and duration"},
 };
 
-/* Warns if `value` is outside the plausible range rule[k] of quantity k, unless the scene accepts that. subject: part
- * of the scene that has this value; note: text with the numbers from which it is computed, or "". */
-static void units_judge(const struct scene *s, enum accept k, const char *subject, real value, const char *note,
-                        struct warnings *to)
+/* Warns if `value` of quantity k is outside least .. most, unless the scene accepts that. subject: part of the scene
+ * that has this value; note: text with the numbers from which it is computed, or "". */
+static void units_judge_between(const struct scene *s, enum accept k, real least, real most, const char *subject,
+                                real value, const char *note, struct warnings *to)
 {
     const char *word = ACCEPT_WORDS;
-    const bool low = (value < rule[k].least), high = (value > rule[k].most);
+    const bool low = (value < least), high = (value > most);
     if ((!low && !high) || scene_silences_warning(s, k)) return;
     for (int n = 0; n < (int)k; n++) word += strcspn(word, "|") + 1;
     warnings_add(to, "%s: %s %.3g%s%s, %s %.3g: check the units of %s; if this is meant: accept: [%.*s]", subject,
-                 rule[k].what, value, rule[k].unit, note, low ? "below" : "above", low ? rule[k].least : rule[k].most,
-                 rule[k].look, (int)strcspn(word, "|"), word);
+                 rule[k].what, value, rule[k].unit, note, low ? "below" : "above", low ? least : most, rule[k].look,
+                 (int)strcspn(word, "|"), word);
+}
+
+/* Warns if `value` is outside the plausible range rule[k] of quantity k, as units_judge_between does. */
+static void units_judge(const struct scene *s, enum accept k, const char *subject, real value, const char *note,
+                        struct warnings *to)
+{
+    units_judge_between(s, k, rule[k].least, rule[k].most, subject, value, note, to);
 }
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
@@ -97,6 +113,83 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         snprintf(note, sizeof note, ", at %.3g Pa", stretch * a->young);
         if (isfinite(stretch) && s->method != METHOD_MPM && (a->young >= STIFF || stretch < rule[ACCEPT_STRETCH].least))
             units_judge(s, ACCEPT_STRETCH, subject, stretch, note, to);
+    }
+}
+
+/* Warns of rigid bodies whose mass does not fit their volume: densities outside those of matter or, if the densities of
+ * the materials are outside as well (other units), outside those by a factor of more than UNLIKE. */
+static void units_of_rigids(const struct scene *s, struct warnings *to)
+{
+    char subject[NAME_MAX_LENGTH + 16], note[80];
+    real least = INFINITY, most = 0, low[DIM_MAX], high[DIM_MAX];
+    for (int m = 0; m < s->materials; m++)
+        least = real_min(least, s->material[m].density), most = real_max(most, s->material[m].density);
+    const bool usual = least >= rule[ACCEPT_MASS].least && most <= rule[ACCEPT_MASS].most;
+    least = usual ? rule[ACCEPT_MASS].least : least / UNLIKE, most = usual ? rule[ACCEPT_MASS].most : most * UNLIKE;
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
+        const struct scene_body *body = &s->body[b];
+        if (!(body->mass > 0) || !region_bounding_box(&body->shape, s->dim, low, high)) continue;
+        const real volume = region_volume(&body->shape, s->dim, low, high) * scene_section_or_thickness(s);
+        snprintf(subject, sizeof subject, "body %s", body->name);
+        snprintf(note, sizeof note, " (%.3g kg over %.3g m^3)", body->mass, volume);
+        units_judge_between(s, ACCEPT_MASS, least, most, subject, body->mass / volume, note, to);
+    }
+}
+
+/* Warns of materials whose energy release rate does not fit their tensile strength: a crack in them would need a body
+ * many times as large. longest: longest edge of the box around all particles [m]. */
+static void units_of_brittleness(const struct scene *s, real longest, struct warnings *to)
+{
+    char subject[NAME_MAX_LENGTH + 16], note[80];
+    for (int m = 0; m < s->materials; m++) {
+        const struct material *a = &s->material[m];
+        if (!material_softens(a) || isnan(a->tensile_strength) || isnan(a->energy_release_rate)) continue;
+        const real length = a->young * a->energy_release_rate / square(a->tensile_strength);
+        snprintf(subject, sizeof subject, "material %s", a->name);
+        snprintf(note, sizeof note, " (%.3g m over %.3g m)", length, longest);
+        units_judge(s, ACCEPT_BRITTLENESS, subject, length / longest, note, to);
+    }
+}
+
+/* ---- times of loads ---------------------------------------------------------------------------------------------- */
+
+/* Returns the largest magnitude of the function of time f from time 0 to t_end [1]; INFINITY: at all times. */
+static real factor_largest_until(const struct time_function *f, real t_end)
+{
+    real most = fabs(time_function_value(f, t_end));
+    if (f->kind == TIME_STEP && t_end >= f->from) most = 1;
+    if (f->kind == TIME_PULSE && t_end >= 0.5 * (f->from + f->until)) most = 1;
+    if (f->kind == TIME_TABLE) most = real_max(most, fabs(time_function_value(f, 0)));
+    for (int k = 0; k < f->n && f->t[k] <= t_end; k++) most = real_max(most, fabs(f->value[k]));
+    return most;
+}
+
+/* Warns of loads and supports that reach only a small part of their largest value by the end of the run, and of those
+ * whose function of time ends long before the first time step of dt [s]. */
+static void units_of_times(const struct scene *s, real dt, struct warnings *to)
+{
+    static const char *const early[] = {[TIME_STEP] = "it never acts",
+                                        [TIME_PULSE] = "it never acts",
+                                        [TIME_RAMP] = "it acts at once, as without time",
+                                        [TIME_TABLE] = "it has its last value at once"};
+    char subject[NAME_MAX_LENGTH + 16];
+    for (int b = 0; b < s->boundaries; b++) {
+        const struct time_function *f = &s->boundary[b].time;
+        if (f->kind == TIME_CONSTANT) continue;
+        const real end = f->kind == TIME_TABLE ? f->t[f->n - 1] : f->until;
+        const real most = factor_largest_until(f, INFINITY);
+        snprintf(subject, sizeof subject, "boundary %s", s->boundary[b].name);
+        if (most > 0) units_judge(s, ACCEPT_TIMES, subject, factor_largest_until(f, s->duration) / most, "", to);
+        if (scene_is_dynamic(s) && end < EARLY * dt && !scene_silences_warning(s, ACCEPT_TIMES))
+            warnings_add(to,
+                         "%s: its time function ends at %.3g s, long before the first time step of %.3g s, so that %s: "
+                         "check the units of its times (us?); if this is meant: accept: [times]",
+                         subject, end, dt, early[f->kind]);
+    }
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
+        snprintf(subject, sizeof subject, "body %s", s->body[b].name);
+        if (s->body[b].ramp > 0)
+            units_judge(s, ACCEPT_TIMES, subject, real_min(1, s->duration / s->body[b].ramp), " (by its ramp)", to);
     }
 }
 
@@ -362,6 +455,9 @@ void engine_warn_of_mistaken_units(const struct scene *s, const struct particles
     units_of_time(s, clock, wave_speed, real_max(particles_bounding_box_longest_edge(p), s->spacing), to);
     units_of_thickness(s, particles_bounding_box_longest_edge(p) + s->spacing, to);
     units_of_materials(s, to);
+    units_of_rigids(s, to);
+    units_of_brittleness(s, particles_bounding_box_longest_edge(p) + s->spacing, to);
+    units_of_times(s, clock->dt, to);
     units_of_tractions(s, to);
     units_of_loads(s, p, l, to);
     units_of_particles(s, p, to);

@@ -1,0 +1,83 @@
+#!/bin/sh
+# Gross mistakes of a scene, each made on purpose: `cleave check` refuses it or warns of it, with a number and a way out, and is silent about
+# the scene without it.
+# Takes 15 s: 70 scenes are set up.
+test_name=test_check_mistakes
+. tests/support/summary.sh
+
+# says WHAT PATTERN SCENE [ARGUMENT...]: checks that the pattern is in the output of check for the scene. silent: that it is not, and that the
+# scene is accepted. refuses: that the scene is refused with this text.
+checked() { "$cleave" check "$@" --no-trial -t 1 >"$work/said" 2>&1; }
+says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what: $(cat "$work/said")" grep -q "$pattern" "$work/said"; }
+silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what: $(cat "$work/said")" sh -c "grep -q 'is sound$\|can be run[;,]' '$work/said' && ! grep -q '$pattern' '$work/said'"; }
+refuses() { what=$1 pattern=$2; shift 2; checked "$@"; is "$what: refused" $? 2; holds "$what: $(cat "$work/said")" grep -qF "$pattern" "$work/said"; }
+
+# A plate of glass under tension, 50 x 40 mm, with a crack from its left side.
+cat >"$work/glass.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 40 us
+method: pd
+material: {young: 72 GPa, density: 2440, energy_release_rate: 8 J/m^2}
+body: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}
+particles: {spacing: 1 mm}
+cracks: [{from: [0, 0], to: [24.9 mm, 0]}]
+boundary: [{name: up, traction: [0, 12 MPa], face: y+}, {name: down, traction: [0, -12 MPa], face: y-}]
+END
+glass=$work/glass.yaml
+silent "glass" '^warning\|^accuracy' "$glass"
+
+# ---- masses of rigid bodies --------------------------------------------------------------------------------------------
+
+# A disc of radius 5 mm and 1 mm thick: 7.854e-8 m^3; steel 0.613 g.
+ball() { echo "bodies=[{name: plate, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}, {name: ball, rigid: true, mass: $1, velocity: [-10, 0],
+    shape: {disc: {centre: [56 mm, 0], radius: 5 mm}}}]"; }
+dense='body ball: its mass over its volume is'
+silent "a ball of steel" "$dense" "$glass" -s body= -s "$(ball '0.613 g')"
+says "a mass in kg for g" "^warning: $dense 7.8[0-9]*e+06 kg/m^3 (0.613 kg over 7.8[0-9]*e-08 m^3), above 2.5e+04: check the units of mass (kg; g?)" "$glass" -s body= \
+    -s "$(ball '0.613 kg')"
+says "a mass in mg" "$dense 7.8[0-9]* kg/m^3 .*, below 50: " "$glass" -s body= -s "$(ball '0.613 mg')"
+silent "a mass that is meant" "$dense" "$glass" -s body= -s "$(ball '0.613 kg')" -s 'accept=[mass]'
+# In other units the density of the plate is 1: a ball of 7.8 times that fits, one of 7800 does not.
+model="-s body= -s material.density=1 -s material.young=1e4 -s accept=[waves,stress,stretch,strain,energy,growth,reach,steps]"
+silent "a ball in other units" "$dense" "$glass" $model -s "$(ball '0.613 mg')"
+says "a heavy ball in other units" "$dense 7.8[0-9]*e+03 kg/m^3 .*, above 30: " "$glass" $model -s "$(ball '0.613 g')"
+
+# ---- energy beside strength --------------------------------------------------------------------------------------------
+
+# E G_c/strength^2 of 8 J/m^2 and 10 MPa: 5.76 mm, of 100 kJ/m^2 72 m. Of 60 MPa: 0.16 mm, whose bonds need a smaller horizon.
+soft="-s material.tensile_strength=10MPa"
+silent "glass that softens" 'E G_c/tensile_strength' "$glass" $soft
+says "an energy of steel" '^warning: material material: its length E G_c/tensile_strength^2 over the longest edge of the bodies is 1.44e+03 (72 m over 0.05 m), above 30: check' \
+    "$glass" $soft -s material.energy_release_rate=100kJ/m^2
+silent "an energy of steel that is meant" 'E G_c/tensile_strength' "$glass" $soft -s material.energy_release_rate=100kJ/m^2 -s 'accept=[brittleness]'
+refuses "a strength in GPa" 'is expected; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (mm?)' "$glass" \
+    -s material.tensile_strength=2GPa
+checked "$glass" -s material.tensile_strength=60MPa
+holds "a strength that needs smaller particles" sh -c "grep -q 'is expected$' '$work/said'"
+
+# ---- times of loads ----------------------------------------------------------------------------------------------------
+
+factor() { echo "boundary.up.time={$1}"; }
+late='^warning: boundary up: the largest load within the duration, over the largest at any time, is' early='^warning: boundary up: its time function ends at'
+silent "a ramp" "$late\|$early" "$glass" -s "$(factor 'ramp: {until: 40 us}')"
+silent "a ramp of ten times the run" "$late" "$glass" -s "$(factor 'ramp: {until: 399 us}')"
+says "a ramp in ms" "$late 0.001, below 0.1: check the units of its times (us?) and duration; if this is meant: accept: \[times\]" "$glass" \
+    -s "$(factor 'ramp: {until: 40 ms}')"
+silent "a ramp in ms that is meant" "$late" "$glass" -s "$(factor 'ramp: {until: 40 ms}')" -s 'accept=[times]'
+says "a pulse in ms" "$late" "$glass" -s "$(factor 'pulse: {until: 40 ms}')"
+silent "a pulse" "$late" "$glass" -s "$(factor 'pulse: {until: 40 us}')"
+says "a step after the end" "$late 0, below 0.1" "$glass" -s "$(factor 'step: {from: 1 ms, until: 1 s}')"
+silent "a step that lasts" "$late" "$glass" -s "$(factor 'step: {until: 1 s}')"
+says "a table in ms" "$late 0.04, below 0.1" "$glass" -s "$(factor 'table: [[0, 0], [1 ms, 1], [2 ms, 0]]')"
+silent "a table whose peak is before the end" "$late" "$glass" -s "$(factor 'table: [[0, 0], [20 us, 1], [1 s, 0]]')"
+says "a ramp in ps" "$early 4e-11 s, long before the first time step of 1.43e-07 s, so that it acts at once, as without time: check" "$glass" \
+    -s "$(factor 'ramp: {until: 0.04 ns}')"
+says "a pulse in ps" "$early 4e-11 s, .*, so that it never acts: check" "$glass" -s "$(factor 'pulse: {until: 0.04 ns}')"
+says "a table in ps" "$early 4e-11 s, .*, so that it has its last value at once: check" "$glass" -s "$(factor 'table: [[0, 0], [0.04 ns, 1]]')"
+rigid() { echo "bodies=[{name: plate, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}, {name: jaw, rigid: true, velocity: [-1, 0], ramp: $1,
+    shape: {box: {from: [50 mm, -20 mm], to: [60 mm, 20 mm]}}}]"; }
+says "a ramp of a rigid body in ms" '^warning: body jaw: .* is 0.001 (by its ramp), below 0.1' "$glass" -s body= -s "$(rigid '40 ms')"
+silent "a ramp of a rigid body" 'by its ramp' "$glass" -s body= -s "$(rigid '40 us')"
+
+finish
