@@ -412,4 +412,5 @@ void cost_hints_list(const struct run *e, struct warnings *to)
     hint_frame(e, to);
     hint_method(e, to);
     hint_symmetry(e, to);
+    hint_idle_keys(e->scene, to);
 }

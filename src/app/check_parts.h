@@ -142,14 +142,21 @@ void print_face_off_axis(const struct run *e, const struct boundary *b);
  * (check_filled.c). */
 void print_filled_volume(const struct run *e);
 
+/* ---- check_idle.c ------------------------------------------------------------------------------------------------ */
+
+/* Adds one line with the keys that the scene gives and that have no effect in it, and lines for materials that no body
+ * consists of or whose bonds never break for want of bonds. A scene that gives all keys, as the scene.yaml of a run
+ * does, gets no line about keys. */
+void hint_idle_keys(const struct scene *s, struct warnings *to);
+
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
 /* Writes a line for each part of the scene that limits its accuracy, with the size of the error and a remedy. The run
  * has taken no step. */
 void print_accuracy_advice(const struct run *e, FILE *out);
 
-/* Adds a line for each setting of the scene that costs more than necessary, and for ends of cracks that are exactly on
- * bonds. The run has taken no step. */
+/* Adds a line for each setting of the scene that costs more than necessary or does nothing, and for ends of cracks that
+ * are exactly on bonds. The run has taken no step. */
 void cost_hints_list(const struct run *e, struct warnings *to);
 
 /* Returns by how much the stiffness of a part that is `layers` particle layers thick differs at most from that of the

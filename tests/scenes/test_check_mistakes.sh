@@ -80,4 +80,25 @@ rigid() { echo "bodies=[{name: plate, shape: {box: {from: [0, -20 mm], to: [50 m
 says "a ramp of a rigid body in ms" '^warning: body jaw: .* is 0.001 (by its ramp), below 0.1' "$glass" -s body= -s "$(rigid '40 ms')"
 silent "a ramp of a rigid body" 'by its ramp' "$glass" -s body= -s "$(rigid '40 us')"
 
+# ---- keys that do nothing ----------------------------------------------------------------------------------------------
+
+idle='keys that do nothing in this scene: '
+silent "no idle keys" "$idle" "$glass"
+says "keys of points" "^hints .*${idle}mpm.cell, mpm.frame (method pd has no material points)$" "$glass" -s boundary.up.traction='[0, 11 MPa]' -s mpm.cell=2 -s mpm.frame=current
+says "keys of bonds" "${idle}particles.horizon, model (method mpm has no bonds); contact.law (no particles with bonds are in contact)$" "$glass" -s method=mpm -s cracks=[] \
+    -s particles.horizon=3 -s model=bond -s contact.law=surface
+says "bonds that do not break" 'material material: its energy_release_rate, toughness or critical_stretch does nothing, as method mpm has no bonds' "$glass" \
+    -s method=mpm -s cracks=[]
+says "keys of conversion and solvers" "${idle}conversion.alpha, pd.region (only points of .*); solver_tolerance (solver: explicit does not iterate); time.safety (time.step is given); particles.seed (" \
+    "$glass" -s conversion.alpha=0.9 -s solver_tolerance=1e-3 -s time.step=0.1us -s time.safety=0.4 -s particles.seed=3 \
+    -s 'pd.region={box: {from: [0, 0], to: [1 mm, 1 mm]}}'
+says "time steps of an equilibrium" "${idle}time.safety (the solver makes no time steps); crack.speed_window (no crack grows in time)$" "$glass" -s solver=cg -s time.safety=0.4 \
+    -s crack.speed_window=1us
+silent "keys of an equilibrium" "$idle" "$glass" -s solver=cg -s solver_tolerance=1e-3 -s solver_steps=100
+says "a material of no body" 'material other: no body consists of it$' "$glass" -s material= -s body= \
+    -s 'materials=[{name: glass, young: 72 GPa, density: 2440}, {name: other, young: 72 GPa, density: 2440}]' \
+    -s 'bodies=[{name: a, material: glass, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}]'
+"$cleave" run "$glass" -q -o "$work/ran" -s output.frames=0 -s duration=3us >/dev/null 2>&1
+silent "the scene of a run, which gives all keys" "$idle" "$work/ran/scene.yaml"
+
 finish

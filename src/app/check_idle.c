@@ -1,0 +1,140 @@
+/* Hints at keys that a scene gives and that change nothing in it, and at materials that no body consists of. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "check_parts.h"
+
+static bool without_bonds(const struct scene *s) { return s->method == METHOD_MPM && !s->lattice_constants; }
+static bool without_points(const struct scene *s) { return s->method == METHOD_PD; }
+static bool without_conversion(const struct scene *s) { return s->method != METHOD_ADAPTIVE; }
+static bool without_solver(const struct scene *s) { return scene_is_dynamic(s); }
+static bool without_iterations(const struct scene *s) { return scene_has_load_steps(s); }
+static bool with_given_step(const struct scene *s) { return s->time_step > 0; }
+static bool with_regular_lattice(const struct scene *s) { return !(s->irregularity > 0); }
+static bool without_opening(const struct scene *s) { return s->steps.control != CONTROL_OPENING; }
+static bool without_tips(const struct scene *s) { return !scene_can_crack(s) || !scene_is_dynamic(s); }
+
+/* Returns true if the scene makes no time steps, neither from the start nor after an unstable crack increment. */
+static bool without_time_steps(const struct scene *s)
+{
+    return scene_is_single_equilibrium(s) || (scene_has_load_steps(s) && s->steps.then != THEN_EXPLICIT);
+}
+
+/* Returns true if no peridynamic particles can be in contact. */
+static bool without_contact(const struct scene *s)
+{
+    return s->method == METHOD_MPM || (s->contact_between == CONTACT_NONE && s->rigids == 0);
+}
+
+/* Keys, or groups of keys (which end with a point), that have no effect in scenes for which `idle` is true, and why.
+ * Keys with a warning of their own are left out: mpm.levels, mpm.fill, conversion.notch. */
+static const struct {
+    const char *keys;
+    bool (*idle)(const struct scene *s);
+    const char *why;
+} idle_keys[] = {
+    {"pd.|particles.horizon|model", without_bonds, "method mpm has no bonds"},
+    {"mpm.cell|mpm.shape|mpm.transfer|mpm.frame|mpm.strain|mpm.constants|mpm.origin", without_points,
+     "method pd has no material points"},
+    {"coupling|interface_damping|conversion.stress|conversion.alpha|conversion.block|conversion.criteria|"
+     "conversion.tips|conversion.reversion|conversion.hold_time|conversion.low_stress|pd.region|contact.convert",
+     without_conversion, "only points of method adaptive become peridynamic"},
+    {"contact.law|contact.distance|contact.stiffness", without_contact, "no particles with bonds are in contact"},
+    {"solver_tolerance|solver_steps", without_solver, "solver: explicit does not iterate"},
+    {"solver_steps", without_iterations, "load steps have their own limit"},
+    {"time.step|time.safety", without_time_steps, "the solver makes no time steps"},
+    {"time.safety", with_given_step, "time.step is given"},
+    {"particles.seed", with_regular_lattice, "particles.irregularity is 0"},
+    {"steps.from|steps.to|steps.opening", without_opening, "steps.control is not opening"},
+    {"crack.speed_window", without_tips, "no crack grows in time"},
+};
+
+/* Returns true if the key `name` is in a list of keys and groups that bars separate. */
+static bool key_listed(const char *keys, const char *name)
+{
+    for (const char *key = keys; *key; key += strspn(key, "|")) {
+        const size_t length = strcspn(key, "|");
+        const bool group = key[length - 1] == '.';
+        if (strncmp(key, name, length) == 0 && (group || name[length] == '\0')) return true;
+        key += length;
+    }
+    return false;
+}
+
+static bool scene_gives(const struct scene *s, const char *key)
+{
+    for (int64_t k = 0; k < s->key_places; k++)
+        if (strcmp(s->key_place[k].key, key) == 0) return true;
+    return false;
+}
+
+/* Returns true if the scene gives a key of every group, as the scene.yaml of a run does: it has all keys, whether they
+ * have an effect or not. */
+static bool scene_gives_all(const struct scene *s)
+{
+    static const char *const keys[] = {"solver_tolerance", "steps.number",     "pd.volume",  "mpm.cell",
+                                       "conversion.alpha", "contact.distance", "time.safety"};
+    bool all = true;
+    for (size_t k = 0; k < COUNT_OF(keys); k++) all = all && scene_gives(s, keys[k]);
+    return all;
+}
+
+/* Returns true if an earlier row of idle_keys than `row` names the key and is true for the scene. */
+static bool key_is_named_before(const struct scene *s, size_t row, const char *key)
+{
+    bool named = false;
+    for (size_t k = 0; k < row; k++) named = named || (idle_keys[k].idle(s) && key_listed(idle_keys[k].keys, key));
+    return named;
+}
+
+/* Appends to text[capacity], which has `used` characters, the given keys of row `row` of idle_keys and why they have no
+ * effect, if there are any. Returns the number of characters. */
+static size_t idle_row_append(const struct scene *s, size_t row, char *text, size_t capacity, size_t used)
+{
+    const size_t before = used;
+    for (int64_t k = 0; k < s->key_places && used + 300 < capacity; k++) {
+        const char *key = s->key_place[k].key;
+        if (!key_listed(idle_keys[row].keys, key) || key_is_named_before(s, row, key)) continue;
+        used += (size_t)snprintf(text + used, capacity - used, "%s%s",
+                                 used > before ? ", "
+                                 : before > 0  ? "; "
+                                               : "",
+                                 key);
+    }
+    if (used > before) used += (size_t)snprintf(text + used, capacity - used, " (%s)", idle_keys[row].why);
+    return used;
+}
+
+/* Adds a hint that names the materials whose bonds cannot break although the scene says when, as it has no bonds. */
+static void hint_unbreakable(const struct scene *s, struct warnings *to)
+{
+    for (int m = 0; m < s->materials && s->method == METHOD_MPM; m++)
+        if (isfinite(s->material[m].critical_stretch))
+            warnings_add(to,
+                         "material %s: its energy_release_rate, toughness or critical_stretch does nothing, as method "
+                         "mpm has no bonds that break: method: adaptive or pd has",
+                         s->material[m].name);
+}
+
+/* Adds a hint for each material that no body consists of. */
+static void hint_unused_materials(const struct scene *s, struct warnings *to)
+{
+    for (int m = 0; m < s->materials; m++) {
+        bool used = false;
+        for (int b = 0; b < s->bodies; b++) used = used || scene_body_has_material(&s->body[b], m);
+        if (!used) warnings_add(to, "material %s: no body consists of it", s->material[m].name);
+    }
+}
+
+void hint_idle_keys(const struct scene *s, struct warnings *to)
+{
+    char text[2000] = "";
+    size_t used = 0;
+    hint_unused_materials(s, to);
+    hint_unbreakable(s, to);
+    if (scene_gives_all(s)) return;
+    for (size_t row = 0; row < COUNT_OF(idle_keys); row++)
+        if (idle_keys[row].idle(s)) used = idle_row_append(s, row, text, sizeof text, used);
+    if (used > 0) warnings_add(to, "keys that do nothing in this scene: %s", text);
+}
