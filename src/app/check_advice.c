@@ -2,8 +2,8 @@
  * error. Limits and their basis:
  *
  *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are incomplete; how
- *                far its stiffness is off: first modes beside Ritz (`cleave bench accuracy=beam` and `=rod`), whose
- *                errors in frequency are half of that, and strips in tension
+ *                far its stiffness is off: strips and bars in pure bending, tension and torsion. First frequencies
+ *                (`cleave bench accuracy=beam` and `=rod`) are off by half of that
  *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from
  *                an interface, the group velocity of the shortest waves is off by a tenth
  *   stress       sigma = rho c v ahead of a part that moves with v; waves of both ends meet and reflect: four times
@@ -60,27 +60,43 @@ real solid_smallest_edge(const struct run *e, const struct solid *a)
     return real_min(least, solid_least_thickness(a, e->scene->dim));
 }
 
-/* Largest relative error of the stiffness of a thin peridynamic part in bending, twisting and tension [%], by its
- * number of particle layers: in 2D, in 3D. The columns are for bond-based and ospd models (`bonds`), for mospd
- * (`rotating`) and for families without correction at faces. Valid for horizons of 3.015 spacings and Poisson's ratios
- * up to 1/3. The first row applies to all thinner parts, the last row to all thicker ones. */
+/* Largest relative error of the stiffness of a thin peridynamic part [%] by its number of particle layers: in 2D and in
+ * 3D in bending and tension, in 3D in twisting. Measured as test_check_layers.sh does, in pure bending, tension and
+ * torsion of strips and square bars of 8 to 1 at a horizon of 3.015 spacings: `bond` at the Poisson's ratio of bonds,
+ * `ospd` and `mospd` at ratios from 0 to 1/3, `uncorrected` for bonds with pd.surface: none. The first row applies to
+ * all thinner parts, the last row to all thicker ones. */
+enum { OFF_PLANE, OFF_SOLID, OFF_TWISTED, OFFS };
 static const struct {
     double layers;
-    int bonds[2], rotating[2], uncorrected[2];
-} bending_off[] = {{3, {80, 80}, {64, 67}, {80, 80}},
-                   {4, {4, 21}, {18, 34}, {36, 51}},
-                   {5, {2, 12}, {10, 30}, {28, 48}},
-                   {7, {2, 8}, {3, 12}, {23, 39}},
-                   {10, {2, 6}, {2, 4}, {17, 31}}};
+    int bond[OFFS], ospd[OFFS], mospd[OFFS], uncorrected[OFFS];
+} stiffness_off[] = {
+    {3, {80, 80, 80}, {80, 85, 80}, {74, 67, 67}, {80, 80, 80}},
+    {4, {4, 6, 27}, {6, 6, 27}, {34, 39, 26}, {36, 46, 61}},
+    {5, {2, 3, 15}, {5, 4, 15}, {22, 10, 26}, {29, 39, 50}},
+    {7, {1, 2, 14}, {4, 3, 14}, {7, 9, 9}, {23, 30, 37}},
+    {10, {1, 1, 7}, {4, 3, 7}, {4, 5, 2}, {17, 22, 27}},
+};
 #define USUAL_HORIZON 0.5 /* largest difference of the horizon from 3.015 for this table [spacings] */
-int layer_stiffness_error(const struct scene *s, enum surface_rule surface, double layers)
+
+/* Returns the errors of the table for a part that is `layers` layers thick [OFFS, %]. surface: correction of bonds near
+ * faces. */
+static const int *stiffness_errors(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
-    while (row + 1 < COUNT_OF(bending_off) && layers > bending_off[row + 1].layers - 0.5) row++;
-    const int *off = surface != SURFACE_MOMENTS ? bending_off[row].uncorrected
-                     : s->model == MODEL_MOSPD  ? bending_off[row].rotating
-                                                : bending_off[row].bonds;
-    return off[s->dim > 2];
+    while (row + 1 < COUNT_OF(stiffness_off) && layers > stiffness_off[row + 1].layers - 0.5) row++;
+    if (surface != SURFACE_MOMENTS) return stiffness_off[row].uncorrected;
+    return s->model == MODEL_BOND   ? stiffness_off[row].bond
+           : s->model == MODEL_OSPD ? stiffness_off[row].ospd
+                                    : stiffness_off[row].mospd;
+}
+
+void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layers, FILE *out)
+{
+    const int *off = stiffness_errors(s, surface, layers);
+    if (s->dim < 3)
+        fprintf(out, "about %d %% in bending and tension", off[OFF_PLANE]);
+    else
+        fprintf(out, "about %d %% in bending and tension, %d %% in twisting", off[OFF_SOLID], off[OFF_TWISTED]);
 }
 
 /* Appends to a remark the largest error of the stiffness of a peridynamic part that is `layers` particles thick. */
@@ -88,11 +104,12 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
         fprintf(out, "; a single layer has no bending stiffness, and its stiffness in tension is off by up to %d %%",
-                layer_stiffness_error(s, s->surface, layers));
+                stiffness_errors(s, s->surface, layers)[s->dim < 3 ? OFF_PLANE : OFF_SOLID]);
         return;
     }
-    fprintf(out, "; as it is, its stiffness in bending, twisting and tension is off by up to about %d %%%s",
-            layer_stiffness_error(s, s->surface, layers),
+    fprintf(out, "; as it is, its stiffness is off by up to ");
+    print_stiffness_error(s, s->surface, layers, out);
+    fprintf(out, "%s",
             fabs(s->horizon - 3.015) <= USUAL_HORIZON ? ""
             : s->model == MODEL_MOSPD ? " at a horizon of 3.015 spacings, several times as much at others"
                                       : " at a horizon of 3.015 spacings, more at longer ones");

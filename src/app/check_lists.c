@@ -75,17 +75,15 @@ void print_particle_list_advice(const struct run *e, FILE *out)
         const int layers = thinnest(e, b);
         if (layers >= LAYERS_MOST) continue;
         fprintf(out,
-                "accuracy       body %s: parts of its list are %d layers thin: with pd.surface: %s their stiffness in "
-                "bending, twisting and tension is off by up to about %d %%; ",
-                s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none",
-                layer_stiffness_error(s, s->surface, layers));
-        if (s->body[b].list.lattice)
-            fprintf(out, "with pd.surface: moments by up to %d %%\n",
-                    layer_stiffness_error(s, SURFACE_MOMENTS, layers));
-        else
-            fprintf(out,
-                    "with pd.surface: moments by %d %%, but this requires a list that is a lattice (positions at whole "
-                    "spacings, volumes of spacing cubed or squared)\n",
-                    layer_stiffness_error(s, SURFACE_MOMENTS, layers));
+                "accuracy       body %s: parts of its list are %d layers thin: with pd.surface: %s their stiffness is "
+                "off by up to ",
+                s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none");
+        print_stiffness_error(s, s->surface, layers, out);
+        fprintf(out, "; with pd.surface: moments by ");
+        print_stiffness_error(s, SURFACE_MOMENTS, layers, out);
+        fprintf(out, "%s\n",
+                s->body[b].list.lattice ? ""
+                                        : ", but this requires a list that is a lattice (positions at whole spacings, "
+                                          "volumes of spacing cubed or squared)");
     }
 }

@@ -159,9 +159,10 @@ void print_accuracy_advice(const struct run *e, FILE *out);
  * are exactly on bonds. The run has taken no step. */
 void cost_hints_list(const struct run *e, struct warnings *to);
 
-/* Returns by how much the stiffness of a part that is `layers` particle layers thick differs at most from that of the
- * material in bending, twisting and tension [%], from a table. surface: correction of bonds near faces. */
-int layer_stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
+/* Writes by how much the stiffness of a part that is `layers` particle layers thick differs at most from that of the
+ * material: "about 2 % in bending and tension", in 3D also in twisting, from a table. surface: correction of bonds near
+ * faces. */
+void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layers, FILE *out);
 
 /* Writes a line for each body from a list that is no lattice and has thin parts (check_lists.c). */
 void print_particle_list_advice(const struct run *e, FILE *out);
