@@ -111,7 +111,7 @@ static inline void notched_make(struct body *b, struct crack_tips *t, real windo
     body_make(b, 2, (const int[]){40, 20});
     for (real x = 0.5; x < 9; x++) hurt(b, x, 10.5, 0), hurt(b, x, 9.5, 0);
     real corner[2][DIM_MAX] = {{-1, 10.5, 0}, {10, 10.5, 0}};
-    struct crack crack = {2, corner};
+    struct crack crack = {.n = 2, .corner = corner};
     tips_make(t, &b->p, &b->c, &crack, 1, 1, window);
 }
 

@@ -306,7 +306,8 @@ static void check_cut(const struct crack *c, const real *a, const real *b, int d
 static void cracks_cut_in_one_and_two_dimensions(void **state)
 {
     (void)state;
-    struct crack point = {1, (real[][DIM_MAX]){{1}}}, edge = {2, (real[][DIM_MAX]){{0, 0}, {2, 0}}};
+    struct crack point = {.n = 1, .corner = (real[][DIM_MAX]){{1}}},
+                 edge = {.n = 2, .corner = (real[][DIM_MAX]){{0, 0}, {2, 0}}};
     check_cut(&point, POINT(0.5), POINT(1.5), 1, true);
     check_cut(&point, POINT(0.5), POINT(0.7), 1, false);
     check_cut(&point, POINT(1), POINT(1.5), 1, false); /* on the crack counts as the positive side */
@@ -325,7 +326,7 @@ static void cracks_cut_in_one_and_two_dimensions(void **state)
     check_cut(&edge, POINT(0.5, -1.9e-9), POINT(1, -2.1e-9), 2, true); /* cut between them, but not elsewhere */
     check_cut(&edge, POINT(3, 0), POINT(3, -1), 2, false);             /* on the extension of the crack */
     check_cut(&edge, POINT(1, 1), POINT(1, 1), 2, false);
-    struct crack nothing = {2, (real[][DIM_MAX]){{1, 1}, {1, 1}}};
+    struct crack nothing = {.n = 2, .corner = (real[][DIM_MAX]){{1, 1}, {1, 1}}};
     check_cut(&nothing, POINT(0, 1), POINT(2, 1), 2, false);
 }
 
@@ -335,7 +336,7 @@ static void cracks_cut_in_three_dimensions(void **state)
     real corner[][DIM_MAX] = {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {1, 3, 1}, {0, 2, 1}}, back[5][DIM_MAX];
     for (int k = 0; k < 5; k++) memcpy(back[k], corner[4 - k], sizeof back[k]);
     for (int rotation = 0; rotation < 2; rotation++) { /* either orientation */
-        struct crack c = {5, rotation ? back : corner};
+        struct crack c = {.n = 5, .corner = rotation ? back : corner};
         check_cut(&c, POINT(1, 1, 0), POINT(1, 1, 2), 3, true);
         check_cut(&c, POINT(0.5, 2.5, 0), POINT(0.5, 2.5, 2), 3, true); /* on an oblique edge */
         check_cut(&c, POINT(0.4, 2.5, 0), POINT(0.4, 2.5, 2), 3, false);
@@ -344,7 +345,7 @@ static void cracks_cut_in_three_dimensions(void **state)
         check_cut(&c, POINT(3.01, 1, 0), POINT(2.01, 1, 3), 3, false);
         check_cut(&c, POINT(1, 1, 1.5), POINT(1, 1, 2), 3, false);
     }
-    check_cut(&(struct crack){2, corner}, POINT(1, 0, 0), POINT(1, 0, 2), 3, false);
+    check_cut(&(struct crack){.n = 2, .corner = corner}, POINT(1, 0, 0), POINT(1, 0, 2), 3, false);
 }
 
 /* A bond and its reverse give the same answer where round-off decides: bonds through the very end of the crack, which
@@ -352,7 +353,7 @@ static void cracks_cut_in_three_dimensions(void **state)
 static void cracks_are_symmetric_at_their_tips(void **state)
 {
     (void)state;
-    struct crack edge = {2, (real[][DIM_MAX]){{-0.1, 0.03}, {0.3, 0.7}}};
+    struct crack edge = {.n = 2, .corner = (real[][DIM_MAX]){{-0.1, 0.03}, {0.3, 0.7}}};
     int cut = 0;
     for (int k = 0; k < 20000; k++) {
         real angle = 1.1 + 1e-4 * k, far = 0.4 + 1e-5 * k; /* never along the crack, whose angle is 1.03 */

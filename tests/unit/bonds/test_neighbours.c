@@ -113,8 +113,10 @@ static real crack_corner[DIM_MAX + 1][4][DIM_MAX] = {
     {{-1e-3, 5.13e-3}, {6.37e-3, 5.91e-3}},
     {{-1e-3, -1e-3, 2.17e-3}, {4.1e-3, -1e-3, 2.23e-3}, {4.1e-3, 3.9e-3, 2.71e-3}, {-1e-3, 3.9e-3, 2.65e-3}},
 };
-static const struct crack crack[DIM_MAX + 1] = {
-    {0, NULL}, {1, crack_corner[1]}, {2, crack_corner[2]}, {4, crack_corner[3]}};
+static const struct crack crack[DIM_MAX + 1] = {{.n = 0},
+                                                {.n = 1, .corner = crack_corner[1]},
+                                                {.n = 2, .corner = crack_corner[2]},
+                                                {.n = 4, .corner = crack_corner[3]}};
 
 static void case_make(struct particle_cloud *c, const struct rows_case *k)
 {

@@ -35,7 +35,8 @@ static char *bonds_found;
 static char *script_of(const char *a, const char *b, const char *c, bool bond_style)
 {
     static const char *const file[] = {"plate.data", "in.lammps", "README.txt", "scene.yaml", "check.csv"};
-    const struct export_request r = {"scene.yaml", "out", NULL, 0, bond_style, true};
+    const struct export_request r = {
+        .scene = "scene.yaml", .folder = "out", .bond_style = bond_style, .allow_different = true};
     char *script;
     size_t length;
     FILE *to = fopen("scene.yaml", "w");

@@ -96,7 +96,7 @@ static void cracks_hide_particles(void **state)
     struct patch k;
     patch_make(&k, 13, 0, 1);
     real corner[2][DIM_MAX] = {{-20, 0.5, 0}, {0.5, 0.5, 0}};
-    const struct crack crack = {2, corner};
+    const struct crack crack = {.n = 2, .corner = corner};
     struct gradient_rule rule = {.reach = 1.5, .sight = {.crack = &crack, .cracks = 1}, .tip = {0.5, 0.5}};
     struct gradient_stencil s = {0};
     const real *const field[2] = {k.u[0], k.u[1]};
@@ -174,7 +174,7 @@ static void gradients_have_their_weights(void **state)
     static const real V[] = {1.3, 0.7, 2.9, 0.4};
     const real reach = 1.5, round = 2 * hypot(0.5, 0.3);
     real corner[2][DIM_MAX] = {{0.5, -20}, {0.5, 0.3}};
-    const struct crack crack = {2, corner};
+    const struct crack crack = {.n = 2, .corner = corner};
     for (int hidden = 0; hidden < 2; hidden++)
         for (int method = 0; method < 2; method++) {
             struct gradient_rule rule = {.method = method,
@@ -264,7 +264,7 @@ static void site_map_make(struct site_map *map, int edge, real degrees, const re
         map->v[d] = NEW("test.v", map->patch.p.n, real), map->a[d] = NEW("test.a", map->patch.p.n, real);
         map->rule.tip[d] = shift[d];
     }
-    map->crack = (struct crack){2, map->corner};
+    map->crack = (struct crack){.n = 2, .corner = map->corner};
     map->rule.reach = 1.5, map->rule.sight = (struct sight){.crack = &map->crack, .cracks = 1};
 }
 

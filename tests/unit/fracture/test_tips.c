@@ -20,7 +20,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
 
     /* Both ends inside: two tips; a second segment that continues the first removes their common end. */
     real first[2][DIM_MAX] = {{10, 10, 0}, {20, 10, 0}}, second[2][DIM_MAX] = {{20, 10, 0}, {25, 15, 0}};
-    struct crack crack[2] = {{2, first}, {2, second}};
+    struct crack crack[2] = {{.n = 2, .corner = first}, {.n = 2, .corner = second}};
     tips_make(&t, &b.p, &b.c, crack, 1, 1, 4);
     assert_int_equal(t.n, 2);
     assert_near(t.tip[0].along[0], -1, 0);
@@ -33,7 +33,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
 
     /* No tip if only a single particle is ahead of it. */
     real out[2][DIM_MAX] = {{30, 19.9, 0}, {39.2, 19.9, 0}};
-    struct crack outward = {2, out};
+    struct crack outward = {.n = 2, .corner = out};
     tips_make(&t, &b.p, &b.c, &outward, 1, 1, 4);
     assert_int_equal(t.n, 1);
     assert_near(t.tip[0].along[0], -1, 0);
@@ -132,7 +132,7 @@ static void tips_that_tie(void **state)
     struct body b;
     struct crack_tips t;
     real X[2][DIM_MAX] = {{15, 10, 0}, {25, 10, 0}};
-    struct crack crack = {2, X};
+    struct crack crack = {.n = 2, .corner = X};
     notched_make(&b, &t, 4);
     tips_free(&t);
     tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
@@ -274,7 +274,7 @@ static void tip_of_a_front(void **state)
     struct crack_tips t;
     body_make(&b, 3, (const int[]){12, 6, 6});
     real corner[4][DIM_MAX] = {{-1, 3, -20}, {5, 3, -20}, {5, 3, 8}, {-1, 3, 8}};
-    struct crack crack = {4, corner};
+    struct crack crack = {.n = 4, .corner = corner};
     tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
     assert_int_equal(t.n, 1);
     assert_near(t.tip[0].along[0], 1, 1e-15);
@@ -321,7 +321,7 @@ static void tips_area_of_a_front(void **state)
     struct crack_tips t;
     body_make(&b, 3, (const int[]){12, 6, 6});
     real corner[4][DIM_MAX] = {{-1, 3, -20}, {5, 3, -20}, {5, 3, 20}, {-1, 3, 20}};
-    struct crack crack = {4, corner};
+    struct crack crack = {.n = 4, .corner = corner};
     tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
     assert_int_equal(t.n, 1);
     assert_near(2 * t.tip[0].edge[2], 6, 1); /* ends are located in steps of a spacing */
@@ -357,7 +357,7 @@ static void tips_survive_a_restart(void **state)
     struct body b, fresh;
     struct crack_tips t, again;
     struct store s = {0};
-    struct archive a = {true, store_exchange, NULL, &s};
+    struct archive a = {.saving = true, .exchange = store_exchange, .file = &s};
     notched_make(&b, &t, 3);
     for (int k = 0; k < 6; k++) {
         hurt(&b, 10.5 + k, 10.5, 0);

@@ -23,7 +23,8 @@ static real parted(enum last_force rule, real step, real phase, real *fracture)
     const real stiffness = c.bonds.stiffness * c.bonds.w[bond_writable_index(&c.bonds, 0, 0, 0)] / CLOUD_SPACING;
     const real omega = sqrt(2 * stiffness / p->mass[0]), dt = step * 2 / omega;
     const real speed = omega * LIMIT * CLOUD_SPACING / sqrt(0.75), start = (phase - 1) * dt;
-    const struct bond_limit limit = {c.limit, CLOUD_MATERIALS, rule, dt};
+    const struct bond_limit limit = {
+        .critical_stretch = c.limit, .materials = CLOUD_MATERIALS, .last_force = rule, .dt = dt};
     p->x[0][1] += speed / omega * sin(omega * start);
     p->v[0][0] = 0, p->v[0][1] = speed * cos(omega * (start - 0.5 * dt));
     for (real t = start; t < 3 / omega; t += dt) {
@@ -108,7 +109,8 @@ static real burst_lost(int dim, enum pd_model model, bool local, real dt, real d
     struct burst b;
     burst_make(&b, dim, model, local);
     struct particles *p = &b.c.p;
-    const struct bond_limit limit = {b.c.limit, CLOUD_MATERIALS, LAST_FORCE_MOMENT, dt};
+    const struct bond_limit limit = {
+        .critical_stretch = b.c.limit, .materials = CLOUD_MATERIALS, .last_force = LAST_FORCE_MOMENT, .dt = dt};
     const real start = burst_kinetic(&b, p->v);
     real *before[DIM_MAX] = {0}, kinetic = start;
     int64_t broken = 0;

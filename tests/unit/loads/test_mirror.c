@@ -202,7 +202,7 @@ static void test_mirror_convert(void **state)
         if (fabs(fabs(whole->X[0][j]) - part->X[0][marked]) + fabs(fabs(whole->X[1][j]) - part->X[1][marked]) < 1e-9)
             whole->flag[j] |= FLAG_STRESSED;
     int looks[LOOKS_MOST] = {0};
-    const struct conversion_sync look = {count_looks, looks};
+    const struct conversion_sync look = {.sync = count_looks, .context = looks};
     int64_t converted =
         convert_flagged_points(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], &look, 1e-6);
     for (int64_t i = 0; i < part->n; i++) {
@@ -251,7 +251,10 @@ static void breaks_case(enum space space, enum pd_model model)
     kernels_choose(&kernels, dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
     for (int k = 0; k < 2; k++) {
         struct particles *p = &both[k]->p;
-        const struct bond_limit limit = {both[k]->limit, CLOUD_MATERIALS, LAST_FORCE_MOMENT, 1e-7};
+        const struct bond_limit limit = {.critical_stretch = both[k]->limit,
+                                         .materials = CLOUD_MATERIALS,
+                                         .last_force = LAST_FORCE_MOMENT,
+                                         .dt = 1e-7};
         for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) both[k]->limit[m] = 0.012;
         for (int64_t i = 0; i < p->n_all; i++)
             for (int d = 0; d < dim; d++) p->v[d][i] = 1e5 * p->X[d][i];

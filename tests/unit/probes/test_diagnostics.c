@@ -22,7 +22,7 @@ static void ledger_of_a_known_field(void **state)
     assert_near(particles_kinetic_energy(&b.p), kinetic, kinetic * ROUND_OFF);
     real none[DIM_MAX] = {0};
     diagnostics_update_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_update_energy_balance(&w, 0, &(struct energy){kinetic, 0, 0, 0, 0}, 0);
+    diagnostics_update_energy_balance(&w, 0, &(struct energy){.kinetic = kinetic}, 0);
     assert_near(w.now.momentum[0], 1600 * 3 * 2, 1e-9);
     assert_near(w.now.momentum[1], -1600 * 3, 1e-9);
     assert_near(w.now.balance_error, 0, 0);
@@ -32,20 +32,25 @@ static void ledger_of_a_known_field(void **state)
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[1][i] = 1;
     real impulse[DIM_MAX] = {0, 1600 * 3 * 2, 0};
     diagnostics_update_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_update_energy_balance(&w, 1, &(struct energy){kinetic, 2, 3, 0, 0}, 5);
+    diagnostics_update_energy_balance(&w, 1, &(struct energy){.kinetic = kinetic, .strain = 2, .plastic = 3}, 5);
     assert_true(w.now.momentum_error < 1e-13);
     assert_true(fabs(w.now.balance_error) < ROUND_OFF);
 
     /* An error of momentum is detected and remains recorded; so does an error of energy. */
     impulse[1] -= 0.01 * moving;
     diagnostics_update_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_update_energy_balance(
-        &w, 2, &(struct energy){kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.01 * kinetic}, 0);
+    diagnostics_update_energy_balance(&w, 2,
+                                      &(struct energy){.kinetic = kinetic,
+                                                       .strain = 0.03 * kinetic,
+                                                       .plastic = 0.03 * kinetic,
+                                                       .fracture = 0.03 * kinetic,
+                                                       .contact = 0.01 * kinetic},
+                                      0);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, 0.1 / 1.1, 1e-12);
     impulse[1] += 0.01 * moving;
     diagnostics_update_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_update_energy_balance(&w, 3, &(struct energy){kinetic, 0, 0, 0, 0}, 0.2 * kinetic);
+    diagnostics_update_energy_balance(&w, 3, &(struct energy){.kinetic = kinetic}, 0.2 * kinetic);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, -0.2 / 1.1, 1e-12);
     assert_near(w.now.time, 3, 0);
@@ -86,10 +91,10 @@ static void ledger_survives_a_restart(void **state)
     diagnostics_make(&restored);
     for (int i = 0; i < 2; i++) b.p.mass[i] = 1, b.p.v[0][i] = i == 0 ? 10 : -10;
     diagnostics_update_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_update_energy_balance(&w, 0, &(struct energy){100, 0, 0, 0, 0}, 0);
+    diagnostics_update_energy_balance(&w, 0, &(struct energy){.kinetic = 100}, 0);
     for (int i = 0; i < 2; i++) b.p.v[0][i] *= 0.1;
     diagnostics_update_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_update_energy_balance(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
+    diagnostics_update_energy_balance(&w, 1, &(struct energy){.kinetic = 1, .strain = 99}, 0);
     assert_int_equal(diagnostics_save_or_load(&w, &out), OK);
     in.saving = false, tape.used = 0;
     assert_int_equal(diagnostics_save_or_load(&restored, &in), OK);
@@ -97,7 +102,7 @@ static void ledger_survives_a_restart(void **state)
     for (int k = 0; k < 2; k++) {
         struct diagnostics *either = k == 0 ? &w : &restored;
         diagnostics_update_momentum(either, &b.p, NULL, 0, none);
-        diagnostics_update_energy_balance(either, 2, &(struct energy){1, 49, 0, 0, 0}, 0);
+        diagnostics_update_energy_balance(either, 2, &(struct energy){.kinetic = 1, .strain = 49}, 0);
         assert_near(either->now.momentum_error, 2.0 / 20, 1e-15);
         assert_near(either->now.balance_error, -0.5, 1e-15);
     }
@@ -180,7 +185,7 @@ static void first_break_is_booked_once(void **state)
 
     struct diagnostics again;
     struct store s = {0};
-    struct archive a = {true, store_exchange, NULL, &s};
+    struct archive a = {.saving = true, .exchange = store_exchange, .file = &s};
     diagnostics_make(&again);
     assert_ok(diagnostics_save_or_load(&w, &a));
     a.saving = false;

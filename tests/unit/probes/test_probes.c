@@ -144,7 +144,7 @@ static void probe_of_a_support(void **state)
         probes_update_every_step(&s, &o);
     }
     struct store store = {0};
-    struct archive a = {true, store_exchange, NULL, &store};
+    struct archive a = {.saving = true, .exchange = store_exchange, .file = &store};
     assert_ok(probes_save_or_load(&s, &a));
     a.saving = false;
     assert_ok(probes_make(&again, &request, 1, &o));

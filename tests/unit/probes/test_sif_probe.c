@@ -24,7 +24,7 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
     for (int k = 0; k < 2; k++) {
         p->material[k] = (struct material){.young = 75.629e9, .poisson = 0.286, .density = 2456};
         material_compute_derived_constants(&p->material[k], SPACE_PLANE_STRAIN);
-        p->crack[k] = (struct crack){2, p->corner[k]};
+        p->crack[k] = (struct crack){.n = 2, .corner = p->corner[k]};
     }
     p->corner[0][0][0] = -WIDTH, p->corner[0][0][1] = tip[1], p->corner[0][1][0] = tip[0], p->corner[0][1][1] = tip[1];
     p->corner[1][0][0] = tip[0] + 10, p->corner[1][1][0] = tip[0] + 10;
@@ -216,7 +216,7 @@ static void tip_in_motion(void **state)
         assert_near(value_of(now, "sif.K_II"), K[1], 5);
         assert_close(value_of(now, "sif.J"), (A[0] * K[0] * K[0] + A[1] * K[1] * K[1]) / m.modulus, 0.003);
         struct store store = {0};
-        struct archive a = {true, store_exchange, NULL, &store};
+        struct archive a = {.saving = true, .exchange = store_exchange, .file = &store};
         assert_ok(probes_save_or_load(&s, &a));
         a.saving = false;
         assert_ok(probes_save_or_load(&again, &a));
