@@ -142,6 +142,27 @@ static void advise_features(const struct run *e, FILE *out)
     }
 }
 
+/* Writes a remark for each solid that is subtracted from a body and is thinner than a spacing: it parts bonds but holds
+ * no row of particles. Images of voxels have no such size. */
+static void advise_narrow_holes(const struct run *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    for (int b = 0; b < s->bodies && s->dim > 1; b++) {
+        const struct region *shape = &s->body[b].shape;
+        for (int k = 1; k < shape->n && !s->body[b].file; k++) {
+            const real size = shape->solid[k].subtract ? solid_smallest_edge(e, &shape->solid[k]) : INFINITY;
+            if (size >= s->spacing) continue;
+            fprintf(
+                out,
+                "accuracy       body %s: solid %d of its shape, which is subtracted, is %.3g m thin, less than a "
+                "spacing of %.3g m: it acts as a slit of no width, which parts the particles on both sides; a spacing "
+                "of %s resolves it\n",
+                s->body[b].name, k + 1, size, s->spacing,
+                length_with_unit(two_digits_down(size / 4), 2, s->spacing).text);
+        }
+    }
+}
+
 /* Returns true if X [dim, m] is at a face of the shape that is curved or slanted to the axes: the normal of the face at
  * the points AROUND spacings from X along an axis is parallel to no axis. */
 static bool at_stepped_face(const struct scene *s, const struct region *shape, const real *X)
@@ -409,6 +430,7 @@ static void hint_symmetry(const struct run *e, struct warnings *to)
 void print_accuracy_advice(const struct run *e, FILE *out)
 {
     advise_features(e, out);
+    advise_narrow_holes(e, out);
     print_section_advice(e, out);
     advise_precracks(e->scene, e->fracture, out);
     print_incompressible_advice(e, out);
@@ -429,5 +451,6 @@ void cost_hints_list(const struct run *e, struct warnings *to)
     hint_frame(e, to);
     hint_method(e, to);
     hint_symmetry(e, to);
+    hint_signs(e, to);
     hint_idle_keys(e->scene, to);
 }

@@ -149,6 +149,11 @@ void print_filled_volume(const struct run *e);
  * does, gets no line about keys. */
 void hint_idle_keys(const struct scene *s, struct warnings *to);
 
+/* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
+
+/* Adds a line for each load whose sign, and for each setting whose size, is seldom meant. */
+void hint_signs(const struct run *e, struct warnings *to);
+
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
 /* Writes a line for each part of the scene that limits its accuracy, with the size of the error and a remedy. The run

@@ -49,6 +49,15 @@ static bool matter_agrees(const struct particles *p, const int32_t *twin)
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 
+/* Returns true if narrow voids, which part particles without removing one, are beside a particle where they are beside
+ * its mirror image. v: NULL: none. */
+static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
+{
+    for (int64_t i = 0; i < n && v; i++)
+        if (v->near[i] != v->near[twin[i]]) return false;
+    return true;
+}
+
 /* Returns a number that depends on the kind of a load and on its function of time. Different loads have different
  * numbers, and sums of them hardly ever agree by chance. */
 static real load_mark(const struct boundary *b)
@@ -210,7 +219,7 @@ bool scene_is_symmetric(const struct run *e, int axis, real *at)
         return false;
     int32_t *twin = NEW("check.twin", p->n, int32_t);
     const bool same = mirror_twins_find(e, axis, *at, twin) && matter_agrees(&e->part, twin) &&
-                      loads_agree(&e->part, &e->loads, axis, twin);
+                      voids_agree(e->source.voids, twin, p->n) && loads_agree(&e->part, &e->loads, axis, twin);
     memory_free(twin);
     return same;
 }

@@ -92,6 +92,13 @@ void engine_warn_of_useless_solids(const struct scene *s, struct warnings *to);
 /* Adds warnings to *to about bodies that move at the start and meet no other body within the duration. */
 void engine_warn_of_missed_encounters(const struct scene *s, const struct particles *p, struct warnings *to);
 
+/* Adds a warning to *to about each pair of bodies that overlap at the start. */
+void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *to);
+
+/* Adds warnings to *to about planes of symmetry that no body touches, and about initial states whose region holds no
+ * particle. */
+void engine_warn_of_idle_places(const struct scene *s, const struct particles *p, struct warnings *to);
+
 /* Adds warnings to *to about times of frames beyond the end of the run. */
 void engine_warn_of_late_frames(const struct scene *s, struct warnings *to);
 

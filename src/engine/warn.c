@@ -6,6 +6,7 @@
 #include "grid/grid_part.h"
 #include "mesh/mesh_part.h"
 #include "output/output.h"
+#include "data/extent.h"
 
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
@@ -161,12 +162,15 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
 }
 
 /* Warns of boundaries with prescribed motion that contain no particle. */
-static void warn_of_boundaries(const struct scene *s, const struct loads *l, struct warnings *to)
+static void warn_of_boundaries(const struct scene *s, const struct loads *l, const struct particles *p,
+                               struct warnings *to)
 {
     for (int b = 0; b < l->n; b++)
         if (l->load[b].n == 0 && s->boundary[b].kind == BOUNDARY_VELOCITY)
-            warnings_add(to, "boundary %s holds no particle%s", s->boundary[b].name,
-                         s->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
+            warnings_add(to, "boundary %s holds no particle%s; %s: check its region and the unit (mm?)",
+                         s->boundary[b].name,
+                         s->method == METHOD_PD ? "" : " and acts on grid nodes in its region only",
+                         particles_extent_text(p).text);
 }
 
 /* Warns of a time step above the critical time step, with which a dynamic run is unstable. */
@@ -224,10 +228,12 @@ void engine_warn_of_suspicious_input(struct run *e)
     engine_warn_of_useless_solids(s, to);
     engine_warn_of_uncorrected_faces(s, &e->part, &e->tables.surface, to);
     engine_warn_of_missed_encounters(s, &e->part, to);
+    engine_warn_of_overlaps(s, &e->part, to);
+    engine_warn_of_idle_places(s, &e->part, to);
     engine_warn_of_late_frames(s, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);
-    warn_of_boundaries(s, &e->loads, to);
+    warn_of_boundaries(s, &e->loads, &e->part, to);
     engine_warn_of_useless_cracks(s, &e->part, &e->bonds, e->source.family.cutoff, to);
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->warn) (*p)->warn(e, to);

@@ -92,10 +92,40 @@ static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
                                                    "critical_stretch");
 }
 
+/* Warns of cracks with prescribed growth that begin outside of all bodies or after the end of the run, grow by less
+ * than a spacing, or grow faster than Rayleigh waves. */
+static void warn_of_growths(const struct scene *s, const struct particles *p, struct warnings *to)
+{
+    real rayleigh = 0;
+    for (int m = 0; m < s->materials; m++) rayleigh = real_max(rayleigh, s->material[m].rayleigh_speed);
+    for (int k = 0; k < s->growths; k++) {
+        const struct growth_rule *g = &s->growth[k];
+        const real outside = particle_distance(p, g->at), growth = g->speed * (s->duration - g->start);
+        if (outside > s->horizon * s->spacing && p->n == p->n_body)
+            warnings_add(to,
+                         "growth %s: its tip starts %.3g m from the nearest particle: check `at` and its unit (mm?)",
+                         g->name, outside);
+        if (g->start >= s->duration)
+            warnings_add(to, "growth %s: starts at %.3g s, but the duration is %.3g s: check the unit of start (us?)",
+                         g->name, g->start, s->duration);
+        else if (growth < s->spacing)
+            warnings_add(to,
+                         "growth %s: at %.3g m/s it grows by %.3g m in the run, less than a spacing of %.3g m: check "
+                         "the units of speed (m/s) and duration",
+                         g->name, g->speed, growth, s->spacing);
+        if (g->speed > rayleigh && rayleigh > 0 && !scene_silences_warning(s, ACCEPT_RAYLEIGH))
+            warnings_add(to,
+                         "growth %s: %.3g m/s is %.3g times the speed of Rayleigh waves, %.4g m/s, which a crack that "
+                         "opens does not pass: check the unit of speed (m/s); if this is meant: accept: [rayleigh]",
+                         g->name, g->speed, g->speed / rayleigh, rayleigh);
+    }
+}
+
 void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,
                                    struct warnings *to)
 {
     warn_of_unbreakable(s, to);
+    warn_of_growths(s, p, to);
     if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, reach, to)) return;
     if (!bonds_are_cut(b)) warnings_add(to, "the pre-cracks cut no bond: check that they are inside the body");
 }

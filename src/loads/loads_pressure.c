@@ -12,6 +12,7 @@
 #include "loads/loads.h"
 #include "loads_surface.h"
 #include "base/memory.h"
+#include "data/extent.h"
 
 /* Parameters of end_found, which receives the free ends of columns of particles along one axis. */
 struct ends {
@@ -115,7 +116,8 @@ status load_find_pressure_faces(struct load *l, const struct boundary *boundary,
     struct pressed pressed = {area, follows ? &faces : NULL};
     if (any) pressure_visit_faces(boundary, boundaries, number, p, spacing, selected, face_pressed, &pressed);
     if (!any)
-        s = status_set(REFUSED, "boundary %s: no particle is in its region", b->name);
+        s = status_set(REFUSED, "boundary %s: no particle is in its region; %s: check the region and its unit (mm?)",
+                       b->name, particles_extent_text(p).text);
     else if (follows)
         s = load_surface_make(l, &faces, boundary, boundaries, p, spacing);
     else if (!pressure_shares(l, p, area))

@@ -3,6 +3,7 @@
 
 #include "loads/loads.h"
 #include "base/memory.h"
+#include "data/extent.h"
 
 /* Returns true if particle i is in the region and body of boundary b, by its reference position. spacing: lattice
  * spacing, to which the tolerance of the region refers [m]. */
@@ -153,7 +154,8 @@ status load_find_particles(struct load *l, const struct boundary *b, struct part
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
     if (!any && (boundary_applies_force(b) || needs_face(b)))
-        return status_set(REFUSED, "boundary %s: no particle is in its region", b->name);
+        return status_set(REFUSED, "boundary %s: no particle is in its region; %s: check the region and its unit (mm?)",
+                          b->name, particles_extent_text(p).text);
     if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,
                       "boundary %s: other particles of the body are in front of every particle in its region, seen "

@@ -1,5 +1,6 @@
 /* Probes: their particles, their updates in every step, and their columns of the history. */
 #include "probes/probes.h"
+#include "data/extent.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -119,8 +120,9 @@ static status bind_point(struct probe *q, const struct observed_run *o)
     q->list = NEW("probes.list", 1, int32_t);
     q->list[q->n++] = particle_nearest(o, q->request.at);
     if (q->list[0] >= 0) return OK;
-    return status_set(REFUSED, "probe \"%s\": the point (%s) m is outside the bodies", q->request.name,
-                      position_text(q->request.at, o->part->dim, 6).text);
+    return status_set(
+        REFUSED, "probe \"%s\": the point (%s) m is outside the bodies; %s: check its coordinates and their unit (mm?)",
+        q->request.name, position_text(q->request.at, o->part->dim, 6).text, particles_extent_text(o->part).text);
 }
 
 /* Sets the particle list of a LINE probe to the particles nearest to its stations (equidistant points from one end to
@@ -139,7 +141,9 @@ static status bind_line(struct probe *q, const struct observed_run *o)
         inside += q->list[q->n] >= 0;
     }
     if (inside > 0) return OK;
-    return status_set(REFUSED, "probe \"%s\": the whole line is outside the bodies", q->request.name);
+    return status_set(REFUSED,
+                      "probe \"%s\": the whole line is outside the bodies; %s: check its ends and their unit (mm?)",
+                      q->request.name, particles_extent_text(o->part).text);
 }
 
 /* Sets the particle list of a probe to the particles in its region, including those on its surface within round-off.

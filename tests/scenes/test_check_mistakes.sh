@@ -1,7 +1,7 @@
 #!/bin/sh
 # Gross mistakes of a scene, each made on purpose: `cleave check` refuses it or warns of it, with a number and a way out, and is silent about
 # the scene without it.
-# Takes 15 s: 70 scenes are set up.
+# Takes 20 s: 80 scenes are set up.
 test_name=test_check_mistakes
 . tests/support/summary.sh
 
@@ -100,5 +100,50 @@ says "a material of no body" 'material other: no body consists of it$' "$glass" 
     -s 'bodies=[{name: a, material: glass, shape: {box: {from: [0, -20 mm], to: [50 mm, 20 mm]}}}]'
 "$cleave" run "$glass" -q -o "$work/ran" -s output.frames=0 -s duration=3us >/dev/null 2>&1
 silent "the scene of a run, which gives all keys" "$idle" "$work/ran/scene.yaml"
+
+# ---- places and signs --------------------------------------------------------------------------------------------------
+
+between='the particles are between (0.0005, -0.0195) and (0.0495, 0.0195) m: check'
+box() { echo "box: {from: [$1], to: [$2]}"; }
+refuses "a probe outside" "the point (10, 5) m is outside the bodies; $between its coordinates and their unit (mm?)" "$glass" -s 'probes=[{point: {name: p, at: [10, 5]}}]'
+refuses "a line outside" "the whole line is outside the bodies; $between its ends" "$glass" -s 'probes=[{line: {name: p, from: [10, 5], to: [20, 5], points: 3}}]'
+refuses "a load outside" "boundary up: no particle is in its region; $between the region and its unit (mm?)" "$glass" -s "boundary.up.region={$(box '100, 0' '200, 50')}"
+refuses "a pressure outside" "boundary p: no particle is in its region; $between the region" "$glass" -s "boundary=[{name: p, pressure: 1 MPa, region: {$(box '100, 0' '200, 50')}}]"
+says "a support outside" "^warning: boundary f holds no particle; $between its region and the unit (mm?)$" "$glass" \
+    -s "boundary=[{name: up, traction: [0, 12 MPa], face: y+}, {name: f, fixed: all, region: {$(box '100, 0' '200, 50')}}]"
+says "a velocity outside" "^warning: initial\[0\]: no particle is in its region; $between the region" "$glass" -s "initial=[{velocity: [1, 0], region: {$(box '100, 0' '200, 50')}}]"
+silent "a velocity inside" 'initial' "$glass" -s "initial=[{velocity: [0.1, 0], region: {$(box '0, 0' '1 mm, 1 mm')}}]"
+says "a plane of symmetry beside the body" "^warning: boundary m: its plane of symmetry y = -0.03 m is 0.0105 m from the nearest particle and does nothing; $between" "$glass" \
+    -s 'boundary.down={name: m, mirror: {axis: y, at: -30 mm}}' -s cracks=[]
+silent "a plane of symmetry at the body" 'does nothing' "$glass" -s 'boundary.down={name: m, mirror: {axis: y, at: -20 mm}}' -s cracks=[]
+# Rows of the second body are 0.4 spacings beside those of the first, from 10 mm inside it on.
+two() { echo "bodies=[{name: a, shape: {$(box '0, -20 mm' '50 mm, 20 mm')}}, {name: b, shape: {$(box "$1, -19.6 mm" '90 mm, 20 mm')}}]"; }
+says "bodies that overlap" '^warning: bodies b and a overlap: 400 particles of b are inside a, the deepest by 0.0093 m at (0.0407, -0.0103) m: move one body, or subtract' "$glass" \
+    -s body= -s "$(two '40.4 mm')"
+silent "bodies that overlap on purpose" 'overlap' "$glass" -s body= -s "$(two '40.4 mm')" -s 'accept=[contact]'
+silent "bodies that touch" 'overlap' "$glass" -s body= -s "$(two '50 mm')"
+grown() { echo "growth=[{at: [$1, 0], direction: [1, 0], speed: $2, start: $3}]"; }
+says "growth outside" '^warning: growth growth0: its tip starts 24.9 m from the nearest particle' "$glass" -s "$(grown 24.9 '500 m/s' 0)"
+says "growth after the end" '^warning: growth growth0: starts at 0.01 s, but the duration is 4e-05 s' "$glass" -s "$(grown '24.9 mm' '500 m/s' '10 ms')"
+says "growth by nothing" '^warning: growth growth0: at 0.5 m/s it grows by 2e-05 m in the run, less than a spacing of 0.001 m' "$glass" -s "$(grown '24.9 mm' '0.5 m/s' 0)"
+says "growth in mm/us" '^warning: growth growth0: 5e+05 m/s is 163 times the speed of Rayleigh waves, 3058 m/s' "$glass" -s "$(grown '24.9 mm' '500 mm/us' 0)"
+silent "growth" 'growth' "$glass" -s "$(grown '24.9 mm' '500 m/s' 0)"
+pressed() { echo "boundary=[{name: p, pressure: $1, region: {$(box '-inf, 19 mm' 'inf, inf')}}]"; }
+says "a pressure that pulls" 'hints .*boundary p: a pressure of -1.2e+07 Pa is negative and pulls the faces outwards' "$glass" -s "$(pressed '-12 MPa')"
+silent "a pressure" 'pulls' "$glass" -s "$(pressed '12 MPa')"
+says "tractions of one direction" 'boundaries up and down: tractions of 1.2e+07 and 1.2e+07 Pa along y on opposite faces push the body one way' "$glass" \
+    -s boundary.down.traction='[0, 12 MPa]'
+slot() { echo "body=[{$(box '0, -20 mm' '50 mm, 20 mm')}, {subtract: {$1}}]"; }
+thin='accuracy  *body body: solid 2 of its shape, which is subtracted, is'
+says "a slot narrower than a spacing" "$thin 0.0004 m thin, less than a spacing of 0.001 m: .*; a spacing of 0.1 mm resolves it$" "$glass" -s cracks=[] \
+    -s "$(slot "$(box '0, -0.2 mm' '25 mm, 0.2 mm')")"
+holds "a slot of half the width is not symmetric about the middle" sh -c "! grep -q 'symmetric about x' '$work/said'"
+says "a hole smaller than a spacing" "$thin 0.0006 m thin" "$glass" -s cracks=[] -s "$(slot 'disc: {centre: [25 mm, 0], radius: 0.3 mm}')"
+silent "a slot of four spacings" "$thin" "$glass" -s cracks=[] -s "$(slot "$(box '0, -2 mm' '25 mm, 2 mm')")"
+says "friction in percent" 'contact.friction: 30 is above 3; dry solids have 0.1 to 1.5' "$glass" -s contact.friction=30
+says "gravity in mm/s^2 by 10" 'gravity: 9.81e+04 m/s^2 is 1e+04 times that of the Earth' "$glass" -s 'gravity=[0, -98100]'
+says "a crack wider than the body" 'crack 1: its width of 5 m is larger than the bodies, 0.05 m' "$glass" -s 'cracks=[{from: [0, 0], to: [24.9 mm, 0], width: 5}]'
+says "damping that stops all" 'damping: at 1e+09 1/s motion dies out within 2 time steps' "$glass" -s damping=1e9
+silent "friction, gravity and damping of use" 'is above 3\|of the Earth\|dies out' "$glass" -s contact.friction=0.5 -s 'gravity=[0, -9.81]' -s damping=1e3
 
 finish

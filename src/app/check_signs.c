@@ -1,0 +1,66 @@
+/* Hints at loads whose sign, and at settings whose size, is seldom meant. */
+#include <math.h>
+
+#include "check_parts.h"
+#include "probes/probes_part.h"
+
+#define FRICTION_MOST 3.0   /* coefficient; dry metals in vacuum have 1 to 2 */
+#define EARTH 9.81          /* [m/s^2] */
+#define GRAVITY_MOST 1000.0 /* over that of the Earth; centrifuges of geotechnics have up to 300 */
+#define DAMPING_MOST 0.1    /* c times the time step */
+
+/* Returns true if the components of a boundary are given as numbers. */
+static bool is_number(const struct boundary *b) { return b->formula[0].n + b->formula[1].n + b->formula[2].n == 0; }
+
+/* Adds a hint for each pressure that is negative, and for each pair of tractions on opposite faces that point in the
+ * same direction along their normals. */
+static void hint_pushed(const struct scene *s, struct warnings *to)
+{
+    for (int k = 0; k < s->boundaries; k++) {
+        const struct boundary *a = &s->boundary[k];
+        if (a->kind == BOUNDARY_PRESSURE && is_number(a) && a->value[0] < 0)
+            warnings_add(to,
+                         "boundary %s: a pressure of %.3g Pa is negative and pulls the faces outwards; one that pushes "
+                         "is positive",
+                         a->name, a->value[0]);
+        for (int m = 0; m < k && a->kind == BOUNDARY_TRACTION && is_number(a); m++) {
+            const struct boundary *b = &s->boundary[m];
+            if (b->kind != BOUNDARY_TRACTION || !is_number(b) || b->face != a->face || b->side != -a->side) continue;
+            if (!(a->value[a->face] * b->value[a->face] > 0) || a->body != b->body) continue;
+            warnings_add(to,
+                         "boundaries %s and %s: tractions of %.3g and %.3g Pa along %c on opposite faces push the body "
+                         "one way; those that stretch it have opposite signs",
+                         b->name, a->name, b->value[a->face], a->value[a->face], "xyz"[a->face]);
+        }
+    }
+}
+
+/* Adds a hint for friction, gravity, damping and widths of cracks that are larger than any that is known. */
+static void hint_sizes(const struct run *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    const real gravity = sqrt(dot(s->gravity, s->gravity, s->dim)) / EARTH;
+    const real longest = particles_bounding_box_longest_edge(&e->part) + s->spacing;
+    if (s->contact_friction > FRICTION_MOST)
+        warnings_add(to, "contact.friction: %.3g is above %.2g; dry solids have 0.1 to 1.5 (%%?)", s->contact_friction,
+                     FRICTION_MOST);
+    if (gravity > GRAVITY_MOST)
+        warnings_add(to, "gravity: %.3g m/s^2 is %.3g times that of the Earth; check its unit (m/s^2)", gravity * EARTH,
+                     gravity);
+    if (s->damping * e->clock.dt > DAMPING_MOST && scene_is_dynamic(s))
+        warnings_add(
+            to,
+            "damping: at %.3g 1/s motion dies out within %.3g time steps, so that nothing moves; vibrations of "
+            "period T need about 1/T",
+            s->damping, 1 / (s->damping * e->clock.dt));
+    for (int k = 0; k < s->cracks_given; k++)
+        if (s->crack[k].width > longest)
+            warnings_add(to, "crack %d: its width of %.3g m is larger than the bodies, %.3g m; check its unit (mm?)",
+                         k + 1, s->crack[k].width, longest);
+}
+
+void hint_signs(const struct run *e, struct warnings *to)
+{
+    hint_pushed(e->scene, to);
+    hint_sizes(e, to);
+}

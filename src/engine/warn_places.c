@@ -1,0 +1,105 @@
+/* Warns of bodies that overlap, and of planes of symmetry and initial states that are beside the bodies. */
+#include <math.h>
+
+#include "data/extent.h"
+#include "engine_internal.h"
+
+enum { COMPARED_MOST = 64 }; /* largest number of bodies that are compared in pairs */
+#define DEEP 0.25            /* depth inside another body from which on a particle counts [spacings] */
+#define BESIDE                                                                                                         \
+    1.0 /* distance of a plane of symmetry from the nearest particle at which they do not touch [spacings]             \
+         */
+
+/* Particles of a body that are inside another one: their number, the deepest, and its distance from the surface [m]. */
+struct overlap {
+    int64_t n, deepest;
+    real depth;
+};
+
+/* Returns the particles of body a that are inside the shape of body b by more than `least` [m]; none if b is a list of
+ * particles, whose surface is not known, or has no finite box. */
+static struct overlap body_overlap(const struct scene *s, const struct particles *p, int a, int b, real least)
+{
+    const struct region *shape = &s->body[b].shape;
+    struct overlap found = {0};
+    real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX];
+    if (s->body[b].file || shape->n == 0 || !region_bounding_box(shape, s->dim, low, high)) return found;
+    for (int64_t i = 0; i < p->n; i++) {
+        bool near = p->body[i] == a;
+        for (int d = 0; d < s->dim && near; d++) near = p->X[d][i] > low[d] && p->X[d][i] < high[d];
+        if (!near) continue;
+        real X[DIM_MAX];
+        particle_reference_position(p, i, X);
+        if (!region_contains(shape, X, s->dim, 0)) continue;
+        const real depth = -region_distance(shape, X, s->dim, normal);
+        if (!(depth > least)) continue;
+        if (depth > found.depth) found.depth = depth, found.deepest = i;
+        found.n++;
+    }
+    return found;
+}
+
+/* Warns of the overlap of body `inner` with body `outer`, in which particles of it are. */
+static void warn_of_overlap(const struct scene *s, const struct particles *p, int inner, int outer,
+                            const struct overlap *found, struct warnings *to)
+{
+    const char *name = s->body[inner].name, *other = s->body[outer].name;
+    warnings_add(
+        to,
+        "bodies %s and %s overlap: %lld particles of %s are inside %s, the deepest by %.3g m at (%s) m: move one "
+        "body, or subtract its shape from the other; if this is meant: accept: [contact]",
+        name, other, (long long)found->n, name, other, found->depth, particle_position_text(p, found->deepest, 4).text);
+}
+
+void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *to)
+{
+    const real least = (DEEP + 0.5 * s->irregularity) * s->spacing;
+    if (s->bodies > COMPARED_MOST || scene_silences_warning(s, ACCEPT_CONTACT)) return;
+    for (int a = 0; a < s->bodies; a++)
+        for (int b = 0; b < a; b++) {
+            const struct overlap first = body_overlap(s, p, b, a, least), second = body_overlap(s, p, a, b, least);
+            if (first.n > 0 && first.n >= second.n)
+                warn_of_overlap(s, p, b, a, &first, to);
+            else if (second.n > 0)
+                warn_of_overlap(s, p, a, b, &second, to);
+        }
+}
+
+/* Returns true if entry k of `initial` changes the state of a particle. */
+static bool initial_is_met(const struct scene *s, const struct particles *p, int k)
+{
+    const struct scene_initial *initial = &s->initial[k];
+    bool met = initial->sets_pulse || p->n < p->n_body; /* cells without particles may be in the region */
+    for (int64_t i = 0; i < p->n && !met; i++) {
+        real X[DIM_MAX];
+        if (initial->body >= 0 && p->body[i] != initial->body) continue;
+        particle_reference_position(p, i, X);
+        met = initial->region.n == 0 || region_contains(&initial->region, X, s->dim, 0);
+    }
+    return met;
+}
+
+/* Returns the distance of the plane of a mirror from the nearest particle [m]. */
+static real mirror_distance(const struct particles *p, const struct boundary *b)
+{
+    real low, high;
+    particles_coordinate_range(p, p->n, b->axis, &low, &high);
+    return real_max(low - b->at, b->at - high);
+}
+
+void engine_warn_of_idle_places(const struct scene *s, const struct particles *p, struct warnings *to)
+{
+    for (int b = 0; b < s->boundaries && s->method == METHOD_PD && p->n > 0; b++) {
+        const struct boundary *mirror = &s->boundary[b];
+        if (mirror->kind != BOUNDARY_MIRROR || !(mirror_distance(p, mirror) > BESIDE * s->spacing)) continue;
+        warnings_add(to,
+                     "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle and does "
+                     "nothing; %s: check its position and the unit (mm?)",
+                     mirror->name, "xyz"[mirror->axis], mirror -> at, mirror_distance(p, mirror),
+                     particles_extent_text(p).text);
+    }
+    for (int k = 0; k < s->initials; k++)
+        if (!initial_is_met(s, p, k))
+            warnings_add(to, "initial[%d]: no particle is in its region; %s: check the region and its unit (mm?)", k,
+                         particles_extent_text(p).text);
+}
