@@ -144,6 +144,9 @@ says "friction in percent" 'contact.friction: 30 is above 3; dry solids have 0.1
 says "gravity in mm/s^2 by 10" 'gravity: 9.81e+04 m/s^2 is 1e+04 times that of the Earth' "$glass" -s 'gravity=[0, -98100]'
 says "a crack wider than the body" 'crack 1: its width of 5 m is larger than the bodies, 0.05 m' "$glass" -s 'cracks=[{from: [0, 0], to: [24.9 mm, 0], width: 5}]'
 says "damping that stops all" 'damping: at 1e+09 1/s motion dies out within 2 time steps' "$glass" -s damping=1e9
+says "frames that fill a disk" 'output.frames: 1[0-9]* frames of 50000 particles take about [345][0-9] GB of disk' "$glass" -s particles.spacing=0.2mm -s duration=400us \
+    -s output.frames=100000
+silent "some frames" 'GB of disk' "$glass" -s output.frames=1000
 silent "friction, gravity and damping of use" 'is above 3\|of the Earth\|dies out' "$glass" -s contact.friction=0.5 -s 'gravity=[0, -9.81]' -s damping=1e3
 
 finish
