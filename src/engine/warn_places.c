@@ -17,13 +17,14 @@ struct overlap {
 };
 
 /* Returns the particles of body a that are inside the shape of body b by more than `least` [m]; none if b is a list of
- * particles, whose surface is not known, or has no finite box. */
+ * particles, whose surface is not known, or has a box with an infinite side. */
 static struct overlap body_overlap(const struct scene *s, const struct particles *p, int a, int b, real least)
 {
     const struct region *shape = &s->body[b].shape;
     struct overlap found = {0};
     real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX];
-    if (s->body[b].file || shape->n == 0 || !region_bounding_box(shape, s->dim, low, high)) return found;
+    if (s->body[b].file || shape->n == 0 || region_has_infinite_box(shape, s->dim)) return found;
+    if (!region_bounding_box(shape, s->dim, low, high)) return found;
     for (int64_t i = 0; i < p->n; i++) {
         bool near = p->body[i] == a;
         for (int d = 0; d < s->dim && near; d++) near = p->X[d][i] > low[d] && p->X[d][i] < high[d];
