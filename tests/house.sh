@@ -1,6 +1,6 @@
 #!/bin/sh
 # Checks the rules of src/README.md that a machine can check: rooms include and call only what lies below them; lines, functions and files
-# keep their limits; names of functions are unique; comments name existing files.
+# keep their limits; names of functions are unique; comments and src/README.md name what exists.
 test_name=house
 . tests/support/summary.sh
 
@@ -188,5 +188,12 @@ awk 'function look(text) { while (match(text, /[A-Za-z0-9_]+\.(c|h|sh)([^A-Za-z0
           rest = substr(rest, k + 2); inside = 1 } }' $sources | sort -u |
     awk 'NR == FNR { known[$0] = 1; next } !($1 in known) { print $2 ": " $1 }' "$work/files" - >"$found"
 nothing "comments that name no file"
+
+# Names that src/README.md sets as code: a word with underscores is an identifier or the stem of a file, X.c or X.sh is a file.
+grep -o '`[^`]*`' src/README.md >"$work/set_as_code"
+grep -oE '\b[a-z][a-z0-9]*(_[a-z0-9]+)+\b' "$work/set_as_code" | sort -u >"$work/words"
+{ grep -ohwF -f "$work/words" -r $sources tests inputs Makefile; sed 's/\.[a-z]*$//' "$work/files"; } | sort -u | comm -23 "$work/words" - >"$found"
+grep -oE '\b[a-z][a-z0-9_]*\.(c|h|sh|txt|js|html|css)\b' "$work/set_as_code" | sort -u | comm -23 - "$work/files" >>"$found"
+nothing "names in src/README.md that the program does not have"
 
 finish

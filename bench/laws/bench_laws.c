@@ -16,7 +16,7 @@
 
 /* clang-format off */
 const struct laws_case laws_cases[] = {
-    {"bar, Voce 200 + 150 (1 - exp(-20 a)) MPa", SUM, laws_voce, false, {0},
+    {"bar, Voce 200 + 150 (1 - exp(-20 a)) MPa", SUM, laws_hardening, false, {FLOW_VOCE},
      {{"stress at 0.01", "MPa", 224.403, 6e-4}, {"stress at 0.05", "MPa", 293.176, 6e-4},
       {"plastic work", "MJ/m^3", 12.3281, 1e-4}}},
     {"bar, table 200, 260, 320 MPa", "the lines 200 + 6000 a, 245 + 1500 a, 320", laws_table, false, {0},

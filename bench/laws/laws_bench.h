@@ -58,7 +58,8 @@ real laws_elastic_energy(const struct law *m, const struct law_points *p);
 double laws_cycled_energy(const struct law *m, enum space space);
 
 /* Cases: an element in tension, cycled, or heated, in explicit steps. */
-status laws_voce(const struct laws_case *c, double *found);
+status laws_hardening(const struct laws_case *c, double *found); /* given: enum flow, with the constants of laws_steel;
+    found: stress at the strains 0.01 and 0.05 [MPa], plastic work up to 0.05 [MJ/m^3] */
 status laws_table(const struct laws_case *c, double *found);
 status laws_prager(const struct laws_case *c, double *found);
 status laws_armstrong_frederick(const struct laws_case *c, double *found);

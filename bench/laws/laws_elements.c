@@ -132,10 +132,9 @@ static void bar_pull(const struct law *m, struct law_points *p, real *strain, re
     }
 }
 
-status laws_voce(const struct laws_case *c, double *found)
+status laws_hardening(const struct laws_case *c, double *found)
 {
-    (void)c;
-    const struct law m = laws_steel(FLOW_VOCE);
+    const struct law m = laws_steel((enum flow)c->given[0]);
     struct law_points p = laws_points_at_rest();
     real strain = 0;
     bar_load(&m, &p, &strain, 0.01, 10000);

@@ -6,11 +6,31 @@
 
 #include "base/base.h"
 
-/* The flow laws, one row a law: its name in `enum flow`, and in the names of its functions, which a header of its own
- * in kernels/laws declares. */
-#define FLOWS(X) X(LINEAR, linear) X(VOCE, voce) X(POWER, power) X(TABLE, table) X(JOHNSON_COOK, johnson_cook)
-#define FLOW_NAME(upper, lower) FLOW_##upper,
+/* clang-format off */
+/* The flow laws, one row for each law. Columns:
+ *   1  name in `enum flow`
+ *   2  name in its functions, which kernels/laws/flow_NAME.h defines
+ *   3  key below `material.hardening`; NULL: the law has a key of its own
+ *   4  true: its constants contain the first yield stress, and the key `yield_stress` is refused; law->yield is then
+ *      computed by law_compute_derived_constants
+ *   5  true: its slope at plastic strain 0 is infinite, or has no bound over the constants that a scene may give;
+ *      explicit steps then use a slope of at most 3 G */
+#define FLOWS(X)                                     \
+    X(LINEAR, linear, "linear", false, false)        \
+    X(VOCE, voce, "voce", false, false)              \
+    X(POWER, power, "power", false, true)            \
+    X(TABLE, table, "table", true, false)            \
+    X(JOHNSON_COOK, johnson_cook, NULL, true, true)
+/* clang-format on */
+#define FLOW_NAME(upper, ...) FLOW_##upper,
 enum flow { FLOWS(FLOW_NAME) FLOW_LAWS };
+
+/* Columns 3, 4 and 5 of the table of flow laws. */
+struct flow_properties {
+    const char *word;
+    bool own_yield, steep;
+};
+extern const struct flow_properties flow_properties[FLOW_LAWS];
 
 /* How the nonlinear equation for the plastic strain of a step is solved. LAW_EXPLICIT: one evaluation, linearised at
  * the start of the step, for steps with small strain increments; the yield stress of the next step is exact again, so

@@ -8,7 +8,7 @@
 #include "flow_table.h"
 #include "flow_voce.h"
 
-#define FLOW_CASE(upper, lower)                                                                                        \
+#define FLOW_CASE(upper, lower, ...)                                                                                   \
     case FLOW_##upper:                                                                                                 \
         return FLOW_CALL(lower);
 

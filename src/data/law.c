@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#define FLOW_PROPERTIES(upper, lower, word, own_yield, steep) [FLOW_##upper] = {word, own_yield, steep},
+const struct flow_properties flow_properties[FLOW_LAWS] = {FLOWS(FLOW_PROPERTIES)};
+
 /* Computes the straight line of each segment of a hardening curve: its intercept c->start[k] [Pa] at plastic strain 0
  * and its slope c->slope[k] [Pa]. The stress is constant beyond the last point. */
 static void curve_lines(struct flow_curve *c)
@@ -28,6 +31,5 @@ void law_compute_derived_constants(struct law *law, real yield_stress, real youn
     law->heating = law->specific_heat > 0 ? law->taylor_quinney / (density * law->specific_heat) : 0;
     /* Powers of the plastic strain have an infinite slope at 0. With at most 3 G, a first step beyond the elastic range
      * becomes half plastic; it matters below a strain of about 3e-5, where the slope of metals is larger. */
-    const bool steep = law->flow == FLOW_POWER || law->flow == FLOW_JOHNSON_COOK;
-    law->steepest = steep ? 1.5 * young / (1 + poisson) : INFINITY;
+    law->steepest = flow_properties[law->flow].steep ? 1.5 * young / (1 + poisson) : INFINITY;
 }

@@ -253,7 +253,7 @@ void write_mapping(struct writer *w, const char *key, const char *group, const v
 /* Writes the points of a hardening curve as the key `table`: a list of pairs of plastic strain [1] and stress [Pa]. */
 static void write_curve(struct writer *w, const struct flow_curve *c)
 {
-    writer_begin_key(w, flow_words[FLOW_TABLE]);
+    writer_begin_key(w, flow_properties[FLOW_TABLE].word);
     for (int k = 0; k < c->points; k++) {
         fputs(k ? ", " : " [", w->out);
         write_list(w, (const real[]){c->strain[k], c->stress[k]}, 2);
@@ -266,7 +266,7 @@ static void write_curve(struct writer *w, const struct flow_curve *c)
 static void write_material_law(struct writer *w, const struct material *m)
 {
     const struct law *law = &m->law;
-    const char *word = flow_words[law->flow];
+    const char *word = flow_properties[law->flow].word;
     char group[64];
     if (!law->given) return;
     snprintf(group, sizeof group, "material.hardening.%s", word ? word : "");

@@ -408,9 +408,6 @@ status read_motions(struct reader *r, const struct yaml_node *n, struct solid *s
 
 status read_materials(struct reader *r, const struct yaml_node *root);
 
-/* Words of enum flow in `hardening`; NULL for laws that have a key of their own (scene_laws.c). */
-extern const char *const flow_words[FLOW_LAWS];
-
 /* Reads the flow law, kinematic hardening and heating of a material; n: its node. Call it after the keys of linear
  * hardening are read (scene_laws.c). REFUSED for invalid constants, contradictions, and where the method or solver has
  * no laws. */

@@ -8,9 +8,6 @@
  * for the rounding of decimal numbers. */
 #define SLOPE_ROUNDING 1e-9
 
-const char *const flow_words[FLOW_LAWS] = {
-    [FLOW_LINEAR] = "linear", [FLOW_VOCE] = "voce", [FLOW_POWER] = "power", [FLOW_TABLE] = "table"};
-
 /* Returns REFUSED unless the return mapping can solve for the hardening curve c without search: plastic strains ascend
  * from 0, stresses do not fall, slopes do not grow. n: list of the points, for messages. */
 static status check_curve(struct reader *r, const struct yaml_node *n, const struct flow_curve *c)
@@ -63,6 +60,17 @@ static status read_curve(struct reader *r, const struct yaml_node *n, struct flo
     return check_curve(r, n, c);
 }
 
+/* Returns REFUSED with a message that names the words of all flow laws in `hardening`. n: node of `hardening`. */
+static status fault_no_law(struct reader *r, const struct yaml_node *n)
+{
+    char words[200] = "";
+    for (int flow = 0, length = 0; flow < FLOW_LAWS; flow++) {
+        const char *word = flow_properties[flow].word;
+        if (word) length += snprintf(words + length, sizeof words - (size_t)length, "%s%s", length ? "|" : "", word);
+    }
+    return fault(r, n, "has no law; %s is expected", words_for_message(r, words));
+}
+
 /* Reads the flow law in the mapping `hardening` into `law`. material: node of the material; n: node of `hardening`.
  * Returns REFUSED if there are no or several laws, or if yield_hardening is given too. */
 static status read_hardening_law(struct reader *r, const struct yaml_node *material, const struct yaml_node *n,
@@ -72,15 +80,16 @@ static status read_hardening_law(struct reader *r, const struct yaml_node *mater
     const struct yaml_node *given = NULL, *modulus = yaml_node_find(material, "yield_hardening");
     TRY(read_group(r, n, n, "material.hardening", law));
     for (int flow = 0; flow < FLOW_LAWS; flow++) {
-        const struct yaml_node *one = flow_words[flow] ? yaml_node_find(n, flow_words[flow]) : NULL;
+        const char *word = flow_properties[flow].word;
+        const struct yaml_node *one = word ? yaml_node_find(n, word) : NULL;
         if (one && given) return fault_exclusive_keys(r, given, one);
         if (one) given = one, law->flow = flow;
     }
-    if (!given) return fault(r, n, "has no law; linear, voce, power or table is expected");
+    if (!given) return fault_no_law(r, n);
     if (modulus) return fault_exclusive_keys(r, modulus, n);
     law->given = true;
     if (law->flow == FLOW_TABLE) return read_curve(r, given, &law->table);
-    snprintf(group, sizeof group, "material.hardening.%s", flow_words[law->flow]);
+    snprintf(group, sizeof group, "material.hardening.%s", flow_properties[law->flow].word);
     return read_group(r, given, given, group, law);
 }
 
@@ -120,7 +129,7 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
 {
     const struct yaml_node *yield = yaml_node_find(material, "yield_stress"),
                            *tangent = yaml_node_find(material, "yield_tangent");
-    const bool own = m->law.flow == FLOW_TABLE || m->law.flow == FLOW_JOHNSON_COOK;
+    const bool own = flow_properties[m->law.flow].own_yield;
     const bool linear = m->law.flow == FLOW_LINEAR && !yaml_node_find(material, "hardening");
     if (own && isfinite(m->yield_stress)) return fault_exclusive_keys(r, yield, law_node);
     if (!own && !isfinite(m->yield_stress))

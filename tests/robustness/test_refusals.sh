@@ -171,7 +171,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|which have 1/3 in space plane stress; `model: ospd` has any
 6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given together with critical_stretch
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|not below Young's modulus
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {}}|6:64|linear, voce, power or table is expected
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {}}|6:64|has no law; linear, voce
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa}}}|6:76|rate: missing
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa, rate: 9}, power: {coefficient: 1 GPa, exponent: 1}}}|6:112|keep one of the two
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_hardening: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:88|keep one of the two

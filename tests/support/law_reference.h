@@ -23,7 +23,8 @@ static inline real reference_curve(const struct flow_curve *c, real a)
     return c->stress[c->points - 1];
 }
 
-/* Returns the yield stress of a flow law [Pa]. */
+/* Returns the yield stress of a flow law at plastic strain a, strain rate `rate` [1/s] and temperature T [K] [Pa]; NAN,
+ * which fails every comparison, for a law without a case. */
 static inline real reference_stress(const struct law *m, real a, real rate, real T)
 {
     const real hot = (T - m->johnson_cook.T_room) / (m->johnson_cook.T_melt - m->johnson_cook.T_room);
@@ -36,11 +37,14 @@ static inline real reference_stress(const struct law *m, real a, real rate, real
         return m->yield + m->power.coefficient * pow(a, m->power.exponent);
     case FLOW_TABLE:
         return reference_curve(&m->table, a);
-    default:
+    case FLOW_JOHNSON_COOK:
         return (m->johnson_cook.A + m->johnson_cook.B * pow(a, m->johnson_cook.n)) *
                (1 + m->johnson_cook.C * log(fmax(rate / m->johnson_cook.eps0, 1))) *
                (1 - pow(fmin(fmax(hot, 0), 1), m->johnson_cook.m));
+    case FLOW_LAWS:
+        break;
     }
+    return NAN;
 }
 
 /* Computes xi = s - g X of the deviator s. Returns its equivalent stress [Pa]. */
