@@ -37,7 +37,8 @@ nothing "includes that lead up"
 
 # Calls of functions in higher rooms, by the symbols of the objects.
 build=${BUILD:-build}
-objects=$(find src bench -name '*.c' | sed "s|^|$build/|; s|c$|o|"; find kernels -name '*.c' | sed "s|^|$build/|; s|c$|portable.o|")
+for set in portable avx2 avx512; do [ ! -e "$build/kernels/kernels.$set.o" ] || break; done # SETS of make may lack some
+objects=$(find src bench -name '*.c' | sed "s|^|$build/|; s|c$|o|"; find kernels -name '*.c' | sed "s|^|$build/|; s|c$|$set.o|")
 nm -A -P $objects >"$work/symbols"
 awk -v rooms="$rooms" -v build="$build/" "$room_of"'
     BEGIN { floors(rooms) }

@@ -9,7 +9,7 @@
 /* clang-format off */
 /* The flow laws, one row for each law. Columns:
  *   1  name in `enum flow`
- *   2  name in its functions, which kernels/laws/flow_NAME.h defines
+ *   2  name in its functions, which a header of its own in kernels/laws defines (flow_linear.h describes them)
  *   3  key below `material.hardening`; NULL: the law has a key of its own
  *   4  true: its constants contain the first yield stress, and the key `yield_stress` is refused; law->yield is then
  *      computed by law_compute_derived_constants
