@@ -3,6 +3,7 @@
 
 #include "base/rise.h"
 #include "run/run.h"
+#include "step/parted.h"
 
 /* State of the stability checks (stability.c). */
 struct stability {
@@ -12,6 +13,8 @@ struct stability {
     bool diverged;    /* a peridynamic particle is faster than the fastest wave */
     bool lost;        /* an energy of the last sample is not finite */
     bool stretched;   /* the warning that points are stretched or flow too far has been printed */
+    bool parted;      /* the warning that metal has come apart has been printed */
+    struct point_pairs pairs;
 };
 
 #endif

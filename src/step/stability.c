@@ -486,6 +486,9 @@ status energy_check(struct run *e)
         e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings) ||
                                   say_flowed(&e->part, e->clock.t, &e->warnings) ||
                                   say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
+    if (!e->stability->parted)
+        e->stability->parted =
+            parted_points_say(&e->stability->pairs, &e->part, &e->cells, e->scene, e->clock.t, &e->warnings);
     if (diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);

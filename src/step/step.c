@@ -120,12 +120,12 @@ static void push_bonds(struct run *e, struct step *now)
 }
 
 /* Computes the contact forces on particles, and records them for output if a frame follows this step. */
-static void push_contact(struct run *e)
+static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
+                         const struct run_clock *clock)
 {
-    e->contact->recorded =
-        e->contact->push[0] && report_frame_series_due(e->report->out, e->scene, &e->clock, e->clock.step + 1) != 0;
-    contact_compute_forces(e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
-    contact_record_first_and_last_time(e->contact, e->clock.t);
+    c->recorded = c->push[0] && report_frame_series_due(report->out, s, clock, clock->step + 1) != 0;
+    contact_compute_forces(c, p, clock->step > 0 ? clock->dt : 0);
+    contact_record_first_and_last_time(c, clock->t);
 }
 
 /* Moves the peridynamic particles that the sweep of bond forces has not moved: the loaded ones, or all if sweep_moves
@@ -228,7 +228,7 @@ status step(struct run *e)
 
     push_bonds(e, &now); /* 2, 5 */
     viscosity_add_forces(e);
-    push_contact(e);
+    push_contact(e->contact, &e->part, e->report, e->scene, &e->clock);
     rigids_add_impulse(e->rigid, now.dt_velocity, e->loads.impulse);
     loads_complete_particle_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
     timer_add_elapsed(&e->timers, TIMER_BONDS);

@@ -26,6 +26,11 @@ static void damping_free_all(struct run *e)
         for (int d = 0; d < DIM_MAX; d++) memory_free(e->damping->before[k][d]);
 }
 
+static void stability_free_all(struct run *e)
+{
+    if (e->stability) memory_free(e->stability->pairs.pair);
+}
+
 /* Writes figures of probes to JSON. All figures of one probe come in succession; a new name ends the object of the
  * previous probe. */
 struct probe_sink {
@@ -94,10 +99,11 @@ static status stability_state(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "engine/speed_rise", e->stability->speed);
     ARCHIVE_VALUE(a, "engine/excess_rise", e->stability->excess);
     ARCHIVE_VALUE(a, "engine/stretched", e->stability->stretched);
+    ARCHIVE_VALUE(a, "engine/parted", e->stability->parted);
     return OK;
 }
 
 const struct part part_report = {PART(report, run_report), .free = report_free_all, .state = report_state,
                                  .summary = put_figures};
 const struct part part_damping = {PART(damping, damping_state), .free = damping_free_all};
-const struct part part_stability = {PART(stability, stability), .state = stability_state};
+const struct part part_stability = {PART(stability, stability), .free = stability_free_all, .state = stability_state};

@@ -1,0 +1,28 @@
+/* Finds material points of the current frame that have come apart without fracture. */
+#ifndef CLEAVE_PARTED
+#define CLEAVE_PARTED
+
+#include "base/warnings.h"
+#include "data/cells.h"
+#include "scene/scene.h"
+
+/* Two neighbouring material points, by particle index. */
+struct point_pair {
+    int32_t a, b;
+};
+
+/* Neighbouring material points of the grid that can come apart, found when they are first compared. */
+struct point_pairs {
+    bool made;
+    int64_t n;
+    struct point_pair *pair; /* [n] owned */
+};
+
+/* Warns of neighbouring material points of metal, on the grid of the current frame, between which the cells are empty:
+ * they share no nodes, and nothing holds them together; with linear shapes of those that are pulled apart. Does nothing
+ * if the scene accepts large strains, and before the plastic strain of a point exceeds 0.02. cells: of the particles p;
+ * t: present time [s]. Returns true if the warning has been printed. */
+bool parted_points_say(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
+                       const struct scene *s, real t, struct warnings *to);
+
+#endif
