@@ -12,6 +12,9 @@
 #define PRANDTL "equations of Prandtl & Reuss"
 #define HILL "Hill 1950"
 #define HEATING "T* = 1 - exp(-beta R W/(rho c (T_melt - T_room)))"
+#define RATE "integration in 100000 steps a cycle, each by bisection; 5 cycles"
+#define RELAX "sigma = sigma_0 (1 - C log(exp(-y) + t E eps0/(sigma_0 C))), y = (sigma(0)/sigma_0 - 1)/C"
+#define KRIEG "Krieg & Krieg 1977: tan(psi/2) = exp(-2 G e/R) tan(psi_0/2); load steps: radial returns"
 #define NUMERIC "integration of the law in steps of 1e-6"
 
 /* clang-format off */
@@ -43,6 +46,14 @@ const struct laws_case laws_cases[] = {
      {{"stress", "MPa", 416.478, 0.02}, {"temperature", "K", 386.955, 0.01}}},
     {"Johnson-Cook 4340 steel, a 0.5", NUMERIC, laws_johnson_cook, false, {1, 1.03, 0.5},
      {{"stress", "MPa", 1217.20, 0.02}, {"temperature", "K", 436.69, 0.01}}},
+    {"Johnson-Cook copper, +-0.002 at 10 kHz", RATE, laws_cycled_rate, false, {0.002, 1e4},
+     {{"a, 1000 steps a cycle", "%", 1.2551, 2e-3}, {"a, 10000 steps a cycle", "%", 1.2551, 2e-4}}},
+    {"Johnson-Cook, 90 MPa, held after 1000/s", RELAX, laws_held, false, {1e-6, 1e-5},
+     {{"stress at 1000/s", "MPa", 105.542, 1e-3}, {"after 1 us", "MPa", 96.609, 0.02},
+      {"after 10 us", "MPa", 91.467, 2e-3}}},
+    {"tension, then shear, flow turns by 75 degrees", KRIEG, laws_turning, false, {0},
+     {{"left, 1000 explicit steps", "sigma_y", 0.26580, 4e-4}, {"left, 1 load step", "sigma_y", 0.44721, 1e-5},
+      {"left, 4 load steps", "sigma_y", 0.33514, 1e-5}, {"left, 16 load steps", "sigma_y", 0.28591, 1e-5}}},
     {"500 random strains, energy", "work = elastic energy + plastic work", laws_energy, false, {0},
      {{"Voce, space", "1", 0, 1e-14}, {"kinematic, plane stress", "1", 0, 1e-14},
       {"Johnson-Cook, plane strain", "1", 0, 1e-14}}},

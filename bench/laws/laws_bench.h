@@ -42,7 +42,7 @@ struct law laws_material(struct law law, real young, real poisson, real yield, r
 /* Returns steel (200 GPa, 0.3, 200 MPa) with one of the flow laws. */
 struct law laws_steel(enum flow flow);
 
-/* Returns eight equal points without stress, at 294 K and a rate of 1/s. */
+/* Returns eight equal points without stress, at 294 K, whose rate of strain has no effect (duration 0). */
 struct law_points laws_points_at_rest(void);
 
 /* Stores the trial stress of a strain increment in all points of p. strain: tensor components [1]; normal ones out of a
@@ -65,6 +65,9 @@ status laws_prager(const struct laws_case *c, double *found);
 status laws_armstrong_frederick(const struct laws_case *c, double *found);
 status laws_plane_strain(const struct laws_case *c, double *found); /* given: hardening [MPa], strain */
 status laws_johnson_cook(const struct laws_case *c, double *found); /* given: 0 copper or 1 steel, m, plastic strain */
+status laws_cycled_rate(const struct laws_case *c, double *found);  /* given: amplitude, frequency [Hz] */
+status laws_held(const struct laws_case *c, double *found);         /* given: two times after which it is held [s] */
+status laws_turning(const struct laws_case *c, double *found);
 status laws_energy(const struct laws_case *c, double *found);
 
 /* ---- laws_bodies.c: bodies --------------------------------------------------------------------------------------- */

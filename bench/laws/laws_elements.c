@@ -38,7 +38,7 @@ struct law_points laws_points_at_rest(void)
     for (int c = 0; c < SYM_MAX; c++) p.s[c] = p.before[c] = p.back[c] = lanes_broadcast(0);
     p.a = p.work = lanes_broadcast(0);
     p.volume_before = p.volume = lanes_broadcast(1);
-    p.rate = lanes_broadcast(1), p.temperature = lanes_broadcast(294);
+    p.temperature = lanes_broadcast(294);
     return p;
 }
 
@@ -231,17 +231,19 @@ status laws_plane_strain(const struct laws_case *c, double *found)
     return OK;
 }
 
-/* Stretches a point without change of volume at a rate of 1000/s, in steps of 1e-4, to the plastic strain `to`. Stores
- * its equivalent stress [Pa] and temperature [K] at this strain, by interpolation. m: law. */
+/* Stretches a point without change of volume, in steps of 1e-4 whose durations are such that the plastic strain grows
+ * by 1000/s, to the plastic strain `to`. Stores its equivalent stress [Pa] and temperature [K] at this strain, by
+ * interpolation. m: law. */
 static void point_heat(const struct law *m, real to, real *stress, real *temperature)
 {
     const real step = 1e-4, strain[SYM_MAX] = {step, -0.5 * step, -0.5 * step};
     struct law_points p = laws_points_at_rest(), next = p;
-    p.rate = next.rate = lanes_broadcast(1000);
+    next.duration = step / 1000;
     while (next.a[0] < to) {
         p = next;
         laws_add_trial_stress(m, &next, strain, SPACE_SOLID);
         law_update(m, &next, SPACE_SOLID, LAW_EXPLICIT);
+        if (next.a[0] > p.a[0]) next.duration = (next.a[0] - p.a[0]) / 1000;
     }
     const real share = (to - p.a[0]) / (next.a[0] - p.a[0]);
     *stress = (1 - share) * (p.s[0][0] - p.s[1][0]) + share * (next.s[0][0] - next.s[1][0]);
@@ -263,5 +265,73 @@ status laws_johnson_cook(const struct laws_case *c, double *found)
     real stress, temperature;
     point_heat(&m, c->given[2], &stress, &temperature);
     found[0] = stress / MPA, found[1] = temperature;
+    return OK;
+}
+
+/* ---- rate -------------------------------------------------------------------------------------------------------- */
+
+/* Returns copper of Johnson and Cook without heating. hardening: its B [Pa]. */
+static struct law copper_cold(real hardening)
+{
+    const struct law m = {.flow = FLOW_JOHNSON_COOK,
+                          .johnson_cook = {90 * MPA, hardening, 0.31, 0.025, 1, 1, 294, 1356}};
+    return laws_material(m, 117e9, 0.35, 0, 8960);
+}
+
+status laws_cycled_rate(const struct laws_case *c, double *found)
+{
+    const struct law m = copper_cold(292 * MPA);
+    for (int k = 0; k < 2; k++) {
+        struct law_points p = laws_points_at_rest();
+        const int steps = k ? 10000 : 1000; /* a cycle */
+        real strain = 0;
+        p.duration = 1 / (c->given[1] * steps);
+        for (int step = 1; step <= 5 * steps; step++)
+            bar_load(&m, &p, &strain, c->given[0] * sin(2 * M_PI * step / steps), 1);
+        found[k] = 100 * p.a[0];
+    }
+    return OK;
+}
+
+status laws_held(const struct laws_case *c, double *found)
+{
+    const struct law m = copper_cold(0);
+    struct law_points p = laws_points_at_rest();
+    real strain = 0;
+    p.duration = 1e-9;
+    bar_load(&m, &p, &strain, 0.01, 10000); /* 1000/s */
+    found[0] = p.s[0][0] / MPA;
+    for (int k = 0; k < 2; k++) {
+        bar_load(&m, &p, &strain, strain, (int)round((c->given[k] - (k ? c->given[0] : 0)) / p.duration));
+        found[1 + k] = p.s[0][0] / MPA;
+    }
+    return OK;
+}
+
+/* ---- flow that turns --------------------------------------------------------------------------------------------- */
+
+/* Loads a point of ideally plastic steel to its yield stress in tension, then shears it at constant rate, in `steps`
+ * equal steps of one mode, by twice the deviatoric strain of yield. Returns the stress that is left of the tension,
+ * over the yield stress [1]. */
+static real tension_left(int steps, enum law_mode mode)
+{
+    struct law m = laws_steel(FLOW_LINEAR);
+    m.hardening = 0;
+    struct law_points p = laws_points_at_rest();
+    const real yield = sqrt(2.0 / 3) * m.yield; /* of the norm of the deviator */
+    const real shear[SYM_MAX] = {0, 0, 0, sqrt(0.5) * 2 * yield / (2 * m.shear) / steps};
+    for (int c = 0; c < 3; c++) p.s[c] = lanes_broadcast((c == 0 ? 2.0 / 3 : -1.0 / 3) * m.yield);
+    for (int k = 0; k < steps; k++) {
+        laws_add_trial_stress(&m, &p, shear, SPACE_SOLID);
+        law_update(&m, &p, SPACE_SOLID, mode);
+    }
+    return (p.s[0][0] - p.s[1][0]) / m.yield;
+}
+
+status laws_turning(const struct laws_case *c, double *found)
+{
+    (void)c;
+    found[0] = tension_left(1000, LAW_EXPLICIT);
+    for (int k = 0; k < 3; k++) found[1 + k] = tension_left(1 << 2 * k, LAW_LOAD_STEP);
     return OK;
 }

@@ -1,4 +1,4 @@
-/* Laws by which material points yield: the yield stress as a function of plastic strain, rate and temperature (flow
+/* Laws by which material points yield: the yield stress as a function of plastic strain, its rate and temperature (flow
  * law), kinematic hardening, and adiabatic heating. Constants given by the scene, and those derived
  * from them. The functions of the laws: kernels/laws. */
 #ifndef CLEAVE_LAW
@@ -72,6 +72,9 @@ struct law {
     real young, poisson, shear; /* elastic constants [Pa] [1] [Pa]; shear is 0 in 1D */
     real heating;               /* increase of temperature per plastic work, beta/(rho c) [K m^3/J]; 0: no heating */
     real steepest;              /* largest slope of the flow law that explicit steps use [Pa] */
+    /* C and eps0 of the factor 1 + C log max(r/eps0, 1) on the yield stress at the plastic strain rate r, in explicit
+     * steps; C is 0 if the rate has no effect [1] [1/s] */
+    real rate_sensitivity, reference_rate;
 };
 
 /* Computes the derived members of a law. yield_stress: of the material, unless the flow law has its own [Pa]; young,

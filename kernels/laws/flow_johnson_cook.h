@@ -1,53 +1,50 @@
 /* Flow law of Johnson & Cook 1983:
  *     (A + B a^n)(1 + C log max(rate/eps0, 1))(1 - T*^m),   T* = (T - T_room)/(T_melt - T_room) between 0 and 1
- * with the total deviatoric strain rate. The functions: flow_linear.h. */
+ * with the rate of plastic strain. These functions are those of slow flow, whose second factor is 1; law_update adds
+ * the effect of the rate. The functions: flow_linear.h. */
 #ifndef CLEAVE_KERNELS_FLOW_JOHNSON_COOK
 #define CLEAVE_KERNELS_FLOW_JOHNSON_COOK
 
 #include "data/law.h"
 #include "flow_power.h"
 
-/* Returns the factor (1 + C log max(r/eps0, 1))(1 - T*^m) on the yield stress of the law of Johnson & Cook [1], for
- * eight points, with the strain rate r. strain_rate: total deviatoric strain rates [1/s]; temperature: temperatures
- * [K]. */
-static ALWAYS_INLINE lanes johnson_cook_factor(const struct law *law, lanes strain_rate, lanes temperature)
+/* Returns the factor 1 - T*^m on the yield stress of the law of Johnson & Cook for eight points [1]. temperature:
+ * temperatures [K]. */
+static ALWAYS_INLINE lanes johnson_cook_softening(const struct law *law, lanes temperature)
 {
-    const lanes ratio = lanes_max(strain_rate * (1 / law->johnson_cook.eps0), lanes_broadcast(1));
     const lanes hot =
         (temperature - law->johnson_cook.T_room) * (1 / (law->johnson_cook.T_melt - law->johnson_cook.T_room));
     const lanes between = lanes_max(lanes_min(hot, lanes_broadcast(1)), lanes_broadcast(0));
-    const lanes soft = law->johnson_cook.m == 1 ? between : lanes_power(between, law->johnson_cook.m);
-    return (1.0 + law->johnson_cook.C * lanes_log(ratio)) * (1.0 - soft);
+    return 1.0 - (law->johnson_cook.m == 1 ? between : lanes_power(between, law->johnson_cook.m));
 }
 
 /* Returns the yield stresses of eight points by the law of Johnson & Cook [Pa] and stores their derivatives by the
- * plastic strain in *slope [Pa]. strain_rate: total deviatoric strain rates [1/s]; temperature: temperatures [K]. */
-static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                                    lanes temperature, lanes *slope)
+ * plastic strain in *slope [Pa]. temperature: temperatures [K]. */
+static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes plastic_strain, lanes temperature,
+                                                    lanes *slope)
 {
-    const lanes factor = johnson_cook_factor(law, strain_rate, temperature);
+    const lanes factor = johnson_cook_softening(law, temperature);
     const lanes power = power_of_strain(law->johnson_cook.B, law->johnson_cook.n, plastic_strain, slope);
     *slope *= factor;
     return (law->johnson_cook.A + power) * factor;
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` at constant strain rate and
- * temperature [J/m^3]. */
+/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` at constant temperature
+ * [J/m^3]. */
 static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *law, lanes plastic_strain,
-                                                             lanes strain_rate, lanes temperature)
+                                                             lanes temperature)
 {
     const real n = law->johnson_cook.n;
     const lanes cold =
         law->johnson_cook.A * plastic_strain + law->johnson_cook.B / (n + 1) * lanes_power(plastic_strain, n + 1);
-    return cold * johnson_cook_factor(law, strain_rate, temperature);
+    return cold * johnson_cook_softening(law, temperature);
 }
 
-/* Returns the plastic strain at which the yield stress at the given strain rate and temperature is `stress` [Pa];
+/* Returns the plastic strain at which the yield stress at the given temperature is `stress` [Pa];
  * INFINITY without hardening. */
-static ALWAYS_INLINE lanes plastic_strain_bound_johnson_cook(const struct law *law, lanes stress, lanes strain_rate,
-                                                             lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_johnson_cook(const struct law *law, lanes stress, lanes temperature)
 {
-    const lanes factor = lanes_max(johnson_cook_factor(law, strain_rate, temperature), lanes_broadcast(1e-12));
+    const lanes factor = lanes_max(johnson_cook_softening(law, temperature), lanes_broadcast(1e-12));
     if (!(law->johnson_cook.B > 0)) return lanes_broadcast(INFINITY);
     const lanes ratio = (stress / factor - law->johnson_cook.A) / law->johnson_cook.B;
     return lanes_power(lanes_max(ratio, lanes_broadcast(0)), 1 / law->johnson_cook.n);

@@ -1,7 +1,7 @@
 /* Flow law with linear isotropic hardening. The functions of every flow law NAME, for eight points at once:
- *     flow_stress_NAME            returns the yield stress [Pa] at the plastic strain `plastic_strain` [1], the total
- *                                 deviatoric strain rate `strain_rate` [1/s] and the temperature [K], and stores its
- *                                 derivative by the plastic strain in *slope [Pa]
+ *     flow_stress_NAME            returns the yield stress [Pa] of slow flow at the plastic strain
+ *                                 `plastic_strain` [1] and the temperature [K], and stores its derivative by the
+ *                                 plastic strain in *slope [Pa]
  *     flow_stress_integral_NAME   returns the integral of the yield stress from 0 to `plastic_strain` [J/m^3]
  *     plastic_strain_bound_NAME   returns the plastic strain at which the yield stress is `stress` [Pa], or an upper
  *                                 bound of it; INFINITY if there is none
@@ -13,28 +13,26 @@
 #include "lanes_power.h"
 
 /* Returns the yield stresses of eight points with linear hardening [Pa] and stores the hardening modulus in *slope
- * [Pa]. Rate and temperature have no effect. */
-static ALWAYS_INLINE lanes flow_stress_linear(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                              lanes temperature, lanes *slope)
+ * [Pa]. Temperature has no effect. */
+static ALWAYS_INLINE lanes flow_stress_linear(const struct law *law, lanes plastic_strain, lanes temperature,
+                                              lanes *slope)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     *slope = lanes_broadcast(law->hardening);
     return law->yield + law->hardening * plastic_strain;
 }
 
 /* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3]. */
-static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                                       lanes temperature)
+static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, lanes plastic_strain, lanes temperature)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     return (law->yield + 0.5 * law->hardening * plastic_strain) * plastic_strain;
 }
 
 /* Returns INFINITY: load steps need no bound of the plastic strain for a law that is linear. */
-static ALWAYS_INLINE lanes plastic_strain_bound_linear(const struct law *law, lanes stress, lanes strain_rate,
-                                                       lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_linear(const struct law *law, lanes stress, lanes temperature)
 {
-    return (void)law, (void)stress, (void)strain_rate, (void)temperature, lanes_broadcast(INFINITY);
+    return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);
 }
 
 #endif

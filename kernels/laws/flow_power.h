@@ -17,28 +17,26 @@ static ALWAYS_INLINE lanes power_of_strain(real coefficient, real exponent, lane
 }
 
 /* Returns the yield stresses sigma_y + B a^n of eight points with the plastic strains a [Pa] and stores their
- * derivatives by a in *slope [Pa]. Rate and temperature have no effect. */
-static ALWAYS_INLINE lanes flow_stress_power(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                             lanes temperature, lanes *slope)
+ * derivatives by a in *slope [Pa]. Temperature has no effect. */
+static ALWAYS_INLINE lanes flow_stress_power(const struct law *law, lanes plastic_strain, lanes temperature,
+                                             lanes *slope)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     return law->yield + power_of_strain(law->power.coefficient, law->power.exponent, plastic_strain, slope);
 }
 
 /* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3]. */
-static ALWAYS_INLINE lanes flow_stress_integral_power(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                                      lanes temperature)
+static ALWAYS_INLINE lanes flow_stress_integral_power(const struct law *law, lanes plastic_strain, lanes temperature)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     const real n = law->power.exponent;
     return law->yield * plastic_strain + law->power.coefficient / (n + 1) * lanes_power(plastic_strain, n + 1);
 }
 
 /* Returns the plastic strain at which the yield stress is `stress` [Pa], 0 if `stress` is below the first one. */
-static ALWAYS_INLINE lanes plastic_strain_bound_power(const struct law *law, lanes stress, lanes strain_rate,
-                                                      lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_power(const struct law *law, lanes stress, lanes temperature)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     return lanes_power(lanes_max((stress - law->yield) / law->power.coefficient, lanes_broadcast(0)),
                        1 / law->power.exponent);
 }

@@ -7,11 +7,11 @@
 #include "lanes_power.h"
 
 /* Returns the yield stresses of eight points, the least of the lines of all segments at the plastic strain [Pa], and
- * stores the slopes of these lines in *slope [Pa]. Rate and temperature have no effect. */
-static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                             lanes temperature, lanes *slope)
+ * stores the slopes of these lines in *slope [Pa]. Temperature has no effect. */
+static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plastic_strain, lanes temperature,
+                                             lanes *slope)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     lanes least = law->table.start[0] + law->table.slope[0] * plastic_strain;
     *slope = lanes_broadcast(law->table.slope[0]);
     for (int k = 1; k < law->table.points; k++) {
@@ -24,10 +24,9 @@ static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plasti
 }
 
 /* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3], segment by segment. */
-static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                                      lanes temperature)
+static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lanes plastic_strain, lanes temperature)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     lanes work = lanes_broadcast(0);
     for (int k = 0; k < law->table.points; k++) {
         const bool last = k + 1 == law->table.points;
@@ -39,10 +38,9 @@ static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lan
 }
 
 /* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is `stress`. */
-static ALWAYS_INLINE lanes plastic_strain_bound_table(const struct law *law, lanes stress, lanes strain_rate,
-                                                      lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_table(const struct law *law, lanes stress, lanes temperature)
 {
-    return (void)law, (void)stress, (void)strain_rate, (void)temperature, lanes_broadcast(INFINITY);
+    return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);
 }
 
 #endif

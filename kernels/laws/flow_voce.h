@@ -6,30 +6,28 @@
 #include "lanes_power.h"
 
 /* Returns the yield stresses sigma_y + Q (1 - exp(-b a)) of eight points with the plastic strains a [Pa] and stores
- * their derivatives by a in *slope [Pa]. Rate and temperature have no effect. */
-static ALWAYS_INLINE lanes flow_stress_voce(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                            lanes temperature, lanes *slope)
+ * their derivatives by a in *slope [Pa]. Temperature has no effect. */
+static ALWAYS_INLINE lanes flow_stress_voce(const struct law *law, lanes plastic_strain, lanes temperature,
+                                            lanes *slope)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     const lanes left = law->voce.saturation * lanes_exp(-law->voce.rate * plastic_strain);
     *slope = law->voce.rate * left;
     return law->yield + (law->voce.saturation - left);
 }
 
 /* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3]. */
-static ALWAYS_INLINE lanes flow_stress_integral_voce(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                                     lanes temperature)
+static ALWAYS_INLINE lanes flow_stress_integral_voce(const struct law *law, lanes plastic_strain, lanes temperature)
 {
-    (void)strain_rate, (void)temperature;
+    (void)temperature;
     return (law->yield + law->voce.saturation) * plastic_strain -
            law->voce.saturation / law->voce.rate * (1.0 - lanes_exp(-law->voce.rate * plastic_strain));
 }
 
 /* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is `stress`. */
-static ALWAYS_INLINE lanes plastic_strain_bound_voce(const struct law *law, lanes stress, lanes strain_rate,
-                                                     lanes temperature)
+static ALWAYS_INLINE lanes plastic_strain_bound_voce(const struct law *law, lanes stress, lanes temperature)
 {
-    return (void)law, (void)stress, (void)strain_rate, (void)temperature, lanes_broadcast(INFINITY);
+    return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);
 }
 
 #endif

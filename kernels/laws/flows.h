@@ -12,13 +12,11 @@
     case FLOW_##upper:                                                                                                 \
         return FLOW_CALL(lower);
 
-/* Returns the yield stresses of eight points by the flow law `law` [Pa] and stores their derivatives by the plastic
- * strain in *slope [Pa]. plastic_strain: plastic strains [1]; strain_rate: total deviatoric strain rates [1/s];
- * temperature: temperatures [K]. */
-static ALWAYS_INLINE lanes law_flow_stress(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                           lanes temperature, lanes *slope)
+/* Returns the yield stresses of slow flow of eight points by the flow law `law` [Pa] and stores their derivatives by
+ * the plastic strain in *slope [Pa]. plastic_strain: plastic strains [1]; temperature: temperatures [K]. */
+static ALWAYS_INLINE lanes law_flow_stress(const struct law *law, lanes plastic_strain, lanes temperature, lanes *slope)
 {
-#define FLOW_CALL(name) flow_stress_##name(law, plastic_strain, strain_rate, temperature, slope)
+#define FLOW_CALL(name) flow_stress_##name(law, plastic_strain, temperature, slope)
     switch (law->flow) {
         FLOWS(FLOW_CASE)
     default:
@@ -28,12 +26,10 @@ static ALWAYS_INLINE lanes law_flow_stress(const struct law *law, lanes plastic_
 }
 
 /* Returns for eight points the plastic strain at which the yield stress of the flow law `law` is `stress` [Pa], or an
- * upper bound of it; INFINITY if there is none [1]. strain_rate: total deviatoric strain rates [1/s]; temperature:
- * temperatures [K]. */
-static ALWAYS_INLINE lanes law_plastic_strain_bound(const struct law *law, lanes stress, lanes strain_rate,
-                                                    lanes temperature)
+ * upper bound of it; INFINITY if there is none [1]. temperature: temperatures [K]. */
+static ALWAYS_INLINE lanes law_plastic_strain_bound(const struct law *law, lanes stress, lanes temperature)
 {
-#define FLOW_CALL(name) plastic_strain_bound_##name(law, stress, strain_rate, temperature)
+#define FLOW_CALL(name) plastic_strain_bound_##name(law, stress, temperature)
     switch (law->flow) {
         FLOWS(FLOW_CASE)
     default:
@@ -43,11 +39,10 @@ static ALWAYS_INLINE lanes law_plastic_strain_bound(const struct law *law, lanes
 }
 
 /* Returns for eight points the integral of the yield stress of the flow law `law` from plastic strain 0 to
- * `plastic_strain` [J/m^3]. strain_rate: total deviatoric strain rates [1/s]; temperature: temperatures [K]. */
-static ALWAYS_INLINE lanes law_flow_stress_integral(const struct law *law, lanes plastic_strain, lanes strain_rate,
-                                                    lanes temperature)
+ * `plastic_strain` [J/m^3]. temperature: temperatures [K]. */
+static ALWAYS_INLINE lanes law_flow_stress_integral(const struct law *law, lanes plastic_strain, lanes temperature)
 {
-#define FLOW_CALL(name) flow_stress_integral_##name(law, plastic_strain, strain_rate, temperature)
+#define FLOW_CALL(name) flow_stress_integral_##name(law, plastic_strain, temperature)
     switch (law->flow) {
         FLOWS(FLOW_CASE)
     default:

@@ -1,10 +1,10 @@
 /* Return mapping of von Mises plasticity with a flow law (data/law.h), kinematic hardening and adiabatic heating, for
  * eight points at once. With the relative stress xi = s - X of the deviator s and the back stress X, q = sqrt(3/2
- * xi:xi), the flow law sigma_y(a, rate, T) and the accumulated plastic strain a,
+ * xi:xi), the flow law sigma_y(a, da/dt, T) and the accumulated plastic strain a,
  *     f = q - sigma_y <= 0,   d eps_p = da (3/2) xi/q,   da >= 0,   da f = 0
  *     dX = (2/3) C d eps_p - gamma X da   (Armstrong & Frederick 1966; gamma = 0: Prager)
  * by implicit Euler steps (Simo & Hughes 1998, chapter 3), the back stress exactly along the direction of flow of the
- * step. Rate and temperature are those at the start of the step. */
+ * step. The rate is that of the step, 0 in load steps; the temperature is that at the start of the step. */
 #ifndef CLEAVE_KERNELS_LAW_UPDATE
 #define CLEAVE_KERNELS_LAW_UPDATE
 
@@ -17,7 +17,7 @@ struct law_points {
     lanes s[SYM_MAX];            /* trial stress, replaced by the stress [Pa]; in plane stress zz is 0 */
     lanes before[SYM_MAX];       /* stress at the start of the step, rotated by its spin [Pa] */
     lanes volume_before, volume; /* volume at the start and at the end of the step, over the reference volume [1] */
-    lanes rate;                  /* total deviatoric strain rate sqrt(2/3 D':D') of the step [1/s] */
+    real duration;               /* of an explicit step [s]; 0: the rate has no effect */
     lanes a;                     /* accumulated equivalent plastic strain, updated [1] */
     lanes back[SYM_MAX];         /* back stress X, deviatoric, rotated by the spin of the step; updated [Pa] */
     lanes temperature;           /* updated [K] */

@@ -21,23 +21,6 @@ static ALWAYS_INLINE lanes lanes_gather_or_zero(const real *from, const int32_t 
     return eight;
 }
 
-/* Returns for eight points the total deviatoric strain rate sqrt(2/3 D':D') of a step of dt [s] in which the elastic
- * trial stress has grown from e->before to e->s [1/s]; in plane stress and 1D that of incompressible flow. dt 0:
- * returns 0, the rate of load steps. m: constants of their material. */
-static ALWAYS_INLINE lanes law_points_strain_rate(const struct elastic *m, const struct law_points *e, real dt)
-{
-    lanes D[SYM_MAX], square = lanes_broadcast(0);
-    if (!(dt > 0)) return square;
-    for (int c = 0; c < SYM_MAX; c++) D[c] = e->s[c] - e->before[c];
-    const lanes mean = (D[0] + D[1] + D[2]) / 3.0, x = D[0], y = D[1];
-    const real young = m->law->young, nu = m->law->poisson, twice = m->shear > 0 ? 1 / (2 * m->shear) : 0;
-    for (int c = 0; c < 3; c++) D[c] = (D[c] - mean) * twice, D[c + 3] *= twice;
-    if (m->space == SPACE_PLANE_STRESS) D[0] = (x - nu * y) / young, D[1] = (y - nu * x) / young, D[2] = -D[0] - D[1];
-    if (m->space == SPACE_LINE) D[0] = x / young, D[1] = D[2] = -0.5 * D[0];
-    for (int c = 0; c < 3; c++) square += D[c] * D[c] + 2.0 * D[c + 3] * D[c + 3];
-    return lanes_square_root(lanes_max(2.0 / 3 * square, lanes_broadcast(1e-200))) / dt;
-}
-
 /* Loads the plastic state and the stresses of eight points into *e, for law_update. point: particle numbers, -1 for a
  * lane without a point; stress: symmetric components of the trial stress [Pa]; dt: duration of an explicit step [s], 0
  * in load steps; m: constants of the material whose law is evaluated. */
@@ -58,7 +41,7 @@ static ALWAYS_INLINE void law_points_load(const struct particles *p, const struc
         e->before[2] = m->law->poisson * (e->before[0] + e->before[1]) + across;
     }
     e->volume_before = e->volume = lanes_broadcast(1), e->thins = false;
-    e->rate = law_points_strain_rate(m, e, dt);
+    e->duration = dt;
     e->a = lanes_gather_or_zero(p->plastic_strain, point), e->work = lanes_gather_or_zero(p->plastic_work, point);
     e->temperature =
         p->temperature ? lanes_gather_or_zero(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);

@@ -17,18 +17,16 @@ struct flow_points {
 };
 
 /* The motion of eight points in a step: strain increment xx yy zz xy yz zx [1] as in stress_update, its trace in the
- * space [1], angles of spin [rad], total deviatoric strain rate [1/s]. */
+ * space [1], angles of spin [rad]. */
 struct flow_motion {
-    lanes strain[SYM_MAX], trace, spin[3], rate;
+    lanes strain[SYM_MAX], trace, spin[3];
 };
 
-/* Computes the motion of eight points from their velocity gradients L [1/s]. In plane stress and 1D the rate is that of
- * incompressible flow. */
-static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, real dt, enum space space,
-                                         const int dim)
+/* Computes the motion of eight points from their velocity gradients L [1/s]. */
+static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, real dt, const int dim)
 {
     const lanes none = lanes_broadcast(0);
-    lanes D[SYM_MAX] = {L[0], none, none, none, none, none}, square = none;
+    lanes D[SYM_MAX] = {L[0], none, none, none, none, none};
     for (int c = 0; c < 3; c++) m->spin[c] = none;
     if (dim == 2) D[1] = L[3], D[3] = 0.5 * (L[1] + L[2]), m->spin[0] = 0.5 * (L[1] - L[2]) * dt;
     if (dim == 3) {
@@ -44,11 +42,6 @@ static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, 
     m->strain[3] -= 0.5 * m->spin[1] * m->spin[2], m->strain[4] -= 0.5 * m->spin[0] * m->spin[2];
     m->strain[5] -= 0.5 * m->spin[0] * m->spin[1];
     m->trace = m->strain[0] + m->strain[1] + m->strain[2];
-    if (space == SPACE_PLANE_STRESS) D[2] = -D[0] - D[1];
-    if (space == SPACE_LINE) D[1] = D[2] = -0.5 * D[0];
-    const lanes mean = (D[0] + D[1] + D[2]) / 3.0;
-    for (int c = 0; c < 3; c++) square += (D[c] - mean) * (D[c] - mean) + 2 * D[c + 3] * D[c + 3];
-    m->rate = lanes_square_root(lanes_max(2.0 / 3 * square, lanes_broadcast(1e-200)));
 }
 
 /* Returns the entries from[point[l]] of an array. Eight loads take half the time of a gather instruction. */
@@ -91,9 +84,9 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
 }
 
 /* Loads the state of eight points into e. m: constants of their material; stress, volume: their trial stresses [Pa] and
- * volumes [m^3]. */
+ * volumes [m^3]; motion: of the step of dt [s]. */
 static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elastic *m, const int32_t *point,
-                                    const lanes *stress, lanes volume, const struct flow_motion *motion,
+                                    const lanes *stress, lanes volume, const struct flow_motion *motion, real dt,
                                     struct law_points *e, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -112,8 +105,8 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
     if (p->back_stress[0]) flow_load_back_stress(p, point, motion, e, dim);
     e->volume = volume / flow_pick(p->volume0, point);
     e->volume_before = e->volume / (1.0 + motion->trace), e->thins = true;
+    e->duration = dt;
     e->a = flow_pick(p->plastic_strain, point), e->work = flow_pick(p->plastic_work, point);
-    e->rate = motion->rate;
     e->temperature = p->temperature ? flow_pick(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
@@ -197,14 +190,14 @@ static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const s
     for (int l = 0; l < LANES; l++) point[l] = due->point[int_min(l, n - 1)];
     for (int k = 0; k < dim * dim; k++) L[k] = lanes_load(due->L[k]);
     for (int c = 0; c < parts; c++) stress[c] = lanes_load(due->stress[c]);
-    flow_motion_of(&motion, L, t->dt, t->elastic[p->material[point[0]]].space, dim);
+    flow_motion_of(&motion, L, t->dt, dim);
     while (left) {
         const struct elastic *m = &t->elastic[p->material[point[__builtin_ctz(left)]]];
         unsigned own = 0;
         for (int l = 0; l < n; l++) own |= (unsigned)(left >> l & 1 && &t->elastic[p->material[point[l]]] == m) << l;
         left &= ~own;
         if (!m->law) continue;
-        flow_load(p, m, point, stress, lanes_load(due->volume), &motion, &e, dim);
+        flow_load(p, m, point, stress, lanes_load(due->volume), &motion, t->dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m->law, &e, m->space, LAW_EXPLICIT);
         if (p->back_stress[0]) flow_store_back_stress(p, &e, own, point, dim);

@@ -32,4 +32,6 @@ void law_compute_derived_constants(struct law *law, real yield_stress, real youn
     /* Powers of the plastic strain have an infinite slope at 0. With at most 3 G, a first step beyond the elastic range
      * becomes half plastic; it matters below a strain of about 3e-5, where the slope of metals is larger. */
     law->steepest = flow_properties[law->flow].steep ? 1.5 * young / (1 + poisson) : INFINITY;
+    law->rate_sensitivity = law->flow == FLOW_JOHNSON_COOK ? law->johnson_cook.C : 0;
+    law->reference_rate = law->flow == FLOW_JOHNSON_COOK ? law->johnson_cook.eps0 : 0;
 }

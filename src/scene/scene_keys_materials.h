@@ -84,7 +84,7 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
     KEY("material.johnson_cook.m", KEY_REAL, UNIT_NONE, AT(law, johnson_cook.m), ABOVE(0), "1",
         "exponent of the temperature"),
     KEY("material.johnson_cook.eps0", KEY_REAL, UNIT_RATE, AT(law, johnson_cook.eps0), ABOVE(0), "1 1/s",
-        "reference rate; the rate is that of all deviatoric strain, elastic and plastic"),
+        "reference rate; the rate is that of plastic strain"),
     KEY("material.johnson_cook.T_room", KEY_REAL, UNIT_TEMPERATURE, AT(law, johnson_cook.T_room), ABOVE(0), "293.15 K",
         "temperature at the start"),
     KEY("material.johnson_cook.T_melt", KEY_REAL, UNIT_TEMPERATURE, AT(law, johnson_cook.T_melt), ABOVE(0), REQUIRED,

@@ -67,25 +67,26 @@ static inline real reference_added(const struct law *m, real more)
 }
 
 /* Returns how far the equivalent stress after an increment `more` of plastic strain is above the yield stress [Pa].
- * stiffness: 3 G. */
-static inline real reference_excess(const struct law *m, const struct reference_point *p, real more, real rate, real T,
-                                    real stiffness)
+ * duration: of the step [s], 0: the rate has no effect; stiffness: 3 G. */
+static inline real reference_excess(const struct law *m, const struct reference_point *p, real more, real duration,
+                                    real T, real stiffness)
 {
+    const real rate = duration > 0 ? more / duration : 0;
     real xi[SYM_MAX];
     const real g = exp(-m->kinematic.recall * more);
     return reference_relative(p, g, xi) - (stiffness + m->kinematic.modulus * reference_added(m, more)) * more -
            reference_stress(m, p->a + more, rate, T);
 }
 
-/* Maps a trial state in space solid back to the yield surface. */
-static inline void reference_return(const struct law *m, struct reference_point *p, real rate, real T)
+/* Maps a trial state in space solid back to the yield surface in a step of a duration [s], 0: a load step. */
+static inline void reference_return(const struct law *m, struct reference_point *p, real duration, real T)
 {
     const real stiffness = 3 * m->shear;
     real xi[SYM_MAX], low = 0, high = reference_relative(p, 1, xi) / stiffness * 2;
-    if (!(reference_excess(m, p, 0, rate, T, stiffness) > 0)) return;
+    if (!(reference_excess(m, p, 0, duration, T, stiffness) > 0)) return;
     for (int k = 0; k < 200; k++) {
         const real middle = 0.5 * (low + high);
-        if (reference_excess(m, p, middle, rate, T, stiffness) > 0)
+        if (reference_excess(m, p, middle, duration, T, stiffness) > 0)
             low = middle;
         else
             high = middle;
@@ -101,7 +102,7 @@ static inline void reference_return(const struct law *m, struct reference_point 
 
 /* Maps a trial state of plane stress, with zz = 0, back within plane stress: by bisection of the strain zz beyond the
  * elastic one at which the return in 3D leaves no stress zz. */
-static inline void reference_return_plane_stress(const struct law *m, struct reference_point *p, real rate, real T)
+static inline void reference_return_plane_stress(const struct law *m, struct reference_point *p, real duration, real T)
 {
     const real c12 = m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)), c11 = c12 + 2 * m->shear;
     const real most = 10 * (fabs(p->s[0]) + fabs(p->s[1]) + fabs(p->s[3])) / m->young;
@@ -111,7 +112,7 @@ static inline void reference_return_plane_stress(const struct law *m, struct ref
         const real middle = 0.5 * (low + high);
         *p = trial;
         p->s[0] += c12 * middle, p->s[1] += c12 * middle, p->s[2] += c11 * middle;
-        reference_return(m, p, rate, T);
+        reference_return(m, p, duration, T);
         if (p->s[2] > 0)
             high = middle;
         else

@@ -20,7 +20,7 @@ static inline real law_step(const struct law *law, enum space space, const real 
     }
     if (space == SPACE_PLANE_STRAIN) p.s[2] = nu * (p.s[0] + p.s[1]) + *zz;
     if (space == SPACE_PLANE_STRAIN) p.before[2] = nu * (p.before[0] + p.before[1]) + *zz;
-    p.volume = p.volume_before = p.rate = lanes_broadcast(1), p.temperature = lanes_broadcast(300);
+    p.volume = p.volume_before = lanes_broadcast(1), p.temperature = lanes_broadcast(300);
     p.a = lanes_broadcast(*a), p.work = lanes_broadcast(*work);
     const unsigned flowed = law_update(law, &p, space, LAW_EXPLICIT);
     if (!(flowed >> 3 & 1)) return 0;
