@@ -166,13 +166,13 @@ static ALWAYS_INLINE lanes omega(lanes z)
     return w;
 }
 
-/* Replaces the yield stress *bound [Pa] of slow flow at the start of a small step and its derivative *slope by the
- * plastic strain [Pa] by the tangent of the yield stress that acts at the rate of the step: with the increment da over
- * the duration dt
- *     (bound + slope da)(1 + C log(da/(eps0 dt)))   where da > eps0 dt, else as it is,
- * linearised at the da at which it equals the equivalent stress, if that falls by `stiffness` - `slope` per da. At the
- * rate of the step, which is not known before, flow has no memory of the length of steps: a stress that is held, or
- * reverses, relaxes as fast as the law says. trial: equation for da at the start. */
+/* Replaces the yield stress *bound [Pa] of slow flow at the start of a small step, and its derivative *slope by the
+ * plastic strain [Pa], by the tangent of the yield stress at the plastic strain rate of the step. With the increment da
+ * over the duration dt that is
+ *     (bound + slope da)(1 + C log(da/(eps0 dt)))   where da > eps0 dt, else bound + slope da.
+ * The tangent is taken at the da at which this stress equals the equivalent stress, which falls linearly with da, by a
+ * first estimate (omega). The rate of all strain in its place would fall to 0 where loads reverse, and the plastic
+ * strain would depend on the step. trial: equation for da at the start. */
 static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law_points *p,
                                          const struct flow_equation *trial, lanes *bound, lanes *slope,
                                          const enum space space)
