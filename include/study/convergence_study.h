@@ -58,6 +58,7 @@ struct scalar_result_study {
 
 /* Request for a convergence study. */
 struct convergence_request {
+    const char *words;          /* text of study_options_make; NULL: unknown */
     const char *scene, *folder; /* path of the scene; folder of the study, NULL: default */
     const struct scene_override *override;
     /* number of overrides; of levels; largest number of runs per level */

@@ -37,6 +37,7 @@ struct study {
     const char *scene; /* path of the scene; borrowed */
     char folder[4096]; /* folder of the study; runs are subfolders */
     char *text;        /* text of the scene without the varied keys, by which the folder is recognised; NULL: unknown */
+    const char *options; /* text of study_options_make; NULL: unknown; borrowed */
     struct folder_lock lock;
     struct study_case *at; /* [n] runs */
     int n;
@@ -90,9 +91,22 @@ status study_folder_check(const char *folder);
 /* Returns true if `folder` holds the file STUDY_SCENE of a study of the scene with the given text. */
 bool study_has_scene(const char *folder, const char *text);
 
-/* Writes the file STUDY_SCENE to `folder`: a first line by which Cleave recognises the file, then the text of the
- * scene. Returns FAILED if the file cannot be written. */
-status study_write_scene(const char *folder, const char *text);
+/* Writes the file STUDY_SCENE to `folder`: a first line by which Cleave recognises the file, a line with the options of
+ * the study, then the text of the scene. options: text of study_options_make; NULL: the line is left out. Returns
+ * FAILED if the file cannot be written. */
+status study_write_scene(const char *folder, const char *text, const char *options);
+
+/* Composes the options of the command of a study as words for a shell, as given in argv[argc] behind the name of the
+ * command, without the scene and without what changes no result: -o, -q, --overwrite, --list, --collect. scene: the
+ * word of argv that names the scene. The caller releases the text with memory_free. */
+char *study_options_make(int argc, char *const *argv, const char *scene);
+
+/* Returns the options with which the study in `folder` was made, as study_options_make composes them, or NULL if they
+ * are unknown. The caller releases the text with memory_free. */
+char *study_options_read(const char *folder);
+
+/* Prints a word for a shell, in quotes if it contains characters that a shell interprets. */
+void study_print_word(FILE *out, const char *word);
 
 /* Frees the runs, texts and tables of the study *s and unlocks its folder. */
 void study_free(struct study *s);

@@ -144,7 +144,10 @@ status command_converge(int argc, char **argv)
     for (int k = 0; k < a.keys; k++) override[k] = (struct scene_override){a.key[k].key, a.key[k].value[0]};
     a.wish.override = override;
     a.wish.overrides = a.keys;
+    char *words = done == OK ? study_options_make(argc, argv, a.wish.scene) : NULL;
+    a.wish.words = words;
     if (done == OK) done = converge_all(&a);
+    memory_free(words);
     for (int k = 0; k < a.keys; k++) varied_key_free(&a.key[k]);
     memory_free(override);
     memory_free(a.wanted);

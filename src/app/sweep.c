@@ -20,6 +20,7 @@ struct sweep_arguments {
     bool list, collect;
     const char *of[FIGURES_MOST]; /* figures of the pictures */
     int asked;
+    char *words; /* text of study_options_make */
 };
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
@@ -133,6 +134,7 @@ static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 static status sweep_all(struct study *s, struct sweep_arguments *a)
 {
     TRY(study_make_with_keys(s, a->scene, a->folder, "sweep", a->key, a->keys));
+    s->options = a->words;
     TRY(study_add_combinations(s, a->key, a->keys));
     TRY(study_check_scenes(s, a->collect));
     study_print_equal_scene_count(s, stderr);
@@ -164,8 +166,12 @@ status command_sweep(int argc, char **argv)
                                 .options.stop = stop_signals_install()};
     struct study s = {.lock.fd = -1};
     status done = sweep_words(&a, argc, argv);
-    if (done == OK) done = sweep_all(&s, &a);
+    if (done == OK) {
+        a.words = study_options_make(argc, argv, a.scene);
+        done = sweep_all(&s, &a);
+    }
     study_free(&s);
+    memory_free(a.words);
     for (int k = 0; k < a.keys; k++) varied_key_free(&a.key[k]);
     memory_free(a.key);
     return done;

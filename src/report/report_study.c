@@ -118,6 +118,9 @@ void report_write_study(struct page *p, const char *folder)
     json_write_text(&p->json, "kind", sweep ? "sweep" : "converge");
     page_add_text_file(p, "table", folder, sweep ? "sweep.csv" : "converge.csv");
     page_add_text_file(p, "scene", folder, STUDY_SCENE);
+    char *options = study_options_read(folder);
+    if (options) json_write_text(&p->json, "options", options);
+    memory_free(options);
     if (sweep) write_study_units(p, folder);
     write_warnings(p, folder);
     write_pictures(p, folder);

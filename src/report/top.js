@@ -139,20 +139,16 @@ function showOrigin() {
     save.addEventListener(
         "click", () => download(file, URL.createObjectURL(new Blob([page.scene], {type: "text/yaml"}))));
     byId("repeat").append(element("p", {}, "To repeat it, ", save, " and run ", element("code", {}, commandOf(file)),
-        page.kind === "run"          ? ". The result is the same to the last bit on any number of threads." :
-            page.kind === "converge" ? ", with the options that it was given." :
-                                       "."));
+        page.kind === "run"            ? ". The result is the same to the last bit on any number of threads." :
+            page.options === undefined ? ", with the options that it was given." :
+            page.kind === "converge"   ? ". A machine of another speed may fit other runs into the budget." :
+                                         "."));
 }
 
 // The command that repeats what the page shows.
 function commandOf(file) {
     if (page.kind === "run") return "cleave run " + file + " -t " + (summary ? summary.threads : 1);
-    if (page.kind === "converge") return "cleave converge " + file;
-    const quoted = (text) => (/^[A-Za-z0-9_.,=+-]*$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'");
-    return "cleave sweep " + file +
-        study.keys
-            .map((key) => " -s " + quoted(key + "=" + [...new Set(study.rows.map((row) => at(row, key)))].join(",")))
-            .join("");
+    return "cleave " + page.kind + " " + file + (page.options ? " " + page.options : "");
 }
 
 function showScene() {

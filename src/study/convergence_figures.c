@@ -232,7 +232,7 @@ status scalar_results_write(const struct convergence_study *s, const struct scal
     FILE *to = memory_stream_open(&text, &length);
     if (to) figures_table(to, s, figure, figures);
     TRY(study_write_file(&s->study, "converge.csv", to, &text, &length));
-    return study_write_scene(s->study.folder, s->scene.text);
+    return study_write_scene(s->study.folder, s->scene.text, s->study.options);
 }
 
 /* ---- printed summary --------------------------------------------------------------------------------------------- */

@@ -291,6 +291,7 @@ static status study_go(struct convergence_study *s, const struct convergence_req
     struct study_options options = w->options;
     const int cores = machine_cores();
     TRY(study_make(&s->study, w->scene, w->folder, "converge"));
+    s->study.options = w->words;
     spacings_choose(&s->spacings, &s->scene, w->levels, s->scene.spacing);
     if (horizon_at(s, s->spacings.at[0][0]) > HORIZON_MOST)
         return status_set(REFUSED,

@@ -67,7 +67,7 @@ static status bars_keep(const struct pilot *to, const struct pilot_search *p, co
     struct scene s;
     char table[CASE_NAME_ROOM];
     TRY(scene_read(&s, p->scene, to->override, to->overrides));
-    const status put = study_write_scene(p->folder, s.text);
+    const status put = study_write_scene(p->folder, s.text, NULL);
     scene_free(&s);
     TRY(put);
     snprintf(table, sizeof table, "%s/converge.csv", best->name);

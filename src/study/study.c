@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/folder_guard.h"
 #include "output/output.h"
 #include "output/output_files.h"
@@ -100,17 +101,20 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
 /* First line of the file STUDY_SCENE, by which Cleave recognises it. */
 static const char study_mark[] = "# study by cleave: the scene without what varies\n";
 
-/* Returns the text of the scene in the file `path` of a study, without its first line. Studies of an earlier format
- * have no such line; their scene begins as every scene that Cleave writes. Returns NULL if there is no such file or it
- * begins otherwise. The caller releases the text with memory_free. */
+/* Returns the text of the scene in the file `path` of a study, without the lines of mark and options. Studies of an
+ * earlier format have no such lines; their scene begins as every scene that Cleave writes. Returns NULL if there is no
+ * such file or it begins otherwise. The caller releases the text with memory_free. */
 static char *study_scene_read(const char *path)
 {
     char *text;
     size_t length;
-    const size_t mark = sizeof study_mark - 1;
     if (!path_is_file(path) || file_read_whole(path, &text, &length) != OK) return NULL;
-    if (length == strlen(text) && strncmp(text, study_mark, mark) == 0) {
-        memmove(text, text + mark, length - mark + 1);
+    if (length == strlen(text) && strncmp(text, study_mark, sizeof study_mark - 1) == 0) {
+        size_t begin = sizeof study_mark - 1;
+        const char *end = strchr(text + begin, '\n');
+        if (end && strncmp(text + begin, STUDY_OPTIONS_MARK, strlen(STUDY_OPTIONS_MARK)) == 0)
+            begin = (size_t)(end + 1 - text);
+        memmove(text, text + begin, length - begin + 1);
         return text;
     }
     if (scene_text_is_from_cleave(text)) return text;
@@ -134,14 +138,19 @@ bool study_has_scene(const char *folder, const char *text)
     return same;
 }
 
-status study_write_scene(const char *folder, const char *text)
+status study_write_scene(const char *folder, const char *text, const char *options)
 {
-    const size_t mark = sizeof study_mark - 1, length = strlen(text);
-    char *all = NEW("study.scene", (int64_t)(mark + length + 1), char);
-    memcpy(all, study_mark, mark);
-    memcpy(all + mark, text, length);
-    const status put = file_write_whole(path_join(folder, STUDY_SCENE).text, all, mark + length);
-    memory_free(all);
+    char *all = NULL;
+    size_t length = 0;
+    const struct path path = path_join(folder, STUDY_SCENE);
+    FILE *to = memory_stream_open(&all, &length);
+    if (!to) return status_set(FAILED, "%s: out of memory", path.text);
+    fputs(study_mark, to);
+    if (options) fprintf(to, "%s%s\n", STUDY_OPTIONS_MARK, options);
+    fputs(text, to);
+    status put = fclose(to) == 0 ? OK : status_set(FAILED, "%s: out of memory", path.text);
+    if (put == OK) put = file_write_whole(path.text, all, length);
+    free(all);
     return put;
 }
 
@@ -170,7 +179,7 @@ status study_folder_mark(const char *folder)
 {
     bool there;
     TRY(folder_check_writable(&study_kind, folder, NULL, &there));
-    return there ? OK : study_write_scene(folder, "");
+    return there ? OK : study_write_scene(folder, "", NULL);
 }
 
 status study_folder_check_scene(const char *folder, const char *text)

@@ -4,6 +4,9 @@
 
 #include "study/study.h"
 
+/* Begin of the second line of STUDY_SCENE, which has the options of the study. */
+#define STUDY_OPTIONS_MARK "# options: "
+
 /* ---- names (study_names.c) --------------------------------------------------------------------------------------- */
 
 #define STUDY_HASH_START 0xcbf29ce484222325u

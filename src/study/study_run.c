@@ -68,8 +68,7 @@ static void print_quoted(FILE *out, char c, bool harmful)
         putc(c, out);
 }
 
-/* Prints a word for a shell, in quotes if it contains characters that a shell interprets. */
-static void print_word(FILE *out, const char *word)
+void study_print_word(FILE *out, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     const size_t length = strlen(word);
@@ -108,10 +107,10 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
     snprintf(team, sizeof team, "%d", how.threads);
     char **word = command_words(scene.text, c, how.threads > 0 ? team : NULL, folder.text,
                                 how.overwrite ? "--overwrite" : "--resume", &pairs);
-    print_word(out, *program.text ? program.text : name);
+    study_print_word(out, *program.text ? program.text : name);
     for (int k = 1; word[k]; k++) {
         putc(' ', out);
-        print_word(out, word[k]);
+        study_print_word(out, word[k]);
     }
     putc('\n', out);
     memory_free(pairs);
@@ -326,7 +325,7 @@ static status scene_put(const struct study *s, bool overwrite)
     TRY(study_folder_mark(s->folder));
     if (!s->text) return OK;
     if (!overwrite) TRY(study_folder_check_scene(s->folder, s->text));
-    return study_has_scene(s->folder, s->text) ? OK : study_write_scene(s->folder, s->text);
+    return study_write_scene(s->folder, s->text, s->options);
 }
 
 status study_lock_folder(struct study *s, bool overwrite)

@@ -163,6 +163,41 @@ is "a convergence study: exit status" $? 0
 whole study.html
 holds "the study's table" grep -q '"table": "figure,unit,value,uncertainty,' study.html
 
+# repeated PAGE FOLDER KIND: runs the command that the page of a study prints, elsewhere, with the scene that it saves. Every run
+# has computed the same, and there are as many.
+repeated()
+{
+    rm -rf again && mkdir again
+    $python - "$1" again/saved.yaml >again/options <<'END'
+import json, re, sys
+page = json.loads(re.search(r'<script type="application/json" id="page">(.*?)</script>', open(sys.argv[1]).read(), re.S).group(1))
+open(sys.argv[2], "w").write(page["scene"])
+print(page["options"])
+END
+    (cd again && eval "\"$cleave\" $3 saved.yaml $(cat options) -o study -q") >out 2>err
+    is "$2: the command of its page: $(cat again/options err)" $? 0
+    for run in $(cd "$2" && ls -d */ | grep -v -e pictures -e logs); do
+        holds "$2: $run is repeated" cmp -s "$2/$run/history.csv" "again/study/$run/history.csv"
+    done
+    is "$2: as many runs" "$(ls -d again/study/*/ | wc -l)" "$(ls -d "$2"/*/ | wc -l)"
+}
+"$cleave" sweep plate.yaml -s thickness=1mm,2mm -s "particles.spacing=1mm:2mm:1mm" -s duration=2us -s 'boundary=[{traction: [0, 20 MPa], face: y+},
+    {traction: [0, "-20 MPa*sin(t/us)"], face: y-}]' --of energy.kinetic --of crack.length_end -j 1 -t 2 -o asked -q >out 2>err
+"$cleave" report asked -q
+whole asked/report.html
+repeated asked/report.html asked sweep
+is "the columns of its table" "$(head -1 again/study/sweep.csv)" "$(head -1 asked/sweep.csv)"
+if command -v gnuplot >/dev/null; then
+    holds "pictures of the same figures" cmp -s again/study/pictures/map.png asked/pictures/map.png
+fi
+"$cleave" converge plate.yaml -s particles.spacing=2mm -s duration=3us --runs 2 --levels 3 --horizon --budget "1 h" --of energy.kinetic -o narrowed -q \
+    >out 2>err
+is "a study with options: $(cat err)" $? 0
+"$cleave" report narrowed -q
+repeated narrowed/report.html narrowed converge
+is "its figures" "$(cut -d, -f1-4 again/study/converge.csv)" "$(cut -d, -f1-4 narrowed/converge.csv)"
+holds "the page prints the options" grep -q '"options": "-s particles.spacing=2mm -s duration=3us --runs 2 --levels 3 --horizon --budget .1 h. --of' narrowed/report.html
+
 # With the study beside it, a run of its scene has error bars, and so has its page.
 "$cleave" run plate.yaml -s particles.spacing=2mm -o results/bars -q --report >out 2>err
 whole results/bars/report.html results/bars

@@ -279,7 +279,7 @@ static void intervals_at_hand(void **state)
     assert_non_null(mkdtemp(folder));
     assert_int_equal(chdir(folder), 0);
     assert_int_equal(mkdir("plate_converge", 0777), 0);
-    assert_int_equal(study_write_scene("plate_converge", text), OK);
+    assert_int_equal(study_write_scene("plate_converge", text, "--runs 3"), OK);
     assert_int_equal(file_write_whole("plate_converge/converge.csv", table, strlen(table)), OK);
     static const struct {
         double spacing;
