@@ -26,17 +26,17 @@ enum picture {
  * be too long. */
 struct path pictures_folder(const char *dir);
 
-/* Returns the path DIR/pictures/NAME.ENDING of a picture of the run in the folder `dir`; an empty path if it would be
- * too long. which: kind of picture, which determines NAME; ending: "png", "svg" and so on. */
-struct path picture_path(const char *dir, enum picture which, const char *ending);
+/* Returns the path NAME.ENDING of a picture in `folder`, a folder of pictures; an empty path if it would be too long.
+ * which: kind of picture, which determines NAME; ending: "png", "svg" and so on. */
+struct path picture_path(const char *folder, enum picture which, const char *ending);
 
-/* Returns the path DIR/pictures/NAME_000012.png of the picture of frame 12 = number of the run in the folder `dir`; an
- * empty path if it would be too long. which: kind of picture, which determines NAME. */
-struct path picture_path_of_frame(const char *dir, enum picture which, int number);
+/* Returns the path NAME_000012.png of the picture of frame 12 = number in `folder`, a folder of pictures; an empty path
+ * if it would be too long. which: kind of picture, which determines NAME. */
+struct path picture_path_of_frame(const char *folder, enum picture which, int number);
 
-/* Returns the path DIR/pictures/field_NAME.ENDING of a picture of the field called NAME = field of the run in the
- * folder `dir`; an empty path if it would be too long. ending: "png", "svg" and so on. */
-struct path picture_path_of_field(const char *dir, const char *field, const char *ending);
+/* Returns the path field_NAME.ENDING of a picture of the field called NAME = field in `folder`, a folder of pictures;
+ * an empty path if it would be too long. ending: "png", "svg" and so on. */
+struct path picture_path_of_field(const char *folder, const char *field, const char *ending);
 
 /* Returns true if `name` is the name of a picture or film that Cleave draws, NAME.png or NAME_000012.png, followed by
  * the text `end`. */

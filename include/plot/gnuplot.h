@@ -19,6 +19,7 @@ struct gnuplot {
     FILE *complaints; /* standard error of gnuplot */
     int process;
     enum picture_format format;
+    int width, height;  /* size of the picture in which positions are given [pixel] */
     char *aside, *path; /* temporary and final path of the picture */
 };
 
@@ -52,6 +53,10 @@ status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_for
 
 /* Returns true if the size of picture_size_set is too narrow for a key beside the panel. */
 bool gnuplot_is_narrow(void);
+
+/* Writes the commands for the title of a picture, which begins `left` pixels from its left edge. A title that is too
+ * long for one line of letters of legible size is broken into two lines. */
+void gnuplot_write_title(const struct gnuplot *g, const char *text, double left);
 
 /* Ends the input of gnuplot, waits until the picture is complete, and renames it to its final path. Returns FAILED if
  * gnuplot is missing (the message names the package) or the picture is missing or incomplete (the message has that of

@@ -29,7 +29,8 @@ extern const int commands_count;
 #define PLOT_WORDS                                                                                                     \
     "DIR [--field NAME] [--times T,...|all|last] [--frames all|last|N] [--slice z=4mm] [--view iso|x+|x-|...|z-] "     \
     "[--range LOW:HIGH] [--colours NAME] [--magnify N] [--crop X:X,Y:Y] [--title TEXT] [--size WxH|WmmxHmm] "          \
-    "[--dpi N] [--fps N] [--format png|svg|pdf|mp4|gif] [-o FILE] [--overwrite], or --scene SCENE [-s KEY=VALUE]... "  \
+    "[--dpi N] [--fps N] [--format png|svg|pdf|mp4|gif] [-o FILE|FOLDER] [--overwrite], or --scene SCENE [-s "         \
+    "KEY=VALUE]... "                                                                                                   \
     "[--view V] "                                                                                                      \
     "[-o FILE] [--overwrite]"
 #define REPORT_WORDS "DIR [-o PAGE.html] [--overwrite] [-q]"

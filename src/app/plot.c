@@ -252,7 +252,8 @@ static status settle_format(struct plot_words *w)
     if (w->format && strcmp(w->format, dot + 1) == 0) return OK;
     return status_set(REFUSED,
                       w->format ? "plot: -o %s: its ending is not that of --format %s; give one of the two"
-                                : "plot: -o %s: an ending .png, .svg, .pdf, .mp4 or .gif is expected",
+                                : "plot: -o %s: an ending .png, .svg, .pdf, .mp4 or .gif, or a folder with / at its "
+                                  "end is expected",
                       printable_name(out).text, w->format);
 }
 
@@ -324,14 +325,23 @@ static status check_folder(const char *folder)
     return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);
 }
 
+/* Returns true if the argument of -o names a folder: one that exists, or a name that ends in / or has no ending. */
+static bool is_folder_name(const char *out)
+{
+    const size_t length = strlen(out);
+    const char *slash = strrchr(out, '/');
+    if (path_is_folder(out) || (length > 0 && out[length - 1] == '/')) return true;
+    return length > 0 && !path_exists(out) && !strchr(slash ? slash : out, '.');
+}
+
 static status draw_words(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
     if (w->scene.scene) return scene_draw_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
     INVARIANT(r->folder);
     TRY(check_folder(r->folder));
-    const bool one =
-        r->field || r->projection.outside || r->projection.normal >= 0 || r->out || picture_is_film(r->format);
+    const bool one = r->field || r->projection.outside || r->projection.normal >= 0 ||
+                     (r->out && !is_folder_name(r->out)) || picture_is_film(r->format);
     return one ? field_draw_picture(r) : run_draw_pictures(r);
 }
 

@@ -15,31 +15,30 @@ static const char field_prefix[] = "field_";
 
 struct path pictures_folder(const char *dir) { return path_join(dir, "pictures"); }
 
-/* Composes the path of a picture in the folder of a run, dir. of: base name of the picture; number: "" or the number of
- * its frame as "_000012"; ending: extension without the point. The path is empty if it is too long. */
-static struct path picture_place(const char *dir, const char *of, const char *number, const char *ending)
+/* Composes the path of a picture in a folder of pictures. of: base name of the picture; number: "" or the number of its
+ * frame as "_000012"; ending: extension without the point. The path is empty if it is too long. */
+static struct path picture_place(const char *folder, const char *of, const char *number, const char *ending)
 {
     char name[PATH_NAME_ROOM];
-    const struct path folder = pictures_folder(dir);
     snprintf(name, sizeof name, "%s%s.%s", of, number, ending);
-    return folder.text[0] ? path_join(folder.text, name) : folder;
+    return *folder ? path_join(folder, name) : (struct path){{0}};
 }
 
-struct path picture_path(const char *dir, enum picture which, const char *ending)
+struct path picture_path(const char *folder, enum picture which, const char *ending)
 {
-    return picture_place(dir, picture_name[which], "", ending);
+    return picture_place(folder, picture_name[which], "", ending);
 }
 
-struct path picture_path_of_frame(const char *dir, enum picture which, int number)
+struct path picture_path_of_frame(const char *folder, enum picture which, int number)
 {
     char text[16];
     snprintf(text, sizeof text, "_%06d", number);
-    return picture_place(dir, picture_name[which], text, "png");
+    return picture_place(folder, picture_name[which], text, "png");
 }
 
-struct path picture_path_of_field(const char *dir, const char *field, const char *ending)
+struct path picture_path_of_field(const char *folder, const char *field, const char *ending)
 {
-    return picture_place(dir, field_prefix, field, ending);
+    return picture_place(folder, field_prefix, field, ending);
 }
 
 /* Returns true if `rest`, a file name behind its base name, is the extension of a picture, such as .png, followed by

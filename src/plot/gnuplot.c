@@ -16,7 +16,7 @@
 #include "output/picture_file.h"
 
 /* Exit status of a child whose program does not exist, as in shells. */
-enum { NOT_FOUND = 127 };
+enum { NOT_FOUND = 127, TITLE_ROOM = 1024 };
 
 const char *const curve_colour[CURVE_COLOURS] = {
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#3d3d3d",
@@ -99,10 +99,15 @@ enum { NARROW = 760 }; /* pictures narrower than this have no room beside their 
 void picture_size_set(struct picture_size size) { usual = size; }
 struct picture_size picture_size_get(void) { return usual; }
 
+/* Factor on the letters of PDFs, whose sizes are points, by which they are those of a PNG; on those of narrow pictures,
+ * which then have 7 points. */
+static const double PDF_LETTERS = 0.667, NARROW_LETTERS = 0.8;
+
 /* Writes the commands that select the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. width,
- * height: size of the picture [pixel]; letters: factor on the size of letters, and in PNG of lines and points [1]. */
-static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height, double letters)
+ * height: size of the picture [pixel]; scale: factor on the size of letters, and in PNG of lines and points [1]. */
+static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height, double scale)
 {
+    const double letters = gnuplot_is_narrow() ? NARROW_LETTERS * scale : scale, lines = scale;
     if (format == PICTURE_SVG)
         fprintf(g->to,
                 "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' fontscale %.4g "
@@ -112,7 +117,7 @@ static void set_terminal(struct gnuplot *g, enum picture_format format, int widt
         fprintf(g->to,
                 "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale %.4g linewidth "
                 "0.9 background rgb 'white' noenhanced\n",
-                (double)width / PICTURE_DPI, (double)height / PICTURE_DPI, 0.5 * letters);
+                (double)width / PICTURE_DPI, (double)height / PICTURE_DPI, PDF_LETTERS * letters);
     else {
         const double fine = usual.dpi / PICTURE_DPI;
         const int size[2] = {(int)lround(fine * width), (int)lround(fine * height)};
@@ -120,7 +125,7 @@ static void set_terminal(struct gnuplot *g, enum picture_format format, int widt
                 "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) { set terminal pngcairo size %d,%d "
                 "font 'Liberation Sans,13' fontscale %.4g linewidth %.4g pointscale %.4g background rgb 'white' "
                 "noenhanced } else { set terminal png size %d,%d noenhanced truecolor }\n",
-                size[0], size[1], fine * letters, fine * letters, fine * letters, size[0], size[1]);
+                size[0], size[1], fine * letters, fine * lines, fine * lines, size[0], size[1]);
     }
     fputs("set output ", g->to);
     gnuplot_quote(g->to, g->aside);
@@ -166,6 +171,8 @@ static status open_with_letters(struct gnuplot *g, const char *path, enum pictur
     }
     set_terminal(g, format, usual.width ? usual.width : width, usual.width ? usual.height : height, letters);
     set_style(g->to);
+    g->width = usual.width && letters == 1 ? usual.width : width;
+    g->height = usual.width && letters == 1 ? usual.height : height;
     return OK;
 }
 
@@ -180,6 +187,46 @@ status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_for
 }
 
 bool gnuplot_is_narrow(void) { return usual.width > 0 && usual.width < NARROW; }
+
+/* Sizes of letters of titles, and the mean width of a letter over its size. */
+enum { TITLE_LARGE = 16, TITLE_NARROW = 14, TITLE_ONE_LINE = 11, TITLE_SMALL = 7 };
+static const double LETTER_WIDE = 0.58;
+
+/* Returns the number of characters of n bytes of UTF-8. */
+static int letters_of(const char *text, size_t n)
+{
+    int letters = 0;
+    for (size_t k = 0; k < n; k++) letters += ((unsigned char)text[k] & 0xc0) != 0x80;
+    return letters;
+}
+
+/* Returns the index of the blank nearest to the middle of a text, or its length if it has none. */
+static size_t break_of(const char *text)
+{
+    const size_t length = strlen(text);
+    size_t best = length;
+    for (size_t k = 1; k < length; k++)
+        if (text[k] == ' ' && labs(2 * (long)k - (long)length) < labs(2 * (long)best - (long)length)) best = k;
+    return best;
+}
+
+void gnuplot_write_title(const struct gnuplot *g, const char *text, double left)
+{
+    const size_t length = strlen(text);
+    const double room = g->width - left - 12, most = gnuplot_is_narrow() ? TITLE_NARROW : TITLE_LARGE;
+    const size_t cut = LETTER_WIDE * TITLE_ONE_LINE * letters_of(text, length) > room ? break_of(text) : length;
+    const int longer = (int)fmax(letters_of(text, cut), letters_of(text + cut, length - cut));
+    const double size = fmax(fmin(most, room / (LETTER_WIDE * fmax(longer, 1))), TITLE_SMALL);
+    const double upper = gnuplot_is_narrow() ? 20 : 28;
+    for (int line = 0; line < 1 + (cut < length); line++) {
+        char part[TITLE_ROOM];
+        snprintf(part, sizeof part, "%.*s", (int)(line ? length - cut - 1 : cut), line ? text + cut + 1 : text);
+        fprintf(g->to, "set label %d ", 1 + line);
+        gnuplot_quote(g->to, part);
+        fprintf(g->to, " at screen %.6g,%.6g left font ',%.3g' textcolor rgb '#111111'\n", left / g->width,
+                1 - (upper + (cut < length ? 1.25 * size * (line - 0.5) : 0)) / g->height, size);
+    }
+}
 
 void error_message_last_line(FILE *file, char *text, size_t size)
 {

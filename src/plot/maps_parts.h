@@ -9,6 +9,7 @@ struct layout {
     int columns, rows;
     int panel_width, panel_height; /* [pixel] */
     int width, height;             /* size of the picture [pixel] */
+    int left, above, below, gap;   /* margins of the panels; distance of columns [pixel] */
     int right;                     /* width of the colour bar or key on the right [pixel] */
 };
 

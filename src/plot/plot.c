@@ -13,10 +13,10 @@
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of the standard picture `which` in the folder and format of the request. */
+/* Returns the path of the standard picture `which` in the folder for pictures and format of the request. */
 static struct path sheet_path(const struct plot_request *r, enum picture which)
 {
-    return picture_path(r->folder, which, picture_ending[r->format]);
+    return picture_path(r->pictures, which, picture_ending[r->format]);
 }
 
 static status draw_map(const struct plot_request *r, const char *path, enum map map, const struct view *view,
@@ -65,12 +65,12 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
         status s = plotted_particles_read(&c, r->folder, &frames->list[k], &r->projection);
         if (s != OK) return s;
         if (has->damage || view->notches > 0)
-            s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
+            s = draw_map(r, picture_path_of_frame(r->pictures, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
         if (s == OK && has->kinds)
-            s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_KIND, number).text, MAP_KIND, view, &c, 1);
+            s = draw_map(r, picture_path_of_frame(r->pictures, DRAWN_KIND, number).text, MAP_KIND, view, &c, 1);
         snprintf(field, sizeof field, "%.40s_%06d", view->field->name, number);
         if (s == OK && map == MAP_FIELD)
-            s = draw_map(r, picture_path_of_field(r->folder, field, "png").text, map, view, &c, 1);
+            s = draw_map(r, picture_path_of_field(r->pictures, field, "png").text, map, view, &c, 1);
         plotted_particles_free(&c);
         TRY(s);
     }
@@ -91,7 +91,7 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
     const enum map map = map_of_field(view.field);
     const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
                       latest = sheet_path(r, DRAWN_LAST),
-                      field = picture_path_of_field(r->folder, view.field->name, picture_ending[r->format]);
+                      field = picture_path_of_field(r->pictures, view.field->name, picture_ending[r->format]);
     const bool damaged = has.damage || view.notches > 0, something = damaged || map == MAP_FIELD;
     TRY(damaged ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
                 : report_nothing_to_draw(damage.text,
@@ -203,14 +203,12 @@ static status draw_frames(struct plot_request *r)
 static status draw_pictures(struct plot_request *r)
 {
     char title[TITLE_LENGTH];
-    const struct scene *scene = r->projection.scene;
     const bool frames = run_has_file(r->folder, "frames.hdf.series"), history = run_has_file(r->folder, "history.csv");
-    const struct path pictures = pictures_folder(r->folder);
-    TRY(pictures_folder_make(pictures.text));
+    TRY(pictures_folder_make(r->pictures, r->overwrite));
     if (frames) TRY(draw_frames(r));
     picture_compose_title(title, r, "", NULL);
-    if (history) TRY(history_curves_draw(r->folder, title, r->format, scene && scene->dim == 1));
-    if (printf("pictures in %s\n", printable_name(pictures.text).text) < 0 || fflush(stdout) != 0)
+    if (history) TRY(history_curves_draw(r, title));
+    if (printf("pictures in %s\n", printable_name(r->pictures).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));
     return OK;
 }
@@ -219,6 +217,13 @@ status run_draw_pictures(const struct plot_request *request)
 {
     struct plot_request r = *request;
     struct scene scene;
+    struct path pictures = pictures_folder(r.folder);
+    if (r.out) snprintf(pictures.text, sizeof pictures.text, "%s", r.out);
+    for (size_t end = strlen(pictures.text); end > 1 && pictures.text[end - 1] == '/'; end--)
+        pictures.text[end - 1] = '\0';
+    if (strlen(pictures.text) + PATH_NAME_ROOM >= PATH_ROOM)
+        return status_set(REFUSED, "%s: the name is too long", printable_name(pictures.text).text);
+    r.pictures = pictures.text;
     if (r.panels == 0) r.panels = PANELS;
     r.projection.in_steps = run_has_load_steps(r.folder);
     const bool known = scene_read(&scene, path_join(r.folder, "scene.yaml").text, NULL, 0) == OK;

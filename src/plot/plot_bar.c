@@ -204,20 +204,18 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     int height = 110 + 250 * panels;
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
     for (int k = 0; k < frames; k++) send_frame(g.to, &h[k], k, metre.factor, scale);
-    fputs("set label 1 ", g.to);
-    gnuplot_quote(g.to, title);
-    fprintf(g.to,
-            " at screen 0.1,%.4f left font ',16' textcolor rgb '#111111'\n"
-            "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.845\nset format x ''\n"
-            "set key at screen 0.855,%.4f left top\nset xrange [%.9g:%.9g]\n",
-            1 - 30.0 / height, 1 - 60.0 / height, (x.low - half) / metre.factor, (x.high + half) / metre.factor);
+    curves_write_title(&g, title, "");
+    fprintf(g.to, "set multiplot\nset format x ''\nset xrange [%.9g:%.9g]\n", (x.low - half) / metre.factor,
+            (x.high + half) / metre.factor);
     bool tinted = tint_kinds(g.to, &h[frames - 1], metre.factor, half);
+    const struct curves_layout l = curves_layout_make(&g, frames + 1 + tinted, strlen("peridynamic"), false);
+    const double each = (curves_layout_inner_height(&l) - PANEL_GAP * (panels - 1)) / panels;
+    curves_write_margins(g.to, &l);
     for (int q = 0; q < panels; q++) {
-        double above = 1 - (60.0 + 250 * q) / height;
-        fprintf(g.to,
-                "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n"
-                "set yrange [%.9g:%.9g]\n",
-                above, above - 225.0 / height, scale[q].label, scale[q].low, scale[q].high);
+        const double from = q * (each + PANEL_GAP);
+        curves_write_panel(g.to, &l, from, from + each);
+        curves_write_tics(g.to, "y", scale[q].low, scale[q].high, each);
+        fprintf(g.to, "set ylabel '%s'\nset yrange [%.9g:%.9g]\n", scale[q].label, scale[q].low, scale[q].high);
         if (q == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
         plot_bar_panel(g.to, q, show, frames, tinted);
         fputs("unset label\nunset key\n", g.to);

@@ -9,8 +9,7 @@
 #include "plot/plot.h"
 #include "run/ledger.h"
 
-/* Largest number of points of a curve, and of curves in a picture. */
-enum { POINTS_MAX = 4000, CURVES_MAX = 8 };
+enum { POINTS_MAX = 4000 }; /* largest number of points of a curve */
 
 double history_largest_magnitude(const struct history *h, int column)
 {
@@ -20,6 +19,17 @@ double history_largest_magnitude(const struct history *h, int column)
         if (a > largest && isfinite(a)) largest = a;
     }
     return largest;
+}
+
+struct value_range history_extent(const struct history *h, const int *column, int columns)
+{
+    struct value_range e = {INFINITY, -INFINITY};
+    for (int k = 0; k < columns; k++)
+        for (int64_t i = 0; i < h->rows; i++) {
+            const double a = history_value_at(h, i, column[k]);
+            if (isfinite(a)) e.low = fmin(e.low, a), e.high = fmax(e.high, a);
+        }
+    return e;
 }
 
 void curves_write_data(FILE *to, const struct series *s, const int *column, const double *factor, int columns)
@@ -41,29 +51,6 @@ void curves_write_data(FILE *to, const struct series *s, const int *column, cons
     fputs("EOD\n", to);
 }
 
-void curves_write_title(FILE *to, const char *title, const char *what)
-{
-    char text[512];
-    const size_t length = strlen(title);
-    snprintf(text, sizeof text, "%s%s", title, length > 0 && title[length - 1] == ' ' ? what : "");
-    fputs("set label 1 ", to);
-    gnuplot_quote(to, text);
-    fputs(" at screen 0.1,0.955 left font ',16' textcolor rgb '#111111'\n", to);
-}
-
-void curves_write_margins(FILE *to, double right)
-{
-    if (gnuplot_is_narrow())
-        fputs("set lmargin -1\nset rmargin 2\nset tmargin 3.5\nset bmargin -1\nset key bmargin left horizontal maxcols "
-              "2\n",
-              to);
-    else
-        fprintf(to,
-                "set lmargin at screen 0.1\nset rmargin at screen %.4f\nset tmargin at screen 0.9\n"
-                "set bmargin at screen 0.13\nset key at screen %.4f,0.895 left top\n",
-                right, right + 0.015);
-}
-
 void curves_write_time_axis(FILE *to, const struct series *s)
 {
     double end = history_value_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
@@ -75,13 +62,14 @@ void curves_write_time_axis(FILE *to, const struct series *s)
 /* ---- crack ------------------------------------------------------------------------------------------------------- */
 
 /* Writes the commands for a vertical axis ("y" or "y2") from zero to `top`, with its label and tics in the colour of
- * its curve. colour: index in curve_colour. */
-static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top)
+ * its curve. colour: index in curve_colour; pixels: height of the panel. */
+static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top, double pixels)
 {
     fprintf(to,
             "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\n"
             "set %srange [0:%.9g]\n",
             axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
+    curves_write_tics(to, axis, 0, top, pixels);
 }
 
 /* Returns true if the values in a column of the history are not all equal. */
@@ -107,31 +95,33 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
         return report_nothing_to_draw(sheet.path, "no crack grows, no particle becomes peridynamic");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
     curves_write_data(g.to, s, column, factor, 2);
-    curves_write_title(g.to, title, "crack");
+    curves_write_title(&g, title, "crack");
     curves_write_time_axis(g.to, s);
+    const bool both = shown[0] && shown[1];
+    const struct curves_layout l = curves_layout_make(&g, both ? 2 : 0, strlen("peridynamic share (right)"), both);
+    curves_write_margins(g.to, &l);
+    const double pixels = curves_layout_inner_height(&l);
     snprintf(label, sizeof label, "crack length [%s]", metre.name);
-    if (shown[0]) set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0]);
+    if (shown[0]) set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0], pixels);
     if (shown[1])
-        set_axis(g.to, shown[0] ? "y2" : "y", "share of peridynamic particles [%]", 1, 1.25 * largest[1] / factor[1]);
-    fprintf(g.to,
-            "set border %d\nset lmargin at screen 0.1\nset rmargin at screen 0.9\nset tmargin at screen 0.84\n"
-            "set key at screen 0.1,0.875 left bottom horizontal width 2\nplot ",
-            shown[0] && shown[1] ? 11 : 3);
+        set_axis(g.to, shown[0] ? "y2" : "y", "peridynamic share [%]", 1, 1.25 * largest[1] / factor[1], pixels);
+    fprintf(g.to, "set border %d\n%splot ", both ? 11 : 3, both ? "" : "unset key\n");
     if (shown[0])
-        fprintf(g.to, "$data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length%s'%s", curve_colour[0],
-                shown[1] ? " (left)" : "", shown[1] ? ", " : "\n");
+        fprintf(g.to, "$data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length (left)'%s", curve_colour[0],
+                both ? ", " : "\n");
     if (shown[1])
-        fprintf(g.to, "$data using 1:3 axes x1%s with lines lw 2.4 dt (12,5) lc rgb '%s' title 'peridynamic share%s'\n",
-                shown[0] ? "y2" : "y1", curve_colour[1], shown[0] ? " (right)" : "");
+        fprintf(g.to,
+                "$data using 1:3 axes x1%s with lines lw 2.4 dt (12,5) lc rgb '%s' title 'peridynamic share (right)'\n",
+                both ? "y2" : "y1", curve_colour[1]);
     return gnuplot_close(&g);
 }
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
 struct energies {
-    int column[CURVES_MAX];
-    const struct ledger_row *row[CURVES_MAX];
-    double factor[CURVES_MAX];
+    int column[LEDGER_ROWS];
+    const struct ledger_row *row[LEDGER_ROWS];
+    double factor[LEDGER_ROWS];
     int n;
     struct unit joule;
 };
@@ -171,21 +161,25 @@ static void plot_energies(FILE *to, const struct energies *e)
 }
 
 /* Returns a distance of tics, 1, 2 or 5 times a power of ten, that places one or two tics between 0 and `top`. */
-static double plot_curves_tic_distance(double top)
+static double coarse_tic_distance(double top)
 {
-    double decade = pow(10, floor(log10(top))), lead = top / decade;
+    const double decade = pow(10, floor(log10(top))), lead = top / decade;
     return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
-static void plot_balance(FILE *to, const struct series *s, double largest)
+/* Plots the balance error below the energies. l: layout of the picture; largest: largest magnitude of the error
+ * [1]. */
+static void plot_balance(FILE *to, const struct series *s, const struct curves_layout *l, double largest)
 {
+    const struct two_panels two = curves_two_panels(l);
     double top = largest > 0 ? 120 * largest : 1; /* percent; 20 % above the largest value */
     curves_write_time_axis(to, s);
+    curves_write_panel(to, l, two.lower_from, two.lower_end);
     fprintf(to,
-            "unset label\nunset key\nset format x '%%g'\nset tmargin at screen 0.255\nset bmargin at screen 0.105\n"
-            "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel 'balance error [%%]'\n"
+            "unset label\nunset key\nset format x '%%g'\n"
+            "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel '%serror [%%]'\n"
             "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
-            -top, top, plot_curves_tic_distance(top), curve_colour[6]);
+            -top, top, coarse_tic_distance(top), gnuplot_is_narrow() ? "" : "balance ", curve_colour[6]);
 }
 
 /* Draws the energies of a run over time, and below them the balance error if the history has it. Prints a message if
@@ -200,48 +194,60 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     if (e.n == 0) return report_nothing_to_draw(sheet.path, "all energies are 0");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, balance >= 0 ? 760 : 600));
     curves_write_data(g.to, s, e.column, e.factor, e.n);
-    curves_write_title(g.to, title, "energy");
+    curves_write_title(&g, title, "energy");
     curves_write_time_axis(g.to, s);
-    fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen 0.78\nset key at screen 0.79,0.91 left top\n"
-            "set ylabel 'energy [%s]'\n",
-            e.joule.name);
-    if (balance >= 0)
-        fputs("set multiplot\nset tmargin at screen 0.905\nset bmargin at screen 0.32\nset format x ''\nunset xlabel\n",
-              g.to);
+    size_t longest = 3; /* sum */
+    for (int k = 0; k < e.n; k++) longest = strlen(e.row[k]->label) > longest ? strlen(e.row[k]->label) : longest;
+    const struct curves_layout l = curves_layout_make(&g, e.n + 1, longest, false);
+    curves_write_margins(g.to, &l);
+    fprintf(g.to, "set ylabel 'energy [%s]'\n", e.joule.name);
+    const double end = balance >= 0 ? curves_two_panels(&l).upper_end : curves_layout_inner_height(&l);
+    curves_write_panel(g.to, &l, 0, end);
+    const struct value_range of = history_extent(s->h, e.column, e.n);
+    curves_write_tics(g.to, "y", fmin(of.low, 0) / e.joule.factor, of.high / e.joule.factor, end);
+    if (balance >= 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
     plot_energies(g.to, &e);
     if (balance >= 0) {
         fputs("undefine $data\n", g.to);
         curves_write_data(g.to, s, &balance, &percent, 1);
-        plot_balance(g.to, s, history_largest_magnitude(s->h, balance));
+        plot_balance(g.to, s, &l, history_largest_magnitude(s->h, balance));
         fputs("unset multiplot\n", g.to);
     }
     return gnuplot_close(&g);
 }
 
-status history_curves_draw(const char *folder, const char *title, enum picture_format format, bool bar)
+/* Draws the pictures of a history with at least two samples. in_steps: it is one of load steps. */
+static status draw_curves(const struct plot_request *r, const char *title, const struct series *s, bool in_steps)
+{
+    const char *ending = picture_ending[r->format];
+    const struct path crack = picture_path(r->pictures, DRAWN_CRACK, ending),
+                      energy = picture_path(r->pictures, DRAWN_ENERGY, ending),
+                      load = picture_path(r->pictures, DRAWN_LOAD, ending),
+                      r_curve = picture_path(r->pictures, DRAWN_R_CURVE, ending);
+    TRY(draw_crack((struct sheet){crack.text, r->format}, title, s));
+    TRY(draw_energy((struct sheet){energy.text, r->format}, title, s));
+    TRY(sif_curves_draw(title, s));
+    TRY(crack_paths_draw(r->folder, title, s));
+    TRY(load_displacement_draw((struct sheet){load.text, r->format}, title, s->h, r->projection.scene, in_steps));
+    return in_steps ? r_curve_draw((struct sheet){r_curve.text, r->format}, r->folder, title, s->h) : OK;
+}
+
+status history_curves_draw(const struct plot_request *r, const char *title)
 {
     struct history h;
-    TRY(history_read(&h, folder));
+    TRY(history_read(&h, r->folder));
     const bool in_steps = history_find_column(&h, "load_time") >= 0;
-    struct series s = {
-        .h = &h, .time = history_find_column(&h, in_steps ? "step" : "time"), .format = format, .bar = bar};
-    const char *ending = picture_ending[format];
+    const struct scene *scene = r->projection.scene;
+    struct series s = {.h = &h,
+                       .time = history_find_column(&h, in_steps ? "step" : "time"),
+                       .second = {1, ""},
+                       .format = r->format,
+                       .pictures = r->pictures,
+                       .bar = scene && scene->dim == 1};
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
-        s.second =
-            in_steps ? (struct unit){1, ""} : unit_for_largest_value(history_value_at(&h, h.rows - 1, s.time), "s");
-        result = draw_crack((struct sheet){picture_path(folder, DRAWN_CRACK, ending).text, format}, title, &s);
-        if (result == OK)
-            result = draw_energy((struct sheet){picture_path(folder, DRAWN_ENERGY, ending).text, format}, title, &s);
-        if (result == OK) result = sif_curves_draw(folder, title, &s);
-        if (result == OK) result = crack_paths_draw(folder, title, &s);
-        if (result == OK)
-            result = load_displacement_draw((struct sheet){picture_path(folder, DRAWN_LOAD, ending).text, format},
-                                            title, &h, in_steps);
-        if (result == OK && in_steps)
-            result = r_curve_draw((struct sheet){picture_path(folder, DRAWN_R_CURVE, ending).text, format}, folder,
-                                  title, &h);
+        if (!in_steps) s.second = unit_for_largest_value(history_value_at(&h, h.rows - 1, s.time), "s");
+        result = draw_curves(r, title, &s, in_steps);
     }
     history_free(&h);
     return result;
@@ -311,6 +317,18 @@ static double largest_in(const float *a, int64_t n)
     return largest;
 }
 
+/* Returns the extent of the axial stress or velocity of all particles of frame[frames]. factor: unit. */
+static struct value_range profile_extent(const struct output_frame *frame, int frames, double factor, bool stress)
+{
+    struct value_range e = {INFINITY, -INFINITY};
+    for (int k = 0; k < frames; k++)
+        for (int64_t i = 0; i < frame[k].n; i++) {
+            const double a = (stress ? frame[k].stress[0][i] : frame[k].v[0][i]) / factor;
+            e.low = fmin(e.low, a), e.high = fmax(e.high, a);
+        }
+    return e;
+}
+
 /* Chooses unit[3], the units of position, velocity and stress, for the largest values in frame[frames]. */
 static void choose_units(struct unit *unit, const struct output_frame *frame, int frames)
 {
@@ -353,21 +371,25 @@ status bar_profiles_draw(struct sheet sheet, const char *title, const struct out
     char label[3][64];
     const int panels = profile_panels(frame, frames), height = 130 + 263 * panels;
     choose_units(unit, frame, frames);
+    struct value_range of[3] = {profile_extent(frame, frames, unit[1].factor, false),
+                                profile_extent(frame, frames, unit[2].factor, true),
+                                {0, 1}};
     snprintf(label[0], sizeof label[0], "velocity [%s]", unit[1].name);
     snprintf(label[1], sizeof label[1], "stress [%s]", unit[2].name);
     snprintf(label[2], sizeof label[2], "damage");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
     for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, frame_spacing(&frame[0]), unit);
-    curves_write_title(g.to, title, "");
-    fprintf(g.to,
-            "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
-            "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.875,%.4f left top\n",
-            1 - 73.0 / height);
+    curves_write_title(&g, title, "");
+    const struct curves_layout l = curves_layout_make(&g, frames, TIME_LETTERS, false);
+    const double each = (curves_layout_inner_height(&l) - PANEL_GAP * (panels - 1)) / panels;
+    curves_write_margins(g.to, &l);
+    fputs("set multiplot\nset format x ''\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n", g.to);
     profile_range(g.to, frame, frames, unit[0].factor);
     for (int k = 0; k < panels; k++) {
-        const double above = 1 - (78.0 + 262 * k) / height;
-        fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n", above,
-                above - 235.0 / height, label[k]);
+        const double from = k * (each + PANEL_GAP);
+        curves_write_panel(g.to, &l, from, from + each);
+        curves_write_tics(g.to, "y", of[k].low, of[k].high, each);
+        fprintf(g.to, "set ylabel '%s'\n", label[k]);
         if (k == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", unit[0].name);
         if (k == 2) fputs("set offsets\nset yrange [0:1.04]\n", g.to);
         plot_profile(g.to, frame, frames, k + 2);
@@ -410,8 +432,9 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
     snprintf(label, sizeof label, *field->unit ? "%.40s [%s]" : "%.40s", name, own.name);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, value[k], frame_spacing(&frame[0]), factor);
-    curves_write_title(g.to, title, "");
-    curves_write_margins(g.to, 0.84);
+    curves_write_title(&g, title, "");
+    const struct curves_layout l = curves_layout_make(&g, frames, TIME_LETTERS, false);
+    curves_write_margins(g.to, &l);
     fprintf(g.to,
             "set offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
             "set xlabel 'x [%s]'\nset ylabel '%s'\n",

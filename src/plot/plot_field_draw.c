@@ -17,10 +17,11 @@
 static status field_path(struct path *path, const struct plot_request *r, const char *field)
 {
     const char *ending = picture_ending[r->format];
-    const struct path usual = picture_path_of_field(r->folder, field, ending);
+    const struct path pictures = pictures_folder(r->folder),
+                      usual = picture_path_of_field(pictures.text, field, ending);
     if (!r->out) {
         *path = usual;
-        return pictures_folder_make(pictures_folder(r->folder).text);
+        return pictures_folder_make(pictures.text, r->overwrite);
     }
     return picture_choose_path(path, r->out, strrchr(usual.text, '/') + 1, r->overwrite);
 }

@@ -143,13 +143,13 @@ void frames_free(struct output_frame *f, int n)
     memory_free(f);
 }
 
-status pictures_folder_make(const char *path)
+status pictures_folder_make(const char *path, bool overwrite)
 {
     if (path_is_link(path))
         return status_set(REFUSED, "%s is a symbolic link: pictures would be written to another folder; remove it",
                           path);
-    if (mkdir(path, 0777) != 0 && errno != EEXIST) return status_set(FAILED, "%s: %s", path, strerror(errno));
-    return files_visit(path, is_picture_name, "", picture_check_replaceable);
+    TRY(folder_make(path));
+    return overwrite ? OK : files_visit(path, is_picture_name, "", picture_check_replaceable);
 }
 
 status picture_choose_path(struct path *path, const char *option_argument, const char *name, bool overwrite)

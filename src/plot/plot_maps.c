@@ -6,11 +6,20 @@
 #include "base/memory.h"
 #include "maps_parts.h"
 
-/* Margins of the panels and gaps between them [pixel]. */
-enum { LEFT = 104, RIGHT = 136, RIGHT_MAX = 420, ABOVE = 84, BELOW = 70, GAP_X = 26, GAP_Y = 42 };
+/* Margins of the panels, those of narrow pictures, and gaps between the panels [pixel]. */
+enum { LEFT = 104, RIGHT = 136, RIGHT_MAX = 420, ABOVE = 84, BELOW = 70, GAP_X = 34, GAP_Y = 42 };
+enum {
+    LEFT_NARROW = 74,
+    RIGHT_NARROW = 124,
+    ABOVE_NARROW = 62,
+    KEY_NARROW = 24,
+    BELOW_NARROW = 54,
+    AXES_NARROW = 24,
+    GAP_NARROW = 26
+};
 
-/* Least distance of tics: the width and twice the height of their numbers [pixel]. */
-enum { TICS_X = 50, TICS_Y = 36 };
+/* Least distance of tics of the vertical axis [pixel]. */
+enum { TICS_Y = 36, TICS_Y_NARROW = 22 };
 
 /* Position and width of the colour bar [pixel] and number of its colours; its image has two columns because gnuplot
  * draws no image of a single column. */
@@ -19,24 +28,25 @@ enum { BAR_FROM = 26, BAR_WIDTH = 16, BAR_STEPS = 256, BAR_COLUMNS = 2 };
 /* Size of the whole picture [pixel]: printed on a text page, its letters have the size of the text. */
 enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
 enum { KEY_LINE = 22 };                  /* distance of lines of the key [pixel] */
-enum { KEY_BELOW = 760 };                /* narrower pictures have the key below the title [pixel] */
 static const double SHAPE_WANTED = 0.72; /* height over width of the picture */
 
 /* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height over width of a
- * panel; right: margin on the right [pixel]. */
-static struct layout layout_of(int columns, int panels, double aspect, int right)
+ * panel; margins: layout with the margins of the panels. */
+static struct layout layout_of(int columns, int panels, double aspect, const struct layout *margins)
 {
-    struct layout l = {.columns = columns, .rows = (panels + columns - 1) / columns, .right = right};
+    struct layout l = *margins;
+    l.columns = columns, l.rows = (panels + columns - 1) / columns;
     const struct picture_size given = picture_size_get();
     int width = given.width ? given.width : panels == 1 ? WIDTH_SINGLE : WIDTH;
-    int between_x = (columns - 1) * GAP_X, between_y = (l.rows - 1) * GAP_Y;
-    double panel = fmax((width - LEFT - right - between_x) / columns, PANEL_MIN);
-    double highest = fmax(((given.width ? given.height : HEIGHT_MAX) - ABOVE - BELOW - between_y) / l.rows, PANEL_MIN);
+    int between_x = (columns - 1) * l.gap, between_y = (l.rows - 1) * GAP_Y;
+    double panel = fmax((width - l.left - l.right - between_x) / columns, PANEL_MIN);
+    double highest =
+        fmax(((given.width ? given.height : HEIGHT_MAX) - l.above - l.below - between_y) / l.rows, PANEL_MIN);
     panel = fmin(panel, highest / aspect);
     l.panel_width = (int)fmax(lround(panel), PANEL_MIN);
     l.panel_height = (int)fmax(lround(panel * aspect), PANEL_MIN);
-    l.width = LEFT + right + between_x + columns * l.panel_width;
-    l.height = ABOVE + BELOW + between_y + l.rows * l.panel_height;
+    l.width = l.left + l.right + between_x + columns * l.panel_width;
+    l.height = l.above + l.below + between_y + l.rows * l.panel_height;
     if (given.width) {
         l.right += given.width - l.width; /* the bar stays beside the panels */
         l.width = given.width, l.height = given.height;
@@ -45,13 +55,13 @@ static struct layout layout_of(int columns, int panels, double aspect, int right
 }
 
 /* Returns the layout of `panels` panels with the best compromise between large panels, a picture of the shape
- * SHAPE_WANTED and few empty positions. aspect: height over width of a panel; right: margin on the right [pixel]. */
-static struct layout layout_choose(int panels, double aspect, int right)
+ * SHAPE_WANTED and few empty positions. aspect, margins: as for layout_of. */
+static struct layout layout_choose(int panels, double aspect, const struct layout *margins)
 {
-    struct layout best = layout_of(1, panels, aspect, right);
+    struct layout best = layout_of(1, panels, aspect, margins);
     double best_cost = INFINITY;
     for (int columns = 1; columns <= panels; columns++) {
-        struct layout l = layout_of(columns, panels, aspect, right);
+        struct layout l = layout_of(columns, panels, aspect, margins);
         double area = (double)l.panel_width * l.panel_height;
         const double shape = picture_size_get().width ? 0 : fabs(log((double)l.height / l.width / SHAPE_WANTED));
         double cost = shape - 0.5 * log(area);
@@ -77,15 +87,6 @@ void panel_write_margins(FILE *to, const struct layout *l, double left, double a
     set_box(to, l, left, above, l->panel_width, l->panel_height);
 }
 
-/* Returns a round distance of tics, 1, 2 or 5 times a power of ten, for an axis of length `range` that is drawn on
- * `pixels` pixels. Tics are at least `apart` pixels apart, and there are at most about ten. */
-static double plot_maps_tic_distance(double range, int pixels, int apart)
-{
-    double least = range * fmax(apart, pixels / 10.0) / pixels, decade = pow(10, floor(log10(least)));
-    double lead = least / decade;
-    return decade * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
-}
-
 void panel_write_image(FILE *to, const struct colour *pixel, int width, int height, const double *from,
                        const double *step, const char *more)
 {
@@ -96,15 +97,37 @@ void panel_write_image(FILE *to, const struct colour *pixel, int width, int heig
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
+/* Returns the width of the longest of the numbers at tics between `low` and `high` [pixel]. */
+static double numbers_width(double low, double high, double tics, const char *format)
+{
+    int longest = 0;
+    for (double k = ceil(low / tics - 1e-6); k * tics <= high; k++) {
+        char number[32];
+        const int length = snprintf(number, sizeof number, format, fabs(k) < 0.5 ? 0 : k * tics);
+        if (length > longest) longest = length;
+    }
+    return (gnuplot_is_narrow() ? 7.4 : 9) * longest;
+}
+
+/* Returns the distance of tics of a horizontal axis of the given width [pixel] whose numbers do not touch. */
+static double tics_across(double low, double high, double pixels)
+{
+    double apart = 20, tics = tic_distance(high - low, pixels, apart);
+    while (apart < pixels && numbers_width(low, high, tics, "%g") + 14 > tics / (high - low) * pixels)
+        tics = tic_distance(high - low, pixels, apart *= 1.3);
+    return tics;
+}
+
 void panel_write_axes(FILE *to, const struct layout *l, const struct view *view, const struct plotted_particles *c,
                       const struct unit *metre, int column, bool lowest)
 {
     const int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) {
-        const double range = (view->to[k] - view->from[k]) / metre->factor;
+        const double low = view->from[k] / metre->factor, high = view->to[k] / metre->factor;
         const bool labelled = k == 0 ? lowest : column == 0;
-        fprintf(to, "set %ctics %.9g format '%s'\nset %clabel '", 'x' + k,
-                plot_maps_tic_distance(range, size[k], k == 0 ? TICS_X : TICS_Y), labelled ? "%g" : "", 'x' + k);
+        const double tics = k == 0 ? tics_across(low, high, size[0])
+                                   : tic_distance(high - low, size[1], gnuplot_is_narrow() ? TICS_Y_NARROW : TICS_Y);
+        fprintf(to, "set %ctics %.9g format '%s'\nset %clabel '", 'x' + k, tics, labelled ? "%g" : "", 'x' + k);
         if (labelled) fprintf(to, "%c [%s]", 'x' + c->axis[k], metre->name);
         fputs("'\n", to);
     }
@@ -115,7 +138,8 @@ void panel_write_axis_arrows(FILE *to, const struct layout *l, const struct view
 {
     const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width, x = left + 34;
     const double y = l->height - (above + l->panel_height + 46); /* above the lower edge of the picture [pixel] */
-    const double length = plot_maps_tic_distance(300 * pixel, 300, 60) / pixel, end = left + l->panel_width - 8;
+    const double length = tic_distance(300 * pixel, 300, 60) / pixel;
+    const double end = fmax(left + l->panel_width - 8, x + 60 + length); /* beside the arrows */
     for (int d = 0; d < 3; d++) {
         const double arrow[2] = {26 * c->camera.right[d], 26 * c->camera.up[d]};
         if (hypot(arrow[0], arrow[1]) < 2) continue;
@@ -145,7 +169,9 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) largest = fmax(largest, fmax(fabs(view->from[k]), fabs(view->to[k])));
     struct unit metre = unit_for_length(largest);
-    panel_write_margins(to, l, LEFT + column * (l->panel_width + GAP_X), ABOVE + row * (l->panel_height + GAP_Y));
+    const double left = l->left + column * (l->panel_width + l->gap),
+                 above = l->above + row * (l->panel_height + GAP_Y);
+    panel_write_margins(to, l, left, above);
     for (int k = 0; k < 2; k++) {
         from[k] = view->from[k] / metre.factor;
         step[k] = (view->to[k] - view->from[k]) / metre.factor / size[k];
@@ -164,7 +190,7 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     else
         panel_write_axes(to, l, view, c, &metre, column, lowest);
     if (c->position[2] && row == l->rows - 1 && column == 0)
-        panel_write_axis_arrows(to, l, view, c, &metre, LEFT, ABOVE + row * (l->panel_height + GAP_Y));
+        panel_write_axis_arrows(to, l, view, c, &metre, left, above);
     const double fine = picture_size_get().dpi / PICTURE_DPI;
     const int fines[2] = {(int)fmax(lround(fine * size[0]), 1), (int)fmax(lround(fine * size[1]), 1)};
     for (int k = 0; k < 2; k++) step[k] *= (double)size[k] / fines[k];
@@ -188,23 +214,11 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     const struct unit u = unit_for_largest_value(fmax(fabs(view->low), fabs(view->high)), view->field->unit);
     const bool plain = !*view->field->unit;
     s.low = view->low / (plain ? 1 : u.factor), s.high = view->high / (plain ? 1 : u.factor);
-    s.tics = plot_maps_tic_distance(s.high - s.low, 300, 50);
+    s.tics = tic_distance(s.high - s.low, 300, 50);
     plot_field_label(s.label, sizeof s.label, view->field);
     const size_t length = strlen(s.label);
     if (!plain) snprintf(s.label + length, sizeof s.label - length, " [%s]", u.name);
     return s;
-}
-
-/* Returns the width of the longest number beside the colour bar [pixel]. format: of the numbers, for printf. */
-static double bar_numbers_width(const struct bar_scale *scale, const char *format)
-{
-    int longest = 0;
-    for (double k = ceil(scale->low / scale->tics); k * scale->tics <= scale->high; k++) {
-        char number[32];
-        const int length = snprintf(number, sizeof number, format, k * scale->tics);
-        if (length > longest) longest = length;
-    }
-    return 10.0 * longest;
 }
 
 /* Prints at the ends of a colour bar, `height` pixels high, which share of the particles has values beyond them.
@@ -212,7 +226,7 @@ static double bar_numbers_width(const struct bar_scale *scale, const char *forma
 static void draw_beyond(FILE *to, const struct layout *l, const struct view *view, int64_t particles, int height)
 {
     for (int end = 0; end < 2; end++) {
-        const double y = end ? ABOVE - 12 : ABOVE + height + 14,
+        const double y = end ? l->above - 12 : l->above + height + 14,
                      share = 100.0 * (double)view->beyond[end] / (double)particles;
         if (view->beyond[end] > 0)
             fprintf(to, "set label '%.2g %% %s' at screen %.6g,%.6g left font ',10' textcolor rgb '#555555'\n", share,
@@ -221,28 +235,50 @@ static void draw_beyond(FILE *to, const struct layout *l, const struct view *vie
     }
 }
 
-/* Draws the colour bar as a narrow panel on the right beside the first row, at most 360 pixels high. particles: number
- * of particles of a frame, of which the share beyond the ends is printed. */
+/* Returns the height of the colour bar [pixel]: that of the panels, at most 360, and at least that of its label if the
+ * picture has room. letters: number of letters of the label. */
+static int bar_height(const struct layout *l, size_t letters)
+{
+    const int panels = l->rows * l->panel_height + (l->rows - 1) * GAP_Y, room = l->height - l->above - 40;
+    const int label = (int)fmin((gnuplot_is_narrow() ? 7.4 : 9) * (double)letters, room);
+    return panels < 360 ? (panels > label ? panels : label) : 360;
+}
+
+/* Writes the label of the colour bar, and its unit in a second line if the label is higher than the bar. x, y: centre
+ * of the first line, from the upper left corner of the picture; height: of the bar [pixel]. */
+static void draw_bar_label(FILE *to, const struct layout *l, const char *label, double x, double y, int height)
+{
+    const double letter = gnuplot_is_narrow() ? 7.4 : 9;
+    const char *unit = letter * (double)strlen(label) > height ? strstr(label, " [") : NULL;
+    const size_t length = unit ? (size_t)(unit - label) : strlen(label);
+    for (int line = 0; line < (unit ? 2 : 1); line++)
+        fprintf(to, "set label '%.*s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
+                line ? (int)strlen(unit + 1) : (int)length, line ? unit + 1 : label,
+                (x + letter * (2 * line - 0.2 * !!unit)) / l->width, 1 - y / l->height);
+}
+
+/* Draws the colour bar as a narrow panel on the right beside the first row. particles: number of particles of a frame,
+ * of which the share beyond the ends is printed. */
 static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map,
                                int64_t particles)
 {
     struct colour pixel[BAR_STEPS * BAR_COLUMNS];
     const struct bar_scale scale = bar_scale_of(view, map);
     double from[2] = {0, scale.low}, step[2] = {1.0 / BAR_COLUMNS, (scale.high - scale.low) / BAR_STEPS};
-    int height = l->rows * l->panel_height + (l->rows - 1) * GAP_Y;
     for (int k = 0; k < BAR_STEPS * BAR_COLUMNS; k++)
         pixel[k] = map_colour(view, map, (k / BAR_COLUMNS + 0.5) / BAR_STEPS);
-    int shown = height < 360 ? height : 360;
+    const int shown = bar_height(l, strcspn(scale.label, "["));
+    const double tics = fmax(scale.tics, tic_distance(scale.high - scale.low, shown, gnuplot_is_narrow() ? 22 : 28));
     const char *format = map == MAP_FIELD ? "%g" : "%.1f";
-    const double beside = l->width - l->right + BAR_FROM + BAR_WIDTH + 30;
-    set_box(to, l, l->width - l->right + BAR_FROM, ABOVE, BAR_WIDTH, shown);
+    const double beside = l->width - l->right + BAR_FROM + BAR_WIDTH + 26;
+    set_box(to, l, l->width - l->right + BAR_FROM, l->above, BAR_WIDTH, shown);
     fprintf(to,
             "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
             "unset grid\nunset label\n"
-            "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n"
-            "set label '%s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
-            scale.low, scale.high, scale.low, scale.high, scale.tics, format, scale.label,
-            (beside + bar_numbers_width(&scale, format)) / l->width, 1 - (ABOVE + 0.5 * shown) / l->height);
+            "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n",
+            scale.low, scale.high, scale.low, scale.high, tics, format);
+    draw_bar_label(to, l, scale.label, beside + numbers_width(scale.low, scale.high, tics, format),
+                   l->above + 0.5 * shown, shown);
     if (map == MAP_FIELD) draw_beyond(to, l, view, particles, shown);
     panel_write_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
 }
@@ -272,8 +308,19 @@ static void draw_key(FILE *to, const struct layout *l, enum map map)
         {{fragment_colour(0), "the heaviest"}, {fragment_colour(-1), "no bond left"}}};
     for (int k = 0; k < 2; k++) {
         const struct category *e = &entry[map == MAP_FRAGMENT][k];
-        key_entry(to, l, l->width - l->right - 320 + 160 * k, l->width < KEY_BELOW ? 50 : 26, e->colour, e->name);
+        key_entry(to, l, l->width - l->right - 320 + 160 * k, gnuplot_is_narrow() ? ABOVE_NARROW - 20 : 26, e->colour,
+                  e->name);
     }
+}
+
+/* Draws the entry of rigid bodies in the key: below the colour bar, or at the lower edge of other pictures. */
+static void draw_rigid_key(FILE *to, const struct layout *l, const struct view *view, enum map map)
+{
+    const struct bar_scale scale = bar_scale_of(view, map);
+    const double bar = l->above + bar_height(l, strcspn(scale.label, "[")) + 40, lowest = l->height - 12;
+    const bool has_bar = map != MAP_FRAGMENT && map != MAP_CATEGORY;
+    key_entry(to, l, l->width - l->right + BAR_FROM, has_bar ? fmin(bar, lowest) : l->height - l->below, rigid_colour(),
+              "rigid");
 }
 
 /* Draws the key of named values on the right, in place of the colour bar. */
@@ -281,37 +328,41 @@ static void draw_categories(FILE *to, const struct layout *l, const struct categ
 {
     const double x = l->width - l->right + BAR_FROM;
     char more[32];
-    for (int i = 0; i < k->n; i++) key_entry(to, l, x, ABOVE + 8 + KEY_LINE * i, k->of[i].colour, k->of[i].name);
+    for (int i = 0; i < k->n; i++) key_entry(to, l, x, l->above + 8 + KEY_LINE * i, k->of[i].colour, k->of[i].name);
     snprintf(more, sizeof more, "and %d more", k->more);
-    if (k->more > 0) key_entry(to, l, x, ABOVE + 8 + KEY_LINE * k->n, (struct colour){0}, more);
+    if (k->more > 0) key_entry(to, l, x, l->above + 8 + KEY_LINE * k->n, (struct colour){0}, more);
 }
 
-/* Returns the width of the margin on the right of the panels [pixel]. It holds the colour bar, or the key of named
- * values. */
-static int right_room(const struct view *view, enum map map)
+/* Returns a layout with the margins of the panels alone. The right one holds the colour bar, or the key of named
+ * values, the lower one of an outside view its axes. */
+static struct layout margins_of(const struct view *view, enum map map, bool outside)
 {
+    const bool narrow = gnuplot_is_narrow(), key = map == MAP_KIND || map == MAP_FRAGMENT;
+    struct layout l = {.left = LEFT, .above = ABOVE, .below = BELOW, .right = RIGHT, .gap = GAP_X};
+    if (narrow)
+        l = (struct layout){.left = LEFT_NARROW,
+                            .above = ABOVE_NARROW + (key ? KEY_NARROW : 0),
+                            .below = BELOW_NARROW + (outside ? AXES_NARROW : 0),
+                            .right = RIGHT_NARROW,
+                            .gap = GAP_NARROW};
     size_t longest = 12; /* `and 120 more` */
     for (int k = 0; map == MAP_CATEGORY && k < view->categories->n; k++) {
         const size_t length = strlen(view->categories->of[k].name);
         if (length > longest) longest = length;
     }
-    return (int)fmin(map == MAP_CATEGORY ? fmax(RIGHT, BAR_FROM + 30 + 9 * (double)longest) : RIGHT, RIGHT_MAX);
+    if (map == MAP_CATEGORY) l.right = (int)fmin(fmax(l.right, BAR_FROM + 30 + 9 * (double)longest), RIGHT_MAX);
+    return l;
 }
 
-/* Draws the title and, unless it is 0, the number `outside` of particles outside the shown rectangle. Long titles are
- * set in smaller letters. */
-static void draw_title(FILE *to, const struct layout *l, const char *title, int64_t outside)
+/* Draws the title and, unless it is 0, the number `outside` of particles outside the shown rectangle. */
+static void draw_title(const struct gnuplot *g, const struct layout *l, const char *title, int64_t outside)
 {
     char text[TITLE_LENGTH + 64];
     int length = snprintf(text, sizeof text, "%s", title);
     if (outside > 0)
         snprintf(text + length, sizeof text - (size_t)length, " (%lld particle%s outside the picture)",
                  (long long)outside, outside > 1 ? "s are" : " is");
-    const double room = l->width - LEFT - 12, wide = 10.5 * (double)strlen(text);
-    fputs("set label 1 ", to);
-    gnuplot_quote(to, text);
-    fprintf(to, " at screen %.6g,%.6g left font ',%.3g' textcolor rgb '#111111'\n", (double)LEFT / l->width,
-            1 - 26.0 / l->height, fmax(16 * fmin(1, room / wide), 8));
+    gnuplot_write_title(g, text, l->left);
 }
 
 status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
@@ -319,14 +370,14 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
 {
     struct gnuplot g;
     const double aspect = (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]);
-    const struct layout l = layout_choose(clouds, aspect, right_room(view, map));
+    const struct layout margins = margins_of(view, map, cloud[0].position[2]);
+    const struct layout l = layout_choose(clouds, aspect, &margins);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
     fputs("set multiplot\nunset grid\n", g.to);
-    draw_title(g.to, &l, title, view->outside);
+    draw_title(&g, &l, title, view->outside);
     if (map == MAP_KIND || map == MAP_FRAGMENT) draw_key(g.to, &l, map);
     if (map == MAP_CATEGORY) draw_categories(g.to, &l, view->categories);
-    if (cloud[0].rigids > 0)
-        key_entry(g.to, &l, l.width - l.right + BAR_FROM, l.height - BELOW, rigid_colour(), "rigid");
+    if (cloud[0].rigids > 0) draw_rigid_key(g.to, &l, view, map);
     struct unit second = unit_for_largest_value(cloud[clouds - 1].t, "s");
     for (int k = 0; k < clouds; k++) {
         plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);

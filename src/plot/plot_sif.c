@@ -75,25 +75,27 @@ static void plot_factors(FILE *to, const struct factors *f)
 
 /* Plots the relative differences between the integration contours of each probe. More than 1/2 indicates waves or a
  * kink of the crack within the contours. */
-static void plot_spread(FILE *to, const struct series *s, const struct factors *f)
+static void plot_spread(FILE *to, const struct series *s, const struct curves_layout *l, const struct factors *f)
 {
+    const struct two_panels two = curves_two_panels(l);
     curves_write_time_axis(to, s);
-    fputs("unset label\nunset key\nset format x '%g'\nset tmargin at screen 0.29\nset bmargin at screen 0.105\n"
-          "set logscale y\nset yrange [0.1:100]\nset ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)\nset format y '%g'\n"
-          "set ylabel 'contours differ by [%]'\nplot ",
-          to);
+    curves_write_panel(to, l, two.lower_from, two.lower_end);
+    fprintf(to,
+            "unset label\nunset key\nset format x '%%g'\nset logscale y\nset yrange [0.1:100]\n"
+            "set ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)\nset format y '%%g'\nset ylabel '%sspread [%%]'\nplot ",
+            gnuplot_is_narrow() ? "" : "contour ");
     for (int k = 0; k < f->n; k++)
         fprintf(to, "%s$data using 1:%d with lines lw 1.6 lc rgb '%s'", k > 0 ? ", " : "", k + 2,
                 curve_colour[f->n > 1 ? k : CURVE_COLOURS - 1]);
     putc('\n', to);
 }
 
-status sif_curves_draw(const char *folder, const char *title, const struct series *s)
+status sif_curves_draw(const char *title, const struct series *s)
 {
     struct factors f;
     struct gnuplot g;
     find_factors(&f, s->h);
-    const struct path path = picture_path(folder, DRAWN_SIF, picture_ending[s->format]);
+    const struct path path = picture_path(s->pictures, DRAWN_SIF, picture_ending[s->format]);
     if (f.n == 0) return OK;
     if (s->h->rows < LEAST_ROWS)
         return report_nothing_to_draw(path.text, "the run has one equilibrium; summary.json has its K_I and K_II");
@@ -101,19 +103,23 @@ status sif_curves_draw(const char *folder, const char *title, const struct serie
     for (int k = 0; k < f.n; k++) spread = fmax(spread, history_largest_magnitude(s->h, f.spread[k]));
     TRY(gnuplot_open(&g, path.text, s->format, 1000, spread > 0 ? 760 : 600));
     curves_write_data(g.to, s, f.column, f.factor, 2 * f.n);
-    curves_write_title(g.to, title, "stress-intensity factors");
+    curves_write_title(&g, title, "stress-intensity factors");
     curves_write_time_axis(g.to, s);
-    fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen 0.86\nset key at screen 0.875,0.9 left top\n"
-            "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n"
-            "set tmargin at screen 0.905\n",
-            f.unit.name);
-    if (spread > 0) fputs("set multiplot\nset bmargin at screen 0.35\nset format x ''\nunset xlabel\n", g.to);
+    size_t longest = 0; /* of the names of several probes, which are before those of the factors */
+    for (int k = 0; k < f.n && f.n > 1; k++) longest = strlen(f.name[k]) > longest ? strlen(f.name[k]) : longest;
+    const struct curves_layout l = curves_layout_make(&g, 2 * f.n, longest + strlen(": K_II"), false);
+    curves_write_margins(g.to, &l);
+    fprintf(g.to, "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n", f.unit.name);
+    const double end = spread > 0 ? curves_two_panels(&l).upper_end : curves_layout_inner_height(&l);
+    const struct value_range of = history_extent(s->h, f.column, 2 * f.n);
+    curves_write_panel(g.to, &l, 0, end);
+    curves_write_tics(g.to, "y", fmin(of.low, 0) / f.unit.factor, fmax(of.high, 0) / f.unit.factor, end);
+    if (spread > 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
     plot_factors(g.to, &f);
     if (spread > 0) {
         fputs("set offsets\nundefine $data\n", g.to);
         curves_write_data(g.to, s, f.spread, f.percent, f.n);
-        plot_spread(g.to, s, &f);
+        plot_spread(g.to, s, &l, &f);
         fputs("unset multiplot\n", g.to);
     }
     return gnuplot_close(&g);
@@ -191,16 +197,8 @@ static bool ray_of(const struct tip_path *w, double end[2])
     return isfinite(angle);
 }
 
-/* Size of the picture of paths [pixel], and its margins. */
-enum {
-    PATH_WIDE = 940,
-    PATH_LEFT = 94,
-    PATH_KEY = 244,
-    PATH_ABOVE = 76,
-    PATH_BELOW = 80,
-    PATH_HIGH = 760,
-    PATH_LOW = 200
-};
+/* Size of the picture of paths, and least width of its panel [pixel]. */
+enum { PATH_WIDE = 940, PATH_HIGH = 760, PATH_LOW = 200 };
 
 /* Computes the rectangle low[2]..high[2] [m] that contains the ends of the n paths w and the lines of experiments, with
  * a margin. Each of its sides is at least a quarter of the longest one. */
@@ -223,23 +221,29 @@ static void paths_extent(const struct tip_path *w, int n, double *low, double *h
 }
 
 /* Opens the picture of crack paths and sets the ranges of its axes in one scale. The picture is as high as the
- * rectangle low[2]..high[2] [m] requires. Returns FAILED if gnuplot cannot be started. */
+ * rectangle low[2]..high[2] [m] requires. entries, longest: as for curves_layout_make. Returns FAILED if gnuplot cannot
+ * be started. */
 static status paths_open(struct gnuplot *g, const char *path, const struct series *s, const double *low,
-                         const double *high, const struct unit *metre)
+                         const double *high, const struct unit *metre, int entries, size_t longest)
 {
-    const double wide = PATH_WIDE - PATH_LEFT - PATH_KEY, aspect = (high[1] - low[1]) / (high[0] - low[0]);
-    const double high_most = PATH_HIGH - PATH_ABOVE - PATH_BELOW;
-    const double inner = fmax(fmin(wide, high_most / aspect), PATH_LOW), tall = fmin(inner * aspect, high_most);
-    const double width = inner + PATH_LEFT + PATH_KEY, height = tall + PATH_ABOVE + PATH_BELOW;
-    TRY(gnuplot_open(g, path, s->format, (int)width, (int)height));
-    for (int d = 0; d < 2; d++)
-        fprintf(g->to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\n", "xy"[d], low[d] / metre->factor,
-                high[d] / metre->factor, "xy"[d], "xy"[d], metre -> name);
-    fprintf(g->to,
-            "set size ratio -1\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset tmargin at screen %.4f\n"
-            "set bmargin at screen %.4f\nset key at screen %.4f,%.4f left top\nset samples 2\n",
-            PATH_LEFT / width, 1 - PATH_KEY / width, 1 - PATH_ABOVE / height, PATH_BELOW / height,
-            1 - (PATH_KEY - 14) / width, 1 - PATH_ABOVE / height);
+    const struct gnuplot most = {.width = PATH_WIDE, .height = PATH_HIGH};
+    const struct curves_layout usual = curves_layout_make(&most, entries, longest, false);
+    const double beside = usual.left + usual.right, aspect = (high[1] - low[1]) / (high[0] - low[0]);
+    const double highest = curves_layout_inner_height(&usual),
+                 inner = fmax(fmin(PATH_WIDE - beside, highest / aspect), PATH_LOW);
+    const double height = PATH_HIGH - highest + fmin(inner * aspect, highest);
+    TRY(gnuplot_open(g, path, s->format, (int)(inner + beside), (int)height));
+    const struct curves_layout l = curves_layout_make(g, entries, longest, false);
+    const double pixels[2] = {l.width - l.left - l.right, curves_layout_inner_height(&l)};
+    const double scale = fmin(pixels[0] / (high[0] - low[0]), pixels[1] / (high[1] - low[1])); /* [pixel/m] */
+    curves_write_margins(g->to, &l);
+    for (int d = 0; d < 2; d++) {
+        const double middle = 0.5 * (low[d] + high[d]), half = 0.5 * pixels[d] / scale;
+        fprintf(g->to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\nset %ctics %.9g\n", "xy"[d],
+                (middle - half) / metre->factor, (middle + half) / metre->factor, "xy"[d], "xy"[d], metre -> name,
+                "xy"[d], tic_distance(2 * half / metre->factor, pixels[d], d ? 30 : 50));
+    }
+    fputs("set samples 2\n", g->to);
     return OK;
 }
 
@@ -277,10 +281,18 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
     const int n = find_tip_paths(path, folder, h);
     if (n == 0) return OK;
     const struct unit metre = unit_for_length(fmax(fabs(path[0].to[0]), fabs(path[0].to[1])));
-    double low[2], high[2];
+    double low[2], high[2], low_end[2];
     paths_extent(path, n, low, high);
-    TRY(paths_open(&g, picture_path(folder, DRAWN_PATH, picture_ending[s->format]).text, s, low, high, &metre));
-    curves_write_title(g.to, title, "path of the crack");
+    size_t longest = strlen("crack at the start");
+    int entries = 1;
+    for (int k = 0; k < n; k++) {
+        const size_t name = strlen(path[k].name) + strlen(", -123.4°");
+        longest = name > longest ? name : longest;
+        entries += 1 + ray_of(&path[k], low_end);
+    }
+    TRY(paths_open(&g, picture_path(s->pictures, DRAWN_PATH, picture_ending[s->format]).text, s, low, high, &metre,
+                   entries, longest));
+    curves_write_title(&g, title, "path of the crack");
     for (int k = 0; k < n; k++) send_tip_path(g.to, h, &path[k], k, metre.factor);
     plot_tip_paths(g.to, path, n, &metre);
     return gnuplot_close(&g);

@@ -185,26 +185,54 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Returns the share of the width of a picture that its key needs [1]. longest: number of letters of its longest
- * text. */
-static double key_share(size_t longest) { return fmin(0.05 + 0.0085 * (double)longest, 0.5); }
+/* Returns the support of a scene whose force is the load: the first one that is driven, else the first one at rest;
+ * NULL if there is none. s: may be NULL. */
+static const struct boundary *support_of(const struct scene *s)
+{
+    const struct boundary *resting = NULL;
+    for (int k = 0; s && k < s->boundaries; k++) {
+        const struct boundary *b = &s->boundary[k];
+        if (b->kind != BOUNDARY_VELOCITY) continue;
+        if (!boundary_holds_at_rest(b, s->dim)) return b;
+        if (!resting) resting = b;
+    }
+    return resting;
+}
 
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps)
+/* Prints why the load is not drawn, and the probe that measures what is missing. s: scene as run, may be NULL. Prints
+ * nothing for a run in time without support and without a rigid body that bears a load. */
+static status say_missing_load(const char *path, const struct reactions *r, const struct scene *s, bool in_steps)
+{
+    const struct boundary *support = support_of(s);
+    char why[256] = "";
+    if (r->n > 0)
+        snprintf(why, sizeof why,
+                 "what bears the load does not move; a point probe where the body moves adds the displacement: probes: "
+                 "[{point: {at: [...]}}]");
+    else if (support)
+        snprintf(why, sizeof why, "no probe measures the load; this one does: probes: [{reaction: {boundary: %s}}]",
+                 support->name);
+    else if (in_steps)
+        snprintf(why, sizeof why, "neither a reaction probe nor a rigid body has a force");
+    return why[0] ? report_nothing_to_draw(path, why) : OK;
+}
+
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, const struct scene *scene,
+                              bool in_steps)
 {
     struct reactions r;
     struct gnuplot g;
     reactions_find(&r, h);
-    if (!in_steps && !(r.n > 0 && r.displacement > 0)) return OK;
-    if (r.n == 0) return report_nothing_to_draw(sheet.path, "neither a reaction probe nor a rigid body has a force");
-    if (!(r.displacement > 0))
-        return report_nothing_to_draw(sheet.path, "no support with a reaction probe and no point probe moves");
+    if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r, scene, in_steps);
     const struct unit newton = unit_for_largest_value(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, h, &r, newton, metre);
     size_t longest = 24; /* 123.4 kN at 123.4 mm */
     for (int m = 0; m < r.n; m++) longest = strlen(r.of[m].name) > longest ? strlen(r.of[m].name) : longest;
-    curves_write_title(g.to, title, "load and displacement");
-    curves_write_margins(g.to, 1 - key_share(longest));
+    curves_write_title(&g, title, "load and displacement");
+    const struct curves_layout l = curves_layout_make(&g, 2 * r.n, longest, false);
+    curves_write_margins(g.to, &l);
+    curves_write_tics(g.to, "y", 0, r.force / newton.factor, curves_layout_inner_height(&l));
     fprintf(g.to, "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
             1.15 * r.displacement / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
     char label[3 * NAME_MAX_LENGTH];
@@ -280,16 +308,19 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
     if (!(grown > 0)) return report_nothing_to_draw(sheet.path, "no crack has grown");
     const int n = toughnesses_of(folder, toughness);
     for (int k = 0; k < n; k++) top = fmax(top, toughness[k]);
-    const struct unit square = unit_for_area(grown), joule = unit_for_largest_value(top, "J/m²");
     const double mean = history_value_at(h, h->rows - 1, released) / history_value_at(h, h->rows - 1, area);
+    top = fmax(top, mean);
+    const struct unit square = unit_for_area(grown), joule = unit_for_largest_value(top, "J/m²");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     release_send(g.to, h, area, rate, square, joule.factor);
-    curves_write_title(g.to, title, "energy released by the growing crack");
-    curves_write_margins(g.to, 0.74);
+    curves_write_title(&g, title, "energy released by the growing crack");
+    const struct curves_layout l = curves_layout_make(&g, 2 + n, strlen("mean 123.4 kJ/m²"), false);
+    curves_write_margins(g.to, &l);
     fprintf(g.to,
             "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack "
             "area [%s]'\n",
             1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
+    curves_write_tics(g.to, "y", 0, top / joule.factor, curves_layout_inner_height(&l));
     release_plot(g.to, toughness, n, mean, joule);
     return gnuplot_close(&g);
 }

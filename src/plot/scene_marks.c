@@ -37,6 +37,15 @@ void marks_add_point(struct marks *m, const real *X, const double *vector)
 /* Ends a line of positions in the current block of marks; the next position begins another line. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
+/* Adds the line of the key of the last element of the plot command. */
+static void key_line_add(struct marks *m, const char *text)
+{
+    fputs("title ", m->plot);
+    gnuplot_quote(m->plot, text);
+    m->keys++;
+    if ((int)strlen(text) > m->letters) m->letters = (int)strlen(text);
+}
+
 void marks_end_block(struct marks *m, const char *style, const char *key_text)
 {
     fputs("NaN NaN NaN NaN\nEOD\n", m->to); /* a data block must not be empty */
@@ -45,14 +54,13 @@ void marks_end_block(struct marks *m, const char *style, const char *key_text)
         fputs("notitle", m->plot);
         return;
     }
-    fputs("title ", m->plot);
-    gnuplot_quote(m->plot, key_text);
+    key_line_add(m, key_text);
 }
 
 void marks_add_colour_key(struct marks *m, struct colour c, const char *text)
 {
-    fprintf(m->plot, ", NaN with points pt 5 ps 2 lc rgb '#%02x%02x%02x' title ", c.red, c.green, c.blue);
-    gnuplot_quote(m->plot, text);
+    fprintf(m->plot, ", NaN with points pt 5 ps 2 lc rgb '#%02x%02x%02x' ", c.red, c.green, c.blue);
+    key_line_add(m, text);
 }
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */

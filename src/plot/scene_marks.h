@@ -5,7 +5,7 @@
 #include "engine/engine.h"
 #include "plot/plot.h"
 
-/* State of the marks. Data are sent to gnuplot at once; the elements of its plot command are collected in `plot`. */
+/* State of the marks. Commands with data are collected in `to`, the elements of the plot command in `plot`. */
 struct marks {
     FILE *to, *plot;
     const struct run *engine;
@@ -14,6 +14,7 @@ struct marks {
     double from[2], to_corner[2]; /* visible rectangle [m] */
     double arrow;                 /* length of the longest arrow [m] */
     int blocks;                   /* number of data blocks so far */
+    int keys, letters;            /* number of lines of the key so far, and of letters of the longest one */
 };
 
 /* Begins a gnuplot data block, which holds the points or arrows of one kind of symbol. Add its lines with

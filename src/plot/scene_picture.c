@@ -15,8 +15,10 @@
 #include "step/report.h"
 #include "mesh/mesh_part.h"
 
-/* Margins of the panel, its size, and the line height of the key [pixel]. */
+/* Margins of the panel, its size, and the line height of the key, and those of narrow pictures, which have the key
+ * below the panel [pixel]. */
 enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
+enum { LEFT_NARROW = 74, RIGHT_NARROW = 18, ABOVE_NARROW = 44, BELOW_NARROW = 82, KEY_LINE_NARROW = 18 };
 enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90 };
 enum { RIGID_POINTS = 60000, RIGID_ACROSS = 12, TEXT_ROOM = 200 };
 
@@ -185,12 +187,6 @@ static void key_of_parts(struct marks *m)
     }
 }
 
-/* Returns the largest number of lines that the key of a scene can have. */
-static int key_lines(const struct scene *s)
-{
-    return s->materials + s->bodies + s->rigids + s->boundaries + s->probes + s->growths + s->regions + 6;
-}
-
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
 /* Returns the view of a scene, with a margin of the length of an arrow [m] around the body. */
@@ -207,52 +203,67 @@ static double arrow_length(const struct plotted_particles *c)
     return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
 }
 
+/* Returns the layout of a picture with a key of `lines` lines. It is that of a larger picture of the same shape if
+ * panel and key are too large for the size of picture_size_set. */
 static struct layout scene_layout(const struct view *v, int lines)
 {
-    struct layout l = {.columns = 1, .rows = 1};
+    const bool narrow = gnuplot_is_narrow();
+    const struct picture_size given = picture_size_get();
+    struct layout l = {.columns = 1, .rows = 1, .left = PICTURE_LEFT, .above = PICTURE_ABOVE, .right = PICTURE_KEY};
+    l.below = PICTURE_BELOW;
+    if (narrow) l.left = LEFT_NARROW, l.above = ABOVE_NARROW, l.right = RIGHT_NARROW;
+    if (narrow) l.below = BELOW_NARROW + KEY_LINE_NARROW * lines;
     const double aspect = (v->to[1] - v->from[1]) / (v->to[0] - v->from[0]);
-    const double width = fmin(PANEL_WIDEST, PANEL_HIGHEST / aspect);
+    const double widest = given.width ? given.width - l.left - l.right : PANEL_WIDEST;
+    const double highest = given.width ? given.height - l.above - l.below : PANEL_HIGHEST;
+    const double width = fmin(widest, highest / aspect);
     l.panel_width = (int)fmax(lround(width), PANEL_LOWEST);
     l.panel_height = (int)fmax(lround(width * aspect), PANEL_LOWEST);
-    l.width = PICTURE_LEFT + l.panel_width + PICTURE_KEY;
-    l.height = PICTURE_ABOVE + l.panel_height + PICTURE_BELOW;
-    if (l.height < 60 + KEY_LINE * lines) l.height = 60 + KEY_LINE * lines;
-    const struct picture_size given = picture_size_get();
+    l.width = l.left + l.panel_width + l.right;
+    l.height = l.above + l.panel_height + l.below;
+    if (!narrow && l.height < 60 + KEY_LINE * lines) l.height = 60 + KEY_LINE * lines;
     if (given.width > 0) {
-        const double scale = fmax((double)l.width / given.width, (double)l.height / given.height);
+        const double scale = fmax(1, fmax((double)l.width / given.width, (double)l.height / given.height));
         l.width = (int)lround(scale * given.width), l.height = (int)lround(scale * given.height);
     }
     return l;
 }
 
-static void draw_scene_title(FILE *to, const struct layout *l, const struct scene *s, const struct particles *part)
+/* Writes the gnuplot command for the key of a scene: beside the panel, or below that of a narrow picture. Letters are
+ * smaller if the longest line, of `letters` letters, requires it. */
+static void set_scene_key(FILE *to, const struct layout *l, const struct marks *m)
+{
+    static const double LARGE = 12, LETTER_WIDE = 0.56, SAMPLE = 50;
+    const bool narrow = gnuplot_is_narrow();
+    const double x = narrow ? 6 : l->left + l->panel_width + 14, room = l->width - x - SAMPLE;
+    const double size = fmin(LARGE, room / (LETTER_WIDE * fmax(m->letters, 1)));
+    fprintf(to,
+            "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols 1 samplen 2 spacing 1.15 "
+            "font ',%.3g'\n",
+            x / l->width, 1 - (narrow ? l->above + l->panel_height + BELOW_NARROW - 4 : 58.0) / l->height, size);
+}
+
+static void draw_scene_title(const struct gnuplot *g, const struct scene *s, const struct particles *part)
 {
     const struct unit metre = unit_for_length(s->spacing);
     char text[TEXT_ROOM];
     snprintf(text, sizeof text, "%.60s before it runs: %lld particles, spacing %.4g %s", s->name,
              (long long)part->n_body, s->spacing / metre.factor, metre.name);
-    fputs("set label 1 ", to);
-    gnuplot_quote(to, text);
-    fprintf(to, " at screen %.6g,%.6g left font ',15' textcolor rgb '#111111'\n", (double)PICTURE_LEFT / l->width,
-            1 - 28.0 / l->height);
+    gnuplot_write_title(g, text, gnuplot_is_narrow() ? LEFT_NARROW : PICTURE_LEFT);
 }
 
 static void set_panel(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
                       const struct unit *metre)
 {
-    panel_write_margins(to, l, PICTURE_LEFT, PICTURE_ABOVE);
+    panel_write_margins(to, l, l->left, l->above);
     for (int a = 0; a < 2; a++)
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + a, v->from[a] / metre->factor, v->to[a] / metre->factor);
     if (c->position[2]) {
         fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\n", to);
-        panel_write_axis_arrows(to, l, v, c, metre, PICTURE_LEFT, PICTURE_ABOVE);
+        panel_write_axis_arrows(to, l, v, c, metre, l->left, l->above);
     } else
         panel_write_axes(to, l, v, c, metre, 0, true);
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
-    fprintf(to,
-            "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols 1 samplen 2 spacing 1.15 "
-            "font ',12'\n",
-            (PICTURE_LEFT + l->panel_width + 14.0) / l->width, 1 - 58.0 / l->height);
 }
 
 /* Sends the image of the particles, then the marks, in one plot command. marks: plot arguments of the marks; metre:
@@ -270,35 +281,57 @@ static void plot_scene(FILE *to, const struct layout *l, const struct view *v, c
     memory_free(pixel);
 }
 
-static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c)
+/* Collects the marks of a scene and the lines of its key. */
+static void draw_marks(struct marks *m)
+{
+    key_of_parts(m);
+    marks_draw_levels(m);
+    marks_draw_regions(m);
+    marks_draw_cracks(m);
+    marks_draw_loads(m);
+    marks_draw_velocities(m);
+    marks_draw_probes(m);
+}
+
+/* Draws particles and marks. metre: unit of the axes; data, elements: commands and elements of the plot command that m
+ * has collected. FAILED if gnuplot fails. */
+static status draw_collected(struct sheet sheet, const struct marks *m, const struct view *v,
+                             const struct plotted_particles *c, const struct unit *metre, const char *data,
+                             const char *elements)
 {
     struct gnuplot g;
-    char *elements = NULL;
-    size_t length = 0;
+    const struct layout l = scene_layout(v, m->keys);
+    TRY(gnuplot_open_scaled(&g, sheet.path, sheet.format, l.width, l.height));
+    fputs("unset grid\n", g.to);
+    draw_scene_title(&g, m->engine->scene, &m->engine->part);
+    fputs(data, g.to);
+    set_panel(g.to, &l, v, c, metre);
+    set_scene_key(g.to, &l, m);
+    plot_scene(g.to, &l, v, c, metre, elements);
+    return gnuplot_close(&g);
+}
+
+static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c)
+{
+    char *elements = NULL, *data = NULL;
+    size_t length = 0, bytes = 0;
     const double arrow = arrow_length(c);
     const struct view v = scene_view(c, arrow);
-    const struct layout l = scene_layout(&v, key_lines(e->scene));
     const struct unit metre = unit_for_length(fmax(fabs(v.from[0]), fabs(v.to[0])));
-    TRY(gnuplot_open_scaled(&g, sheet.path, sheet.format, l.width, l.height));
-    FILE *plot = memory_stream_open(&elements, &length);
-    if (!plot) return (void)gnuplot_close(&g), status_set(FAILED, "%s: out of memory", sheet.path);
-    struct marks m = {
-        .to = g.to, .plot = plot, .engine = e, .camera = c->camera, .metre = metre.factor, .arrow = arrow};
-    fputs("unset grid\n", g.to);
-    draw_scene_title(g.to, &l, e->scene, &e->part);
-    key_of_parts(&m);
-    marks_draw_levels(&m);
-    marks_draw_regions(&m);
-    marks_draw_cracks(&m);
-    marks_draw_loads(&m);
-    marks_draw_velocities(&m);
-    marks_draw_probes(&m);
-    const bool whole = fclose(plot) == 0;
-    set_panel(g.to, &l, &v, c, &metre);
-    if (whole) plot_scene(g.to, &l, &v, c, &metre, elements);
+    struct marks m = {.to = memory_stream_open(&data, &bytes),
+                      .plot = memory_stream_open(&elements, &length),
+                      .engine = e,
+                      .camera = c->camera,
+                      .metre = metre.factor,
+                      .arrow = arrow};
+    if (m.to && m.plot) draw_marks(&m);
+    bool whole = m.to && fclose(m.to) == 0;
+    whole = m.plot && fclose(m.plot) == 0 && whole;
+    const status drawn = whole ? draw_collected(sheet, &m, &v, c, &metre, data, elements)
+                               : status_set(FAILED, "%s: out of memory", sheet.path);
+    free(data);
     free(elements);
-    const status drawn = gnuplot_close(&g);
-    return whole ? drawn : status_set(FAILED, "%s: out of memory", sheet.path);
+    return drawn;
 }
 
 /* ---- command ----------------------------------------------------------------------------------------------------- */

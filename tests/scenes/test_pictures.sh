@@ -109,7 +109,7 @@ if command -v xmllint >/dev/null; then holds "their file is XML" xmllint --noout
     --size 90mmx70mm --dpi 288 --title "It's a strip" --colours magma -o options.png >out 2>err
 is "plot with options: $(cat err)" $? 0
 holds "the range is that of the option" grep -q "colours from -1e+06 to 3e+06 Pa, some values beyond" out
-drawn "a size of a journal at twice the resolution" "pngcairo size 1020,792 .*fontscale 2 linewidth 2 pointscale 2"
+drawn "a size of a journal at twice the resolution" "pngcairo size 1020,792 .*fontscale 1.6 linewidth 2 pointscale 2"
 drawn "the rectangle" "set xrange \[4:12\]"
 drawn "and its height" "set yrange \[2:8\]"
 drawn "the ends of the colours" "set yrange \[-1:3\]"
@@ -244,6 +244,40 @@ for line in "2 4.2 5.5" "2 5.2 9.9" "23 1.3" "57 0.9"; do holds "numbers of a cu
 holds "their sum leaves work out" grep -a -q 'using 1:(0+$2) with' all
 for label in "crack length \[mm\]" "force \[kN\]" "displacement \[µm\]" "energy \[mJ\]"; do holds "an axis: $label" grep -a -q "$label" all; done
 
+# At the widths of journals, no label leaves the picture, axes have their labels and every curve is in the key.
+if command -v python3 >/dev/null; then
+    # uncut PICTURE: no text is cut off at an edge, and the label of the vertical axis is there.
+    uncut()
+    {
+        set -- "$1" $(python3 "$root/tests/scenes/picture_margins.py" "$1" 2>&1)
+        for edge in "$2" "$3" "$4" "$5"; do between "$1: blank pixels at an edge" "$edge" 2 150; done
+        between "$1: blank pixels before the label of the vertical axis" "$2" 2 60
+    }
+    mkdir tips
+    cat >tips/history.csv <<'END'
+time [s],step,kinetic [J],strain [J],plastic [J],fracture [J],contact [J],damped [J],absorbed [J],viscous [J],external_work [J],balance_error [1],crack_length [m],pd_share [1],left.K_I [Pa m^0.5],left.K_II [Pa m^0.5],left.contour_spread [1],growth.K_eq [Pa m^0.5],growth.x [m],growth.y [m],growth.length [m],pull.force_x [N],pull.force_y [N],pull.displacement_x [m],pull.displacement_y [m]
+0,0,0,0,0,0,0,0,0,0,0,0,0,0.02,0,0,0.5,0,0.05,0.025,0,0,0,0,0
+1.5e-5,1,1,2,3,4,5,6,7,8,36,1e-4,0.004,0.05,1e6,-2e6,0.03,1e6,0.052,0.027,0.003,120,-1100,0,1e-5
+3e-5,2,2,4,6,8,10,12,14,16,72,-3e-4,0.015,0.12,2e6,-3e6,0.02,2e6,0.06,0.06,0.035,300,-2400,0,3e-5
+END
+    for size in 85mmx60mm 180mmx100mm; do
+        : >all
+        "$cleave" plot tips --size $size -o "narrow$size/" >out 2>err
+        is "plot --size $size: $(cat err)" $? 0
+        for picture in energy crack sif path load_displacement; do uncut "narrow$size/$picture.png"; done
+        for name in kinetic viscous "external work" sum K_II growth "crack length (left)" "peridynamic share (right)"; do
+            holds "$size: $name is in a key" grep -a -q "title '$name" all
+        done
+        is "$size: labels of time axes" "$(grep -a -c "xlabel 'time \[µs\]'" all)" 5
+        "$cleave" plot tips --size $size --format pdf -o "narrow$size" >out 2>err
+        is "pdf --size $size: $(cat err)" $? 0
+        for picture in energy crack sif path load_displacement; do made "narrow$size/$picture.pdf"; done
+    done
+    "$cleave" plot results/strip --size 85mmx60mm -o maps/ >out 2>err
+    "$cleave" plot --scene strip.yaml --size 85mmx90mm -o maps/scene.png >out 2>err
+    for picture in damage last scene; do uncut "maps/$picture.png"; done
+fi
+
 # Figures of a sweep are those of --of, in units with a prefix.
 : >all
 "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.start_time --of energy.kinetic -o varied >out 2>err
@@ -267,6 +301,32 @@ for line in "10 0.5" "30 1.2"; do holds "force over the way of a rigid body: $li
 holds "metres" grep -a -q "crack length \[m\]" all
 holds "no axis for a share that stays the same" sh -c "! grep -a -q 'share of peridynamic' all"
 
+# Without a probe of the load, a line names the one to add; a run without supports has no such line.
+"$cleave" run strip.yaml -q -o held -s 'boundary=[{name: grip, fixed: all, face: y-}, {name: jaw, velocity: [0, 1 m/s], face: y+}]' >out 2>err
+"$cleave" plot held >out 2>err
+holds "the probe of the load: $(cat out err)" grep -q "^load_displacement.png is not drawn: no probe measures the load; this one does: probes: \[{reaction: {boundary: jaw}}\]$" out
+"$cleave" run held/scene.yaml -q -o held2 -s 'probes=[{reaction: {boundary: jaw}}]' >out 2>err
+"$cleave" plot held2 >out 2>err
+made held2/pictures/load_displacement.png
+"$cleave" run strip.yaml -q -o free -s 'boundary=[{traction: [0, 1 kPa], face: y+}]' >out 2>err
+"$cleave" plot free >out 2>err
+holds "no support: no line" sh -c "! grep -q load_displacement out"
+
+# All pictures into a folder of -o, whether it is there or not; one picture into a file.
+"$cleave" plot held2 -o elsewhere >out 2>err
+is "plot -o FOLDER: $(cat err)" $? 0
+is "the pictures are those of DIR/pictures" "$(ls elsewhere)" "$(ls held2/pictures)"
+"$cleave" plot held2 -o else/where/ --format svg >out 2>err
+holds "in another format" test -s else/where/energy.svg
+holds "says where" grep -q "^pictures in else/where$" out
+echo mine >elsewhere/energy.png
+refused "energy.png" held2 -o elsewhere
+is "a picture of others" "$(cat elsewhere/energy.png)" mine
+"$cleave" plot held2 -o elsewhere --overwrite >out 2>err
+is "plot -o FOLDER --overwrite: $(cat err)" $? 0
+holds "it is replaced" sh -c "head -c 4 elsewhere/energy.png | grep -q PNG"
+refused "a folder with / at its end" held2 -o a.folder
+
 # A stand-in for ffmpeg: it reads pictures, writes a film of one box, and can fail or wait.
 cat >bin/ffmpeg <<'END'
 #!/bin/sh
@@ -274,6 +334,7 @@ cat >bin/ffmpeg <<'END'
 for last; do :; done
 case $last in file:*) film=${last#file:} ;; *) echo "$last: no protocol" >&2; exit 1 ;; esac
 case $film in *wait*) echo >"$film"; touch waits; exec sleep 20 ;; *fail*) cat >/dev/null; echo "broken: of the test" >&2; exit 1 ;; esac
+echo "$*" >words
 cat >pictures
 printf '\000\000\000\010free' >"$film"
 END
@@ -283,6 +344,12 @@ mkdir 'a:%d'
 is "a film in a folder with a colon: $(cat err)" $? 0
 is "the film" "$(echo a:*/*)" "a:%d/film.mp4"
 is "it had all pictures" "$(grep -a -c IEND pictures)" 5
+holds "8 frames a second: $(cat words)" grep -q -e "-framerate 8 " words
+"$cleave" plot results/strip --field speed --fps 25 --frames 3 -o quick.mp4 >out 2>err
+is "--fps: $(cat err)" $? 0
+holds "as many frames a second as asked for: $(cat words)" grep -q -e "-framerate 25 " words
+is "and as many frames" "$(grep -a -c IEND pictures)" 3
+refused "fps 0" results/strip --field speed --fps 0 -o none.mp4
 "$cleave" plot results/strip --field speed -o fail.mp4 >out 2>err
 is "a film that fails: exit status" $? 1
 holds "and says why: $(cat err)" grep -q "^fail.mp4: ffmpeg made no film: broken: of the test$" err
