@@ -68,7 +68,7 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
     gnuplot_quote(to, title);
     fputs("\nplot ", to);
     if (seen) {
-        fprintf(to, "%.10g + %.10g*(x/%.10g)**%.6g with lines lw 1.6 dt (6,4) lc rgb '%s' notitle, ",
+        fprintf(to, "x < 0 ? NaN : %.10g + %.10g*(x/%.10g)**%.6g with lines lw 1.6 dt (6,4) lc rgb '%s' notitle, ",
                 c->extrapolated / unit.factor, (c->level[0].mean - c->extrapolated) / unit.factor,
                 1e3 * c->level[0].spacing, c->order_likely, curve_colour[1]);
         fprintf(to, "$e%d using 1:2 with points pt 6 ps 1.3 lw 2 lc rgb '%s' title 'extrapolated', ", panel,
@@ -92,16 +92,18 @@ static double tics_apart(double most)
 static status draw_figures(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     const int shown = figures < SHOWN_MOST ? figures : SHOWN_MOST, wide = shown < SHOWN_WIDE ? shown : SHOWN_WIDE;
-    const int rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE;
+    const int rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE, width = 266 + 420 * wide;
     struct gnuplot g;
     const struct path picture = convergence_picture(s->study.folder, "convergence.png");
-    TRY(gnuplot_open(&g, picture.text, PICTURE_PNG, 100 + 420 * wide, 80 + 360 * rows));
+    const double coarsest = 1e3 * s->spacings.at[s->spacings.levels - 1][0]; /* [mm] */
+    TRY(gnuplot_open(&g, picture.text, PICTURE_PNG, width, 80 + 360 * rows));
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
-            "set multiplot layout %d,%d margins char 11, char 3, char 4, char 3 spacing char 12, char 6\n"
-            "set format y '%%.4g'\nset xrange [0:*]\nset samples 200\nset key inside bottom right\n"
+            "set multiplot layout %d,%d margins char 11, char 20, char 4, char 3 spacing char 12, char 6\n"
+            "set format y '%%.4g'\nset xrange [%.6g:*]\nset samples 200\n"
+            "set key at screen %.5f,0.93 left top\nset pointintervalbox 0\n"
             "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [mm]'\nset xtics %g\n",
-            rows, wide, tics_apart(1e3 * s->spacings.at[s->spacings.levels - 1][0]));
+            rows, wide, -0.05 * coarsest, 1 - 166.0 / width, tics_apart(coarsest));
     for (int k = 0; k < shown; k++) {
         plot_figure(g.to, &figure[k], k);
         fputs("unset key\n", g.to);
