@@ -128,13 +128,13 @@ static void chart_plot(FILE *to, const struct charts *p, int number)
     const struct chart *c = &p->chart[number];
     const double width = COLUMNS * WIDTH, height = charts_height(p);
     const double x = number % COLUMNS * WIDTH, y = HEADING + number / COLUMNS * HEIGHT;
-    fprintf(
-        to,
-        "set lmargin at screen %.6g\nset rmargin at screen %.6g\nset tmargin at screen %.6g\nset bmargin at screen "
-        "%.6g\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nset ylabel '%s' offset 1,0\nset xlabel '%s'\nset title ",
-        (x + LEFT) / width, (x + WIDTH - RIGHT) / width, 1 - (y + ABOVE) / height, 1 - (y + HEIGHT - BELOW) / height,
-        c->soonest, c->latest, 100 * c->least, 100 * c->most, number % COLUMNS ? "" : "error [%]",
-        number + COLUMNS < p->n ? "" : "loop time on one thread");
+    fprintf(to,
+            "set lmargin at screen %.6g\nset rmargin at screen %.6g\nset tmargin at screen %.6g\nset bmargin at screen "
+            "%.6g\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nset ylabel '%s' offset 0.2,0\nset xlabel '%s'\nset "
+            "title ",
+            (x + LEFT) / width, (x + WIDTH - RIGHT) / width, 1 - (y + ABOVE) / height,
+            1 - (y + HEIGHT - BELOW) / height, c->soonest, c->latest, 100 * c->least, 100 * c->most,
+            number % COLUMNS ? "" : "error [%]", number + COLUMNS < p->n ? "" : "loop time on one thread");
     gnuplot_quote(to, c->problem->title);
     fprintf(to, "\nplot $all%d using 1:2 with points pt 7 ps 0.35 lc rgb '#cccccc' notitle", number);
     for (int g = 0; g < CLASSES; g++)
