@@ -72,6 +72,9 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
     curves_write_tics(to, axis, 0, top, pixels);
 }
 
+/* Upper end of the axis of the share of peridynamic particles at most [%]. */
+static const double SHARE_TOP = 104;
+
 /* Returns true if the values in a column of the history are not all equal. */
 static bool column_varies(const struct history *h, int column)
 {
@@ -104,7 +107,8 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     snprintf(label, sizeof label, "crack length [%s]", metre.name);
     if (shown[0]) set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0], pixels);
     if (shown[1])
-        set_axis(g.to, shown[0] ? "y2" : "y", "peridynamic share [%]", 1, 1.25 * largest[1] / factor[1], pixels);
+        set_axis(g.to, shown[0] ? "y2" : "y", "peridynamic share [%]", 1,
+                 fmin(1.25 * largest[1] / factor[1], SHARE_TOP), pixels);
     fprintf(g.to, "set border %d\n%splot ", both ? 11 : 3, both ? "" : "unset key\n");
     if (shown[0])
         fprintf(g.to, "$data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length (left)'%s", curve_colour[0],

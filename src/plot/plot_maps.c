@@ -303,12 +303,13 @@ static void key_entry(FILE *to, const struct layout *l, double x, double y, stru
  * without bonds. */
 static void draw_key(FILE *to, const struct layout *l, enum map map)
 {
+    const bool narrow = gnuplot_is_narrow();
     const struct category entry[2][2] = {
         {{colour_of_material_points(), "material points"}, {colour_of_peridynamic_particle(0.25), "peridynamics"}},
         {{fragment_colour(0), "the heaviest"}, {fragment_colour(-1), "no bond left"}}};
     for (int k = 0; k < 2; k++) {
         const struct category *e = &entry[map == MAP_FRAGMENT][k];
-        key_entry(to, l, l->width - l->right - 320 + 160 * k, gnuplot_is_narrow() ? ABOVE_NARROW - 20 : 26, e->colour,
+        key_entry(to, l, (narrow ? 20 : l->width - RIGHT - 320) + 160 * k, narrow ? ABOVE_NARROW - 20 : 26, e->colour,
                   e->name);
     }
 }

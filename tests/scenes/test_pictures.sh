@@ -276,6 +276,12 @@ END
     "$cleave" plot results/strip --size 85mmx60mm -o maps/ >out 2>err
     "$cleave" plot --scene strip.yaml --size 85mmx90mm -o maps/scene.png >out 2>err
     for picture in damage last scene; do uncut "maps/$picture.png"; done
+    for size in 85mmx150mm 180mmx250mm; do
+        : >all
+        "$cleave" plot both --size $size -o "keys$size/" >out 2>err
+        uncut "keys$size/kind.png"
+        holds "$size: the key of the methods is in the picture" sh -c "grep -a -q 'material points' all && ! grep -a -q 'screen -' all"
+    done
 fi
 
 # Figures of a sweep are those of --of, in units with a prefix.
@@ -299,7 +305,10 @@ END
 "$cleave" plot pressed >out 2>err
 for line in "10 0.5" "30 1.2"; do holds "force over the way of a rigid body: $line" grep -a -q "^$line$" all; done
 holds "metres" grep -a -q "crack length \[m\]" all
-holds "no axis for a share that stays the same" sh -c "! grep -a -q 'share of peridynamic' all"
+holds "no axis for a share that stays the same" sh -c "! grep -a -q 'peridynamic share .%' all"
+sed -i 's/,0,1$/,0,0.5/' pressed/history.csv
+"$cleave" plot pressed -o shares/ >out 2>err
+holds "a share of all particles: its axis ends at 100 %" grep -a -q "set y2range \[0:104\]" all
 
 # Without a probe of the load, a line names the one to add; a run without supports has no such line.
 "$cleave" run strip.yaml -q -o held -s 'boundary=[{name: grip, fixed: all, face: y-}, {name: jaw, velocity: [0, 1 m/s], face: y+}]' >out 2>err
