@@ -87,7 +87,7 @@ if command -v gnuplot >/dev/null; then
     done
     "$cleave" run -q -o "$work/blind" $pulled -s 'probes=[]' -s steps.number=1 2>"$work/err"
     "$cleave" plot "$work/blind" >"$work/out" 2>&1
-    holds "without probes there is no such curve" grep -q 'load_displacement.png is not drawn: neither a reaction probe nor a rigid body has a force' "$work/out"
+    holds "without probes there is no such curve" grep -q 'load_displacement.png is not drawn: no probe measures the load; this one does: probes: \[{reaction: {boundary: top}}\]' "$work/out"
     holds "without growth no R-curve" grep -q 'r_curve.png is not drawn: no crack has grown' "$work/out"
 fi
 
