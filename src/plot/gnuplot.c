@@ -101,7 +101,7 @@ struct picture_size picture_size_get(void) { return usual; }
 
 /* Factor on the letters of PDFs, whose sizes are points, by which they are those of a PNG; on those of narrow pictures,
  * which then have 7 points. */
-static const double PDF_LETTERS = 0.667, NARROW_LETTERS = 0.8;
+static const double PDF_LETTERS = 0.5, NARROW_LETTERS = 0.8;
 
 /* Writes the commands that select the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. width,
  * height: size of the picture [pixel]; scale: factor on the size of letters, and in PNG of lines and points [1]. */
@@ -116,7 +116,7 @@ static void set_terminal(struct gnuplot *g, enum picture_format format, int widt
     else if (format == PICTURE_PDF)
         fprintf(g->to,
                 "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale %.4g linewidth "
-                "0.9 background rgb 'white' noenhanced\n",
+                "0.5 pointscale 0.5 background rgb 'white' noenhanced\n",
                 (double)width / PICTURE_DPI, (double)height / PICTURE_DPI, PDF_LETTERS * letters);
     else {
         const double fine = usual.dpi / PICTURE_DPI;
