@@ -34,6 +34,7 @@ static const struct bench benches[] = {
     {"uncertainty", bench_uncertainty, false, "error bars of cleave converge beside exact values"},
     {"pilot", bench_pilot, false, "errors of method: auto beside the requested ones"},
     {"laws", bench_laws, false, "metals that flow beside closed forms and published values"},
+    {"circles", bench_circles, false, "strength: the nine circles of elastic brittle fracture"},
     {"slow", bench_slow, false, "load steps beside linear elastic fracture mechanics"},
     {"experiments", bench_experiments, true, "published experiments and other codes; hours"}};
 /* clang-format on */

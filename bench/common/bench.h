@@ -288,6 +288,9 @@ status bench_experiments(bool quick);
 /* Compares laws of materials with closed forms and published values (bench_laws.c). quick: single elements only. */
 status bench_laws(bool quick);
 
+/* Compares bonds that soften with the challenge problems of Kamarei et al. 2025 (bench_circles.c). */
+status bench_circles(bool quick);
+
 /* Compares load steps with linear elastic fracture mechanics (bench_slow.c). */
 status bench_slow(bool quick);
 

@@ -1,0 +1,162 @@
+/* `cleave bench circles`: bonds that soften beside the challenge problems of Kamarei, Zeng, Dolbow & Lopez-Pamies
+ * (2025), "Nine circles of elastic brittle fracture". */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "bench/common/bench_goals.h"
+#include "circles.h"
+#include "output/output_files.h"
+
+#define COLUMNS "circle,figure,specimen,unit,spacing_mm,horizon_l,lattice_deg,expected,tolerance,found,verdict"
+
+/* ---- results ----------------------------------------------------------------------------------------------------- */
+
+/* Returns the horizon of a run over E G_c/strength^2 [1]. */
+static double relative_horizon(const struct circle_run *r)
+{
+    const double length = CIRCLE_YOUNG * CIRCLE_TOUGHNESS / (CIRCLE_STRENGTH * CIRCLE_STRENGTH);
+    return CIRCLE_HORIZON * 1e-3 * r->spacing / length;
+}
+
+const char *circle_verdict(const struct circle_run *r)
+{
+    const struct circle_case *c = r->of;
+    if (c->crack > 0 && c->crack < 3 * 0.999 * CIRCLE_HORIZON * r->spacing) return "-";
+    return fabs(r->found - c->expected) <= c->tolerance ? "holds" : "MISSED";
+}
+
+/* Prints a run beside what is asked of it, and adds it to its table. */
+static void circle_report(const struct circle_run *r)
+{
+    const struct circle_case *c = r->of;
+    const char *const verdict = circle_verdict(r);
+    const double found = isfinite(r->found) ? r->found : NAN;
+    printf("  %-15s %-21s %6.2f l %4d deg %8.4g +- %-6.3g %8.4g %-5s %s\n", c->circle, c->figure, relative_horizon(r),
+           r->turned ? 45 : 0, c->expected, c->tolerance, found, c->unit, verdict);
+    bench_text(r->table, c->circle), bench_text(r->table, c->figure);
+    bench_text(r->table, circle_specimen[c->specimen].name), bench_text(r->table, c->unit);
+    bench_number(r->table, r->spacing), bench_number(r->table, relative_horizon(r));
+    bench_number(r->table, r->turned ? 45 : 0), bench_number(r->table, c->expected);
+    bench_number(r->table, c->tolerance), bench_number(r->table, found), bench_text(r->table, verdict);
+}
+
+static status circle_take(void *row, const char *folder)
+{
+    struct circle_run *r = row;
+    r->found = circle_specimen[r->of->specimen].measure(folder, r);
+    circle_report(r);
+    return OK;
+}
+
+/* Prints the circles without a run, with the reasons. */
+static void reasons_print(void)
+{
+    for (int k = 0; k < circle_cases_count; k++)
+        if (circle_cases[k].why)
+            printf("  %-15s %-21s not run: %s\n", circle_cases[k].circle, circle_cases[k].figure, circle_cases[k].why);
+}
+
+/* ---- runs -------------------------------------------------------------------------------------------------------- */
+
+enum { RUNS_MOST = 96, PATH_LENGTH = 96 };
+
+/* All runs, their jobs and files. */
+struct circles {
+    int n;
+    char folder[64];
+    struct circle_run run[RUNS_MOST];
+    struct bench_job job[RUNS_MOST];
+    char scene[RUNS_MOST][PATH_LENGTH];
+};
+
+/* Writes the scene of a specimen unless it is a shipped one. Stores its path in path[PATH_LENGTH]. */
+static status scene_prepare(const struct circles *c, const struct circle_specimen *s, char *path)
+{
+    if (s->path) return snprintf(path, PATH_LENGTH, "%s", s->path), OK;
+    snprintf(path, PATH_LENGTH, "%s/%s.yaml", c->folder, s->name);
+    return file_write_whole(path, s->text, strlen(s->text));
+}
+
+/* Replaces the body of a scene by a list of particles on a turned lattice. Writes the list. */
+static status body_turn(const struct circles *c, const struct circle_run *r, struct bench_overrides *o)
+{
+    const struct circle_specimen *s = &circle_specimen[r->of->specimen];
+    char file[PATH_LENGTH / 2], path[PATH_LENGTH + 32];
+    snprintf(file, sizeof file, "%s_%.4g.csv", s->name, r->spacing);
+    snprintf(path, sizeof path, "%s/%s", c->folder, file);
+    TRY(circle_list_write(path, s, 1e-3 * r->spacing));
+    bench_override(o, "bodies.0.shape", "%s", "");
+    bench_override(o, "bodies.0.particles", "%s", file);
+    bench_override(o, "pd.surface", "volume");
+    if (s->turned.key) bench_override(o, s->turned.key, "%s", s->turned.value);
+    return OK;
+}
+
+/* Adds a run of a case at a spacing [mm]. */
+static status circle_add(struct circles *c, const struct circle_case *of, double spacing, bool turned,
+                         struct bench_table *table)
+{
+    INVARIANT(c->n < RUNS_MOST);
+    const struct circle_specimen *s = &circle_specimen[of->specimen];
+    const int k = c->n++;
+    struct bench_overrides *o = &c->job[k].overrides;
+    c->run[k] = (struct circle_run){of, spacing, NAN, turned, table};
+    c->job[k].path = c->scene[k], c->job[k].row = &c->run[k], c->job[k].take = circle_take;
+    TRY(scene_prepare(c, s, c->scene[k]));
+    bench_override(o, s->path ? "particles.spacing" : "variables.h", "%.12g mm", spacing);
+    if (of->surface) bench_override(o, "materials.0.compressive_strength", "1 GPa");
+    for (int j = 0; j < CIRCLE_OVERRIDES && of->set[j].key; j++)
+        bench_override(o, of->set[j].key, "%s", of->set[j].value);
+    return turned ? body_turn(c, &c->run[k], o) : OK;
+}
+
+/* Adds all runs; the coarsest of each lattice if `quick`. */
+static status circles_add(struct circles *c, bool quick, struct bench_table *table)
+{
+    for (int k = 0; k < circle_cases_count; k++)
+        for (int j = 0; j < (quick ? 1 : CIRCLE_SPACINGS); j++) {
+            const struct circle_case *of = &circle_cases[k];
+            if (of->spacing[j] > 0) TRY(circle_add(c, of, of->spacing[j], false, table));
+            if (of->turned[j] > 0) TRY(circle_add(c, of, of->turned[j], true, table));
+        }
+    return OK;
+}
+
+/* Prints how many figures miss what is asked of them. */
+static void missed_print(const struct circles *c)
+{
+    int asked = 0, missed = 0;
+    for (int k = 0; k < c->n; k++) {
+        const char *const verdict = circle_verdict(&c->run[k]);
+        asked += strcmp(verdict, "-") != 0, missed += strcmp(verdict, "MISSED") == 0;
+    }
+    printf("\n  %d of %d figures are MISSED; of notches shorter than three horizons (-) nothing is asked\n", missed,
+           asked);
+}
+
+status bench_circles(bool quick)
+{
+    static const char *const needed[] = {"inputs/strength_notch.yaml"};
+    struct bench_table rows;
+    TRY(bench_scenes_needed("circles", needed, COUNT_OF(needed)));
+    struct circles *c = NEW("bench.circles", 1, struct circles);
+    printf("nine circles of elastic brittle fracture (Kamarei et al. 2025): glass, l = E G_c/strength^2 = 0.4375 mm\n");
+    bench_print_machine(team_set_threads(0));
+    printf("  %-15s %-21s %8s %8s %19s %14s\n", "circle", "figure", "horizon", "lattice", "expected", "found");
+    bench_table_make(&rows, "", COLUMNS);
+    status s = bench_folder_make();
+    strcpy(c->folder, BENCH_FOLDER "/circles-XXXXXX");
+    if (s == OK && !mkdtemp(c->folder)) s = file_report_write_failure(c->folder, errno), c->folder[0] = 0;
+    if (s == OK) s = circles_add(c, quick, &rows);
+    if (s == OK) s = bench_jobs_run(c->job, c->n, 2);
+    if (s == OK) reasons_print(), missed_print(c);
+    if (s == OK) s = bench_write("circles", &rows, 1);
+    if (c->folder[0]) bench_folder_remove(c->folder);
+    bench_table_free(&rows);
+    memory_free(c);
+    return s;
+}

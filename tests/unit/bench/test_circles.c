@@ -1,0 +1,94 @@
+/* Tests of `cleave bench circles`: its table of cases, verdicts, and bodies on a turned lattice. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "bench/circles/circles.h"
+
+/* Returns the verdict on a found value of a case at a spacing [mm]. */
+static const char *verdict_on(const struct circle_case *c, double spacing, double found)
+{
+    return circle_verdict(&(struct circle_run){.of = c, .spacing = spacing, .found = found});
+}
+
+/* A value on the edge of the tolerance holds, one beyond it and none at all are missed. A notch of 0.5 mm has three
+ * horizons up to a spacing of 0.0553 mm. */
+static void verdicts_follow_the_tolerance(void **state)
+{
+    (void)state;
+    const struct circle_case c = {.expected = 27, .tolerance = 1},
+                             notch = {.expected = 17.83, .tolerance = 0.89, .crack = 0.5};
+    assert_string_equal(verdict_on(&c, 0.1, 28), "holds");
+    assert_string_equal(verdict_on(&c, 0.1, 26), "holds");
+    assert_string_equal(verdict_on(&c, 0.1, 28.01), "MISSED");
+    assert_string_equal(verdict_on(&c, 0.1, 25.99), "MISSED");
+    assert_string_equal(verdict_on(&c, 0.1, NAN), "MISSED");
+    assert_string_equal(verdict_on(&notch, 0.056, 17.83), "-");
+    assert_string_equal(verdict_on(&notch, 0.055, 17.83), "holds");
+    assert_string_equal(verdict_on(&notch, 0.055, 12), "MISSED");
+}
+
+/* Each of the nine circles has a case, and each case has runs from coarse to fine or a reason for none. */
+static void each_circle_has_runs_or_a_reason(void **state)
+{
+    (void)state;
+    bool seen[10] = {false};
+    for (int k = 0; k < circle_cases_count; k++) {
+        const struct circle_case *c = &circle_cases[k];
+        seen[c->circle[0] - '0'] = true;
+        assert_true((c->spacing[0] > 0) == (c->why == NULL));
+        assert_true(c->why || (c->expected > 0 && c->tolerance > 0 && c->tolerance < 0.15 * c->expected));
+        for (int j = 1; j < CIRCLE_SPACINGS; j++) {
+            assert_true(c->spacing[j] < c->spacing[j - 1] || c->spacing[j] == 0);
+            assert_true(c->turned[j] < c->turned[j - 1] || c->turned[j] == 0);
+        }
+        assert_true(c->turned[0] == 0 || circle_specimen[c->specimen].text);
+    }
+    for (int k = 1; k <= 9; k++) assert_true(seen[k]);
+}
+
+/* A turned body is a square lattice of the spacing at 45 degrees, without particles on y = 0, and has the volume of the
+ * body within a spacing round its edge. */
+static void turned_bodies_have_their_volume(void **state)
+{
+    (void)state;
+    const double spacing = 0.1e-3, thickness = 1e-3;
+    const enum circle_specimens specimen[] = {CIRCLE_STRIP, CIRCLE_DISC};
+    const double area[] = {5e-3 * 12e-3, M_PI * 2.5e-3 * 2.5e-3};
+    for (int k = 0; k < 2; k++) {
+        char path[] = "/tmp/test_circles_XXXXXX", line[128];
+        const int file = mkstemp(path);
+        assert_true(file >= 0 && close(file) == 0);
+        assert_int_equal(circle_list_write(path, &circle_specimen[specimen[k]], spacing), OK);
+        FILE *from = fopen(path, "r");
+        double x, y, volume, sum = 0;
+        assert_non_null(fgets(line, sizeof line, from));
+        assert_string_equal(line, "x,y,volume\n");
+        while (fscanf(from, "%lf,%lf,%lf", &x, &y, &volume) == 3) {
+            const double across = (x - y) / sqrt(2) / spacing, along = (x + y) / sqrt(2) / spacing;
+            assert_true(fabs(across - round(across)) < 1e-9);
+            assert_true(fabs(along - floor(along) - 0.5) < 1e-9);
+            assert_true(fabs(y) > 0.3 * spacing);
+            sum += volume;
+        }
+        fclose(from), remove(path);
+        assert_true(fabs(sum / (area[k] * thickness) - 1) < 0.01);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(verdicts_follow_the_tolerance),
+        cmocka_unit_test(each_circle_has_runs_or_a_reason),
+        cmocka_unit_test(turned_bodies_have_their_volume),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
