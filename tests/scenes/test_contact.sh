@@ -12,6 +12,11 @@ test_name=test_contact
 start spall hopkinson_bar -s method=pd
 for scene in bars_collide discs_collide kalthoff_projectile three_point_bend brazilian_disc; do start $scene $scene; done
 start ring ring_fragments
+# Bonds of concrete that soften: notches at 0.825 and 0.85 of half the span, 101.6 mm.
+concrete='-s model=bond -s material.poisson=1/3 -s material.tensile_strength=10.45MPa -s material.softening=bilinear'
+start soft_notch three_point_bend $concrete -s "cracks=[{from: [83.82 mm, -1 mm], to: [83.82 mm, 19 mm], width: 2 mm}]"
+start soft_middle three_point_bend $concrete -s "cracks=[{from: [86.36 mm, -1 mm], to: [86.36 mm, 19 mm], width: 2 mm}]"
+start soft_disc strength_disc
 start middle three_point_bend -s "cracks=[{from: [86.36 mm, -1 mm], to: [86.36 mm, 19 mm]}]"
 wait
 for thickness in 3 4; do
@@ -39,6 +44,14 @@ between "beam: off the vertical" "$(f three_point_bend crack.angle_deg)" 33 45
 between "beam: from the notch" "$(f three_point_bend crack.tips.0.growth)" 0.05 0.08
 between "beam, notch farther out: none there" "$(f middle crack.tips.0.growth)" 0 1e-3
 between "beam, notch farther out: in the middle" "$(f middle crack.tips.1.origin_x)" -0.01 0.01
+between "softening beam, notch at 0.825: from there" "$(f soft_notch crack.tips.0.growth)" 0.04 0.08
+between "softening beam, notch at 0.85: none there" "$(f soft_middle crack.tips.0.growth)" 0 1e-3
+between "softening beam, notch at 0.85: in the middle" "$(f soft_middle crack.tips.1.origin_x)" -0.01 0.01
+# 2 P/(pi D t) of 10 MPa is 7.854 kN; it splits from cushion to cushion.
+claimed soft_disc "cleave run inputs/strength_disc.yaml"
+between "disc with a strength: load" "$(compute "$(f soft_disc rigid.0.force_max) / 7854")" 0.9 1.1
+between "disc with a strength: along the diameter" "$(f soft_disc crack.angle_deg)" 80 100
+between "disc with a strength: length" "$(f soft_disc crack.length_end)" 0.03 0.04
 between "disc: along the diameter" "$(f brazilian_disc crack.angle_deg)" 80 100
 between "disc: both jaws bear the same" "$(compute "$(f brazilian_disc rigid.0.force_max) / $(f brazilian_disc rigid.1.force_max)")" 0.999 1.001
 # Stress across the middle, 2 P/(pi D t) for a disc of 50 mm, 10 mm thick, in the sample before the first break.
