@@ -132,6 +132,19 @@ KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const
  * bonds_begin_to_soften does, without a preceding sweep. For load steps. */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
+/* Lets the bonds of state-based models that have begun to soften do so up to the present positions, where that sets
+ * energy free (pd/state_soften.c), and ends those at the end of their softening. The pressures, springs and rotations
+ * in b->state must be those of the present positions; they are stale where *changed is set to true: in the row blocks
+ * (bonds of eight particles) with b->soft.begun. Marks row blocks with bonds beyond their onset as due. Returns the
+ * number of directed bonds that have ended. */
+KERNEL(int64_t, state_soften,
+       (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
+
+/* Marks the bond with index q in the row (all bonds of one particle) `row` as broken: sets its weight to 0, and updates
+ * the counts of broken bonds, damage and flags of the particle. The caller adds the energy of the bond to the fracture
+ * energy before, and marks the bond in the row of its other particle likewise. */
+KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64_t q));
+
 /* Breaks the bonds whose largest stretch has reached the end of their softening: all they have dissipated becomes
  * fracture energy of their rows. For load steps, between two equilibria. Returns the number of directed bonds. */
 KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));

@@ -60,15 +60,22 @@ enum softening_due {
 struct softened {
     const struct softening_curve *curve; /* NULL: no bond softens */
     float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of a bond [1] */
+    /* [columns 8] weight of a bond that has begun, before it softened [1]; only in state-based models, where the weight
+     * in bonds.w is this times 1 - d (kernels/pd/state_soften.c). NULL: bond-based model */
+    float *whole;
     /* [columns 8] load steps: k of the last equilibrium, 0 for a bond that had not begun [1]. NULL: explicit steps.
      * With it, forces are those of the stored k, whatever the stretch: bonds are springs of their secant stiffness */
     float *settled;
-    uint8_t *begun;            /* [row blocks] 1: the arrays are valid */
-    uint8_t *due;              /* [row blocks] enum softening_due */
-    bool any_due;              /* an entry of `due` is not DUE_NOT */
-    bool at_points;            /* bonds of material points have begun since this was cleared */
-    uint8_t *needed;           /* [row blocks 8] working memory: the dilatation of the row is needed */
-    real *dilatation;          /* [row blocks 8] working memory: trace of the strain of the family [1] */
+    uint8_t *begun;   /* [row blocks] 1: the arrays are valid */
+    uint8_t *due;     /* [row blocks] enum softening_due */
+    bool any_due;     /* an entry of `due` is not DUE_NOT */
+    bool at_points;   /* bonds of material points have begun since this was cleared */
+    uint8_t *needed;  /* [row blocks 8] working memory: the dilatation of the row is needed */
+    real *dilatation; /* [row blocks 8] working memory: trace of the strain of the family [1] */
+    /* [row blocks 8] mean strain rate of a row on its way from half its onset to the onset, 0 or less: not there [1/s];
+     * time for which it has been beyond half the onset [s]. NULL: no strength depends on the rate */
+    real *rate, *beyond;
+    bool rates_kept;           /* rates are to be measured in the next step */
     const struct image *image; /* [images] borrowed */
     real least_ratio;          /* no bond ends below the trigger of its row times this [1] */
     uint8_t *near; /* [row blocks] 1: a bond has been beyond `gate` since the last look at the strength surface
@@ -233,31 +240,33 @@ static inline bool row_block_is_complete(const struct bonds *b, int64_t row_bloc
     return eight_bytes_as_word(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
 
-/* State of a bond that softens, as in struct softened. */
+/* State of a bond that softens, as in struct softened; whole: 0 where it is not stored. */
 struct bond_softness {
-    float most, onset, end;
+    float most, onset, end, whole;
 };
 
 /* Returns the state of a bond of the given range that may not soften yet, or is brittle. */
 static inline struct bond_softness bond_softness_initial(struct softening_range range)
 {
-    return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST))};
+    return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)), 0};
 }
 
 /* Returns the state of the bond with index `bond`. */
 static inline struct bond_softness bond_softness_load(const struct softened *softened, int64_t bond)
 {
-    return (struct bond_softness){softened->most[bond], softened->onset[bond], softened->end[bond]};
+    return (struct bond_softness){softened->most[bond], softened->onset[bond], softened->end[bond],
+                                  softened->whole ? softened->whole[bond] : 0};
 }
 
 /* Stores the state of the bond with index `bond`. */
 static inline void bond_softness_store(struct softened *softened, int64_t bond, struct bond_softness state)
 {
     softened->most[bond] = state.most, softened->onset[bond] = state.onset, softened->end[bond] = state.end;
+    if (softened->whole) softened->whole[bond] = state.whole;
 }
 
 /* State of an entry without a bond. */
-static const struct bond_softness bond_softness_none = {1, 1, 2};
+static const struct bond_softness bond_softness_none = {1, 1, 2, 0};
 
 /* Returns true if a bond of row block `row_block` (the bonds of eight particles) has begun to soften. */
 static inline bool row_block_has_softening(const struct bonds *b, int64_t row_block)
@@ -272,21 +281,36 @@ static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, i
     return row_block_has_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
 }
 
-/* Returns the share 1 - d of its stiffness that the bond with index `bond`, in row block `row_block`, has at the
- * stretch `stretch` [1]. */
+/* Returns the weight that the bond with index `bond`, in row block `row_block`, has had before it softened [1]. w: its
+ * present weight. Only for state-based models. */
+static inline real bond_whole_weight(const struct bonds *b, int64_t row_block, int64_t bond, real w)
+{
+    return bond_is_softening(b, row_block, bond) ? b->soft.whole[bond] : w;
+}
+
+/* Marks row block `row_block` as due: one of its bonds may begin to soften before the next sweep (bond_begin.c). */
+static inline void row_block_mark_due(struct bonds *b, int64_t row_block)
+{
+    if (b->soft.due[row_block] == DUE_NOT) b->soft.due[row_block] = DUE_NEW;
+    __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
+}
+
+/* Returns the share 1 - d of the stiffness by its weight that the bond with index `bond`, in row block `row_block`, has
+ * at the stretch `stretch` [1]; 1 in state-based models, whose weights contain it. */
 static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int64_t row_block, int64_t bond,
                                                      real stretch)
 {
-    if (stretch <= 0 || !bond_is_softening(b, row_block, bond)) return 1;
+    if (b->soft.whole || stretch <= 0 || !bond_is_softening(b, row_block, bond)) return 1;
     const real most = b->soft.settled ? b->soft.most[bond] : real_max(b->soft.most[bond], stretch);
     return softening_remaining_stiffness_fraction(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], most);
 }
 
 /* Returns half the energy that the softening of the bond with index `bond`, in row block `row_block`, has dissipated so
- * far [J], the share of one of its two rows; 0 if the bond is broken. */
+ * far [J], the share of one of its two rows; 0 if the bond is broken, and in state-based models, which add it to the
+ * fracture energy of rows at once. */
 static inline real bond_half_softening_energy(const struct bonds *b, int64_t row_block, int64_t bond)
 {
-    if (!bond_is_softening(b, row_block, bond) || b->w[bond] == 0) return 0;
+    if (b->soft.whole || !bond_is_softening(b, row_block, bond) || b->w[bond] == 0) return 0;
     return 0.5 * b->stiffness * b->w[bond] *
            softening_dissipated_energy(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], b->soft.most[bond]) /
            fabs(b->inverse_length[bond]);

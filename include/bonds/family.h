@@ -78,6 +78,20 @@ static inline struct softening_range bond_softening_range(const struct particles
     return softening_range_of(limit->curve, pair->onset * (fixed ? 1 : bond_strength_factor(p, i, j)), critical);
 }
 
+/* Returns the stretches [1] at which the bond between particles i and j begins to soften and ends at the strain rate
+ * `rate` [1/s]: a rate moves the onset at the same energy. */
+static inline struct softening_range
+bond_softening_range_at_rate(const struct particles *p, const struct bond_limit *limit, int64_t i, int64_t j, real rate)
+{
+    const struct softening_range slow = bond_softening_range(p, limit, i, j);
+    const struct strength_rate *r = limit->softening[p->material[i] * limit->materials + p->material[j]].rate;
+    if (!r || !(slow.onset < slow.end)) return slow;
+    const real critical = bond_breaking_stretch(p, limit, i, j);
+    const real most = real_max(slow.onset, critical / sqrt(RATE_LEAST_RATIO));
+    return softening_range_of(limit->curve, real_min(most, slow.onset * strength_rate_interpolate(r, r->onset, rate)),
+                              critical);
+}
+
 /* Yield stretch s_y and hardening modulus over the elastic one, H_b/k_e, by pair of materials [materials^2]; stretch
  * NULL: no bond yields. */
 struct bond_yield {

@@ -18,6 +18,15 @@ static inline int space_dim(enum space s) { return s == SPACE_LINE ? 1 : s == SP
 /* How the force of a bond that softens falls beyond its peak (softening.h). */
 enum softening { SOFTENING_LINEAR, SOFTENING_BILINEAR, SOFTENING_EXPONENTIAL };
 
+/* How the tensile strength of bonds that soften grows with the strain rate (softening.h): factors on it at given rates,
+ * linear in the logarithm of the rate between these, constant beyond. */
+enum { RATE_POINTS = 16 };
+struct strength_rate {
+    int points;                                  /* 0: the strength does not depend on the rate */
+    real rate[RATE_POINTS], factor[RATE_POINTS]; /* [1/s] ascending; at least 1, not falling [1] */
+    real onset[RATE_POINTS]; /* factor on the stretch at which bonds begin to soften that gives this strength [1] */
+};
+
 /* A material. */
 struct material {
     char name[NAME_MAX_LENGTH];
@@ -30,9 +39,10 @@ struct material {
     bool softening_given;         /* the scene names it */
     /* of a strength surface, beside tensile_strength; NAN: not given [Pa] [m] */
     real compressive_strength, hydrostatic_strength, biaxial_strength, strength_radius;
-    real onset_stretch; /* s_0 at which bonds begin to soften; critical_stretch if they are brittle [1] */
-    real yield_stress;  /* sigma_y [Pa]; INFINITY or 0: elastic */
-    real yield_tangent; /* E_t: slope of the uniaxial stress-strain curve beyond sigma_y, below E [Pa] */
+    struct strength_rate rate; /* of the tensile strength */
+    real onset_stretch;        /* s_0 at which bonds begin to soften; critical_stretch if they are brittle [1] */
+    real yield_stress;         /* sigma_y [Pa]; INFINITY or 0: elastic */
+    real yield_tangent;        /* E_t: slope of the uniaxial stress-strain curve beyond sigma_y, below E [Pa] */
     struct {
         real linear, quadratic;
     } viscosity;                     /* coefficients of bulk viscosity in rapid compression (step/viscosity.h) [1] */

@@ -31,10 +31,11 @@ struct softening_curve {
 
 /* Softening of the bonds between two materials. onset: s_0, INFINITY: they are brittle [1]; strength_scatters: a random
  * strength scales s_0 alone, else the critical stretch, too; surface: a strength surface starts them, whose share the
- * strength scales in place of s_0. */
+ * strength scales in place of s_0; rate: how s_0 grows with the strain rate, NULL: it does not. */
 struct softening_pair {
     real onset;
     bool strength_scatters, surface;
+    const struct strength_rate *rate;
 };
 
 /* Stretches at which a bond begins to soften and ends [1]; equal if it is brittle. */
@@ -97,6 +98,15 @@ struct softening_strength softening_curve_strength(const struct softening_curve 
  * s_0 = strength/(E' tension(kappa)). m->critical_stretch must be set. The result exceeds m->critical_stretch where the
  * horizon is too large for this strength. */
 real softening_onset_from_strength(const struct material *m, enum space space);
+
+/* Share of the slow onset from which on strain rates are measured [1]. */
+#define RATE_FROM 0.5
+
+/* Smallest ratio kappa = (critical stretch/onset)^2 to which a strain rate lets a bond's strength grow [1]. */
+#define RATE_LEAST_RATIO 1.2
+
+/* Returns the value at the strain rate `rate` [1/s] of a quantity that is value[k] at the k-th rate of the table. */
+real strength_rate_interpolate(const struct strength_rate *r, const real *value, real rate);
 
 /* Returns E', the modulus of uniaxial tension: E, in plane strain E/(1 - nu^2) [Pa]. */
 static inline real material_uniaxial_tension_modulus(const struct material *m, enum space space)

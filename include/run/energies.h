@@ -44,12 +44,12 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
                                real *size);
 
 /* Computes the weighted volume and the dilatation of the family of each particle of bonds b at the present positions,
- * as ordinary state-based peridynamics needs them before forces or energies; of bonds that soften updates the largest
- * stretches. Does nothing for other bond-based models. s: bond law. */
+ * as ordinary state-based peridynamics needs them before forces or energies; in the bond-based model updates the
+ * largest stretches of bonds that soften. Does nothing for other bond-based models. s: bond law. */
 static inline void family_states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);
-    if (s->limit.softening) bonds_update_softening(b, p);
+    if (s->limit.softening && !s->modulus) bonds_update_softening(b, p);
 }
 
 /* Computes the stress of all peridynamic particles from their bonds at the present positions [Pa], into the stress

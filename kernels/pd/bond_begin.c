@@ -5,14 +5,18 @@
  * energy that the bond loses there at once counts as fracture energy. The balance stays of second order.
  *
  * Lateral bonds of a compressed body are stretched, though no stress pulls at them. A bond from i to j of direction n
- * may therefore begin only where n . sigma . n > 0.2 E s (solids and plane strain; 0.19 E s in plane stress). With the
- * elastic constants of bonds, lambda = G, and n . eps . n = s, this is
+ * may therefore begin only where n . sigma . n > 0.5 G s: 0.2 E s in solids and plane strain, 0.19 E s in plane stress
+ * with the elastic constants of bonds, lambda = G. With n . eps . n = s this is
  *
- *     (tr eps_i + tr eps_j)/2 + 1.5 s > 0
+ *     (lambda/G) (tr eps_i + tr eps_j)/2 + 1.5 s > 0
  *
  * where eps is the strain that fits the stretches of the bonds of a particle best, s = n . eps . n, weighted by the
- * stiffness that they keep: exact for uniform strain, beside faces, too. (Where lambda = G, so that E = 2.5 G: sigma =
- * G (tr eps + 2 s) > 0.5 G s.) Uniaxial compression gives tr eps = -2 s. */
+ * stiffness that they keep: exact for uniform strain, beside faces, too. Uniaxial compression gives tr eps = -2 s.
+ *
+ * Where the strength grows with the strain rate, a bond begins at the onset of its rate, the mean of both ends'. The
+ * rate of a particle is the mean rate at which the largest stretch of its bonds grows from half the onset of slow
+ * loading to the onset: a present rate would be that of short waves, and of bonds that soften beside it. */
+#include <float.h>
 #include <math.h>
 
 #include "bond_last.h"
@@ -22,7 +26,7 @@
 #define PIVOT 1e-6 /* least pivot of a fit over the sum of its weights [1] */
 
 /* The bonds of a row that are examined: from particle i to j, at the stretch `stretch`, with the range of softening
- * that they would have [1]. */
+ * that they would have in slow loading [1]. */
 struct candidate {
     struct softening_range range;
     real stretch;
@@ -45,7 +49,7 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
     c->stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, 0);
     c->range = bond_softening_range(p, limit, i, bond->nbr);
     return c->stretch > c->range.onset && c->range.onset < c->range.end &&
-           (c->stretch <= c->range.end || b->soft.settled);
+           (c->stretch <= c->range.end || b->soft.settled || b->soft.whole);
 }
 
 /* Returns the row whose dilatation stands for that of particle or image j: its own, or that of the source of the image;
@@ -56,8 +60,8 @@ static int64_t row_of_dilatation(const struct bonds *b, const struct particles *
     return row >= 0 && b->whole[row] ? row : -1;
 }
 
-/* Marks in b->soft.needed the rows whose dilatation the candidates of row block g need. Several threads may mark one
- * row. */
+/* Marks in b->soft.needed the rows whose dilatation the candidates of row block g need. Several threads
+ * may mark one row. */
 static void mark_needed(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
@@ -111,8 +115,17 @@ static real fit_trace(struct strain_fit *fit, int dim)
     return trace;
 }
 
-/* Computes the dilatation of the family of one row [1]: the trace of the strain that fits the stretches of its bonds
- * best, weighted by the stiffness that they keep. */
+/* Returns lambda/G of the material of particle i [1]: 1 of bonds. */
+static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t i)
+{
+    const real D = p->dim;
+    if (!b->state.modulus) return 1;
+    const struct state_modulus m = b->state.modulus[p->material[i]];
+    return b->state.rotation[0] ? 2 * m.A / (D * m.B) : 1 + (D + 2) * m.A / (D * m.B);
+}
+
+/* Computes the dilatation of the family of one row times lambda/G [1]: the trace of the strain that fits the stretches
+ * of its bonds best, weighted by the stiffness that they keep. */
 static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -126,7 +139,43 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
         strain_fit_add(&fit, e, p->dim, stretch,
                        bond->w * bond_remaining_stiffness_fraction(b, row / LANES, bond->entry, stretch));
     }
-    return fit_trace(&fit, p->dim);
+    return fit_trace(&fit, p->dim) * lame_ratio(b, p, i);
+}
+
+/* Measures the strain rate of a row, the mean rate at which the largest stretch of its bonds grows from half its onset
+ * to the onset, in b->soft.rate, which stays until the stretch is below half the onset again; before the onset is
+ * reached it holds minus the stretch of the first step [1]. dt: time step [s]. */
+static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t row, real dt)
+{
+    const real from = b->trigger[row], onset = from / RATE_FROM;
+    real most = -1;
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+        if (it.bond.w != 0)
+            most = real_max(most,
+                            bond_stretch_at_earlier_time(p, it.bond.inverse_length, b->particle[row], it.bond.nbr, 0));
+    if (!(most > from)) {
+        b->soft.beyond[row] = b->soft.rate[row] = 0;
+        return;
+    }
+    if (b->soft.beyond[row] == 0) b->soft.rate[row] = -most;
+    b->soft.beyond[row] += dt;
+    if (!(b->soft.rate[row] <= 0 && most >= onset)) return;
+    const real grown = most + b->soft.rate[row], time = b->soft.beyond[row] - dt;
+    b->soft.rate[row] = real_max(DBL_MIN, time > 0.5 * dt ? grown / time : (most - from) / dt);
+}
+
+/* Measures the strain rates of all rows that were beyond half their onset in the last step, or are in a row block that
+ * is due or softens. */
+static void measure_rates(struct bonds *b, const struct particles *p, real dt)
+{
+    bool any = false;
+#pragma omp parallel for schedule(dynamic, 64) reduction(| : any)
+    for (int64_t row = 0; row < b->rows; row++) {
+        const bool watched = b->soft.begun[row / LANES] || b->soft.due[row / LANES] != DUE_NOT;
+        if (watched || b->soft.beyond[row] > 0) row_measure_rate(b, p, row, dt);
+        any |= b->soft.begun[row / LANES] || b->soft.beyond[row] > 0;
+    }
+    b->soft.rates_kept = any;
 }
 
 /* Returns true if the stress across the bond of candidate c allows it to soften. Both rows of a bond get the same
@@ -140,16 +189,33 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
     return 0.5 * sum + PULL * c->stretch > 0;
 }
 
+/* Moves the range of candidate c to that of the strain rate of its bond; of one row alone where the other does not hold
+ * a whole family. Returns true if the bond is beyond its onset there. */
+static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                              struct candidate *c)
+{
+    if (!b->soft.rate) return true;
+    const int64_t one = row_of_dilatation(b, p, c->i), two = row_of_dilatation(b, p, c->j);
+    const real *known = b->soft.rate;
+    const real rate = one < 0 && two < 0 ? 0
+                      : one < 0          ? known[two]
+                      : two < 0          ? known[one]
+                                         : 0.5 * (known[one] + known[two]);
+    c->range = bond_softening_range_at_rate(p, limit, c->i, c->j, rate);
+    return c->stretch > c->range.onset;
+}
+
 /* Starts the softening of the bond with index q of a row, the candidate *c. The bond loses some energy at once, which
  * the closed form of its dissipation does not count: adds half of it to the fracture energy of the row, except in load
- * steps. dt: time step [s]. */
+ * steps and state-based models. dt: time step [s]. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
 {
     const struct softening_range range = {(float)c->range.onset, (float)c->range.end};
     const real stretch = bond_stretch_at_earlier_time(p, b->inverse_length[q], c->i, c->j, 0.5 * dt);
-    bond_softness_store(&b->soft, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end});
-    if (!(stretch > range.onset) || b->soft.settled) return;
+    bond_softness_store(
+        &b->soft, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end, (float)b->w[q]});
+    if (!(stretch > range.onset) || b->soft.settled || b->soft.whole) return;
     const real kept = bond_remaining_stiffness_fraction(b, row / LANES, q, stretch);
     const real lost = 0.5 * square(stretch) * (1 - kept) -
                       softening_dissipated_energy(b->soft.curve, range.onset, range.end, real_min(stretch, range.end));
@@ -170,6 +236,7 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
                 denied = true;
                 continue;
             }
+            if (!is_beyond_at_rate(b, p, limit, &c)) continue;
             if (!b->soft.begun[g]) row_block_initialise_softening(b, p, limit, g);
             bond_begin(b, p, row, bond.entry, &c, limit->dt);
             softness_mark_point(b, p, c.i);
@@ -189,7 +256,8 @@ static bool any_new(const struct bonds *b)
 void bonds_begin_to_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit)
 {
     bool any = false;
-    if (!limit->retries && !any_new(b)) return;
+    if (b->soft.rate) measure_rates(b, p, limit->dt);
+    if (!limit->retries && !b->soft.rate && !any_new(b)) return;
 #pragma omp parallel
     {
 #pragma omp for schedule(dynamic, 64)

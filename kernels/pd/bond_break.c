@@ -35,10 +35,9 @@ static real half_energy(const struct bonds *b, int64_t row, int64_t q, real stre
            fabs(b->inverse_length[q]);
 }
 
-/* Marks bond q of a row, from particle i to j, as broken: sets its weight to 0, and updates the counts of broken bonds,
- * the damage of particle i, and its flags. The caller adds the energy of the bond to the fracture energy before. */
-static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j)
+void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
 {
+    const int32_t i = b->particle[row], j = b->nbr[q];
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
     bond_changed_update_column(b, row, q);
@@ -49,10 +48,11 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 }
 
 /* Recomputes the weighted volume of a row (all bonds of one particle) after a change of the weights of its bonds. Only
- * for state-based models that normalise by the present family, and rows that hold the complete family. */
+ * for state-based models that normalise by the present family, of brittle bonds, and rows that hold the complete
+ * family. */
 static void row_changed(struct bonds *b, int64_t row)
 {
-    if (b->state.modulus && b->state.local && b->whole[row])
+    if (b->state.modulus && b->state.local && !b->soft.whole && b->whole[row])
         b->state.weighted[row] = state_row_intact_weighted_volume(b, row);
 }
 
@@ -74,7 +74,7 @@ static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64
 {
     b->soft.most[q] = b->soft.end[q];
     b->fracture_energy[row] += bond_half_softening_energy(b, row / LANES, q);
-    bond_end(b, p, row, q, b->particle[row], b->nbr[q]);
+    bond_end(b, p, row, q);
 }
 
 int64_t bonds_end_softened(struct bonds *b, struct particles *p)
@@ -104,7 +104,7 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
         state ? state_row_energy(b, p, row, last.lag)
               : half_energy(b, row, q, bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, last.lag));
     if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_plastic_work_of(b, &bond);
-    bond_end(b, p, row, q, i, j);
+    bond_end(b, p, row, q);
     row_changed(b, row);
     if (state) b->fracture_energy[row] -= state_row_energy(b, p, row, last.lag);
 }
@@ -123,7 +123,7 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     if (w > 0)
         b->w[q] = w;
     else if (b->inverse_length[q] > 0)
-        bond_end(b, p, row, q, i, j);
+        bond_end(b, p, row, q);
     else
         b->w[q] = 0;
     bond_changed_update_column(b, row, q);
@@ -150,13 +150,6 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     row_changed(b, row);
 }
 
-/* Marks row block g as due: one of its bonds may begin to soften before the next sweep (bond_begin.c). */
-static void mark_due(struct bonds *b, int64_t g)
-{
-    if (b->soft.due[g] == DUE_NOT) b->soft.due[g] = DUE_NEW;
-    __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
-}
-
 /* Returns true if bond q of a row, from particle i to j, is stretched beyond its limit, at which it breaks. Marks the
  * row block as due if the bond is beyond the onset of softening and has not begun to soften. */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
@@ -166,7 +159,7 @@ static bool is_past(struct bonds *b, const struct particles *p, const struct bon
     if (!b->soft.curve) return stretch > bond_breaking_stretch(p, limit, i, j);
     if (bond_is_softening(b, row / LANES, q)) return stretch > b->soft.end[q];
     const struct softening_range range = bond_softening_range(p, limit, i, j);
-    if (stretch > range.onset && range.onset < range.end) mark_due(b, row / LANES);
+    if (stretch > range.onset && range.onset < range.end) row_block_mark_due(b, row / LANES);
     return stretch > range.end;
 }
 
@@ -256,7 +249,8 @@ static lanes_mask rows_due(const struct bonds *b, const struct particles *p, con
 
 int64_t bond_break_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block)
 {
-    if (limit->softening && !b->soft.begun[row_block]) mark_due(b, row_block);
+    if (limit->softening && !b->soft.begun[row_block]) row_block_mark_due(b, row_block);
+    if (b->soft.whole) return 0; /* bonds of state-based models end where they soften (state_soften.c) */
     const lanes_mask past = rows_due(b, p, limit, row_block);
     int64_t broken = 0;
     for (int l = 0; l < LANES && row_block * LANES + l < b->rows && lanes_mask_any(past); l++)

@@ -132,12 +132,13 @@ int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, 
                     struct pd_motion *motion)
 {
     struct clamped *c = &b->clamped;
-    if (b->soft.any_due && limit->softening) bonds_begin_to_soften(b, p, limit);
+    if ((b->soft.any_due || b->soft.rates_kept) && limit->softening) bonds_begin_to_soften(b, p, limit);
     if (c->n == 0) return sweep(b, p, limit, motion);
     INVARIANT(p->dim > 1 && (!motion || motion->loaded));
     if (c->stale) weights_follow(b);
     c->stale = false;
     const int64_t broken = sweep(b, p, limit, motion); /* sets c->stale if one of these bonds changes */
+    if (c->stale && b->soft.whole) weights_follow(b), c->stale = false; /* of bonds that soften or have ended so */
     TEAM_LOOP(c->n > MANY, for (int64_t k = 0; k < c->n; k += LANES) if (p->dim == 2) clamp_force_reactions(b, p, k, 2);
               else clamp_force_reactions(b, p, k, 3););
     if (c->stale) reactions_last(b, p, limit);

@@ -220,7 +220,7 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     b->state.past[g] = lanes_mask_any(sum.stretch > lanes_load(b->trigger + g * LANES));
     b->state.pressed[g] = lanes_mask_any(sum.press < CORE_FROM - 1);
     precompute_by_family(b, p, g, &sum, dim, model);
-    if (b->state.past[g]) state_blend_breaking_rows(b, p, limit, g);
+    if (b->state.past[g] && !limit->softening) state_blend_breaking_rows(b, p, limit, g);
 }
 
 /* Sets the states of the families of mirror images to those of their sources, with rotations reflected at planes of
@@ -322,21 +322,35 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
 }
 
 #define INSTANCE(D, M)                                                                                                 \
-    static void families_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit)              \
+    static void states_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit, bool softened) \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < b->active.active; k++)                    \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < b->active.active;                         \
+                                                          k++) if (!softened || b->soft.begun[b->active.list[k]])      \
             precompute_row_block(b, p, limit, b->active.list[k], D, PD_##M);                                           \
         state_of_images(b, p, D, state_model_has_rotations(PD_##M));                                                   \
+    }                                                                                                                  \
+    static int64_t families_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit)           \
+    {                                                                                                                  \
+        bool changed = false;                                                                                          \
+        states_##D##d_##M(b, p, limit, false);                                                                         \
+        const int64_t ended = limit->softening ? state_soften(b, p, limit, &changed) : 0;                              \
+        if (changed) states_##D##d_##M(b, p, limit, true);                                                             \
+        return ended;                                                                                                  \
     }                                                                                                                  \
     static void state_precompute_##D##d_##M(struct bonds *b, struct particles *p)                                      \
     {                                                                                                                  \
         families_##D##d_##M(b, p, &bond_limit_never);                                                                  \
     }                                                                                                                  \
+    static int64_t state_sweep_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,        \
+                                          struct pd_motion *m)                                                         \
+    {                                                                                                                  \
+        SWEEP(b, p, m, D, force_and_break(b, p, limit, row_block, D, PD_##M));                                         \
+    }                                                                                                                  \
     static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,        \
                                           struct pd_motion *m)                                                         \
     {                                                                                                                  \
-        families_##D##d_##M(b, p, limit);                                                                              \
-        SWEEP(b, p, m, D, force_and_break(b, p, limit, row_block, D, PD_##M));                                         \
+        const int64_t ended = families_##D##d_##M(b, p, limit);                                                        \
+        return ended + state_sweep_##D##d_##M(b, p, limit, m);                                                         \
     }
 STATE_VARIANTS(INSTANCE)
 

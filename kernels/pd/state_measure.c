@@ -196,7 +196,7 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
         const real e = sqrt(y2) - r;
         Q += w * r * r, S += w * r * e, e2 += w * e * e;
     }
-    if (!b->state.local || !b->whole[row]) Q = b->state.weighted[row];
+    if (!b->state.local || !b->whole[row] || b->soft.whole) Q = b->state.weighted[row];
     if (!(Q > 0)) return 0;
     if (b->state.rotation[0]) e2 = row_effective(b, p, row, lag);
     const real mean = S / Q + (p->kind[i] == KIND_PD ? 0 : p->end_strain[i]);

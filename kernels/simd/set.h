@@ -12,6 +12,7 @@
     X(bond_force_table) X(bond_energy_table) X(bond_stress_table) X(state_force_table) X(state_energy_table)           \
     X(state_stress_table) X(state_precompute_table) X(bond_forces) X(bond_break_row_block) X(bond_fade)                \
     X(bonds_begin_to_soften) X(bonds_update_softening) X(bonds_open_beyond_onset) X(bonds_end_softened)                \
+    X(state_soften) X(bond_end)                                                                                        \
     X(bond_restore_entry) X(bond_break_entry) X(bond_row_block_stretch) X(state_row_energy)                            \
     X(bond_plastic_work) X(pd_move_table) X(kernels_choose) X(particles_diverged)                                      \
     X(p2g_table) X(remap_table) X(turn_gather_table) X(turn_scatter_table) X(g2p_table) X(spread_table)                \

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "check_parts.h"
-#include "data/softening.h"
+#include "scene/scene_softening.h"
 
 #define FREE_OF_TRAPPING 2 /* kappa from which on the lattice hardly holds cracks back; measured */
 
@@ -20,7 +20,8 @@ static const struct {
 static real horizon_of_ratio(const struct scene *s, const struct material *m, real kappa)
 {
     const struct softening_curve curve = softening_curve_of(m->softening);
-    const real phi = kappa > 1 ? softening_curve_strength(&curve, s->space, kappa).tension : 1;
+    const struct softening_model model = scene_softening_model(s, m);
+    const real phi = kappa > 1 ? softening_model_strength(&curve, s->space, kappa, &model).tension : 1;
     const real onset = m->tensile_strength / (material_uniaxial_tension_modulus(m, s->space) * phi);
     return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
 }
@@ -88,6 +89,17 @@ static void print_surface(const struct scene *s, const struct material *m)
     printf("\n");
 }
 
+/* Prints the tensile strength of material m at the ends of its table of strain rates, if it has one. */
+static void print_rate(const struct material *m)
+{
+    const struct strength_rate *rate = &m->rate;
+    const int last = rate->points - 1;
+    if (last < 0) return;
+    printf("               %.4g Pa at strain rates up to %.4g 1/s, %.4g Pa from %.4g 1/s on, at the same G_c\n",
+           m->tensile_strength * rate->factor[0], rate->rate[0], m->tensile_strength * rate->factor[last],
+           rate->rate[last]);
+}
+
 void print_softening(const struct scene *s, const struct material *m)
 {
     static const char *const law[] = {[SOFTENING_LINEAR] = "linearly",
@@ -98,7 +110,8 @@ void print_softening(const struct scene *s, const struct material *m)
     const struct softening_curve curve = softening_curve_of(m->softening);
     const real kappa = square(m->critical_stretch / m->onset_stretch);
     const real unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
-    const struct softening_strength strength = softening_curve_strength(&curve, s->space, kappa);
+    const struct softening_model model = scene_softening_model(s, m);
+    const struct softening_strength strength = softening_model_strength(&curve, s->space, kappa, &model);
     printf("strength       %s: %.4g Pa in tension", m->name, unit * strength.tension);
     if (s->dim > 1) printf(", %.4g Pa in equal biaxial tension", unit * strength.biaxial);
     if (s->dim == 2) printf(", %.4g Pa in shear", unit * strength.shear);
@@ -106,6 +119,7 @@ void print_softening(const struct scene *s, const struct material *m)
            m->onset_stretch, softening_end_stretch(&curve, m->onset_stretch, m->critical_stretch), kappa,
            strength.tension);
     say_horizons(s, m, kappa);
+    print_rate(m);
 }
 
 void print_brittle_strength(const struct scene *s, const struct material *m)

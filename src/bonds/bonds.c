@@ -398,9 +398,11 @@ void bonds_free(struct bonds *b)
     memory_free(b->pair);
     memory_free(b->plastic_work);
     memory_free(b->soft.most), memory_free(b->soft.onset), memory_free(b->soft.end);
+    memory_free(b->soft.whole);
     memory_free(b->soft.begun), memory_free(b->soft.due), memory_free(b->soft.near);
     memory_free(b->soft.settled);
-    memory_free(b->soft.needed), memory_free(b->soft.dilatation);
+    memory_free(b->soft.needed), memory_free(b->soft.dilatation), memory_free(b->soft.rate),
+        memory_free(b->soft.beyond);
     bonds_state_free(b);
     clamped_bonds_free(b);
     active_set_free(&b->active);

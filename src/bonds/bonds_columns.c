@@ -93,6 +93,8 @@ static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sp
         b->soft.onset = memory_new_lazy_uninitialised("bonds.onset", b->room * LANES, sizeof(float));
         b->soft.end = memory_new_lazy_uninitialised("bonds.end", b->room * LANES, sizeof(float));
     }
+    if (s->limit.softening && s->modulus)
+        b->soft.whole = memory_new_lazy_uninitialised("bonds.whole_w", b->room * LANES, sizeof(float));
     if (!s->yield.stretch) return;
     b->yield = s->yield;
     b->plastic_stretch = NEW("bonds.plastic_stretch", b->room * LANES, real);
@@ -115,6 +117,9 @@ static void columns_extend(struct bonds *b, int64_t room)
         b->soft.onset =
             memory_resize_uninitialised("bonds.onset", b->soft.onset, had * each, room * each, sizeof(float));
         b->soft.end = memory_resize_uninitialised("bonds.end", b->soft.end, had * each, room * each, sizeof(float));
+        if (b->soft.whole)
+            b->soft.whole =
+                memory_resize_uninitialised("bonds.whole_w", b->soft.whole, had * each, room * each, sizeof(float));
         INVARIANT(!b->soft.settled); /* rows of load steps with softening are made once */
     }
     b->room = room;
@@ -143,6 +148,7 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
     b->first = old->first, b->nbr = old->nbr, b->inverse_length = old->inverse_length, b->w = old->w,
     b->common = old->common;
     b->soft.most = old->soft.most, b->soft.onset = old->soft.onset, b->soft.end = old->soft.end;
+    b->soft.whole = old->soft.whole;
     b->holes = old->holes;
     old->holes = (struct bond_holes){0};
     holes_add(b, old, kept);
@@ -170,5 +176,5 @@ void bonds_forget_taken_columns(struct bonds *previous, const struct bonds *b)
 {
     if (!previous || previous->w != b->w) return;
     previous->first = previous->nbr = NULL, previous->inverse_length = previous->w = NULL, previous->common = NULL;
-    previous->soft.most = previous->soft.onset = previous->soft.end = NULL;
+    previous->soft.most = previous->soft.onset = previous->soft.end = previous->soft.whole = NULL;
 }

@@ -37,6 +37,7 @@ static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, in
         columns_copy(b->soft.most, old->soft.most, LANES * sizeof(float), b, old, g, from);
         columns_copy(b->soft.onset, old->soft.onset, LANES * sizeof(float), b, old, g, from);
         columns_copy(b->soft.end, old->soft.end, LANES * sizeof(float), b, old, g, from);
+        if (b->soft.whole) columns_copy(b->soft.whole, old->soft.whole, LANES * sizeof(float), b, old, g, from);
     }
     if (b->plastic_stretch) {
         columns_copy(b->plastic_stretch, old->plastic_stretch, LANES * sizeof(real), b, old, g, from);

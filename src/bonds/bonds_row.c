@@ -160,10 +160,14 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
 }
 
 /* Returns the stretch above which the vector test reports bond i-j: the stretch at which the bond breaks or begins to
- * soften, reduced by TRIGGER_MARGIN. */
+ * soften, reduced by TRIGGER_MARGIN; half of it where strengths depend on the strain rate, which is measured from there
+ * on. */
 real bond_breaking_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j)
 {
-    return bond_softening_range(p, &source->limit, i, j).onset * (1 - TRIGGER_MARGIN);
+    const struct bond_limit *limit = &source->limit;
+    const real onset = bond_softening_range(p, limit, i, j).onset * (1 - TRIGGER_MARGIN);
+    const int pair = p->material[i] * limit->materials + p->material[j];
+    return limit->softening && limit->softening[pair].rate ? RATE_FROM * onset : onset;
 }
 
 /* Computes lengths and weights of the bonds of particle i, whose neighbours row_search has found. Bonds that a
@@ -207,6 +211,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
         while (m < row->n && row->nbr[m] < bond.nbr) m++;
         if (m == row->n || row->nbr[m] != bond.nbr || row->w[m] == 0) continue;
         if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, row_block, k, lane);
+        if (old->soft.whole && bond_is_softening(old, row_block, bond.entry)) row->w[m] = bond.w;
         if (bond.w != 0) continue;
         row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
         row->cut_volume += p->volume0[row->nbr[m]];

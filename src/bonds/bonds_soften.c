@@ -25,6 +25,23 @@ static void rows_watch(struct bonds *b, const struct bonds *previous, const stru
     }
 }
 
+/* Allocates b->soft.rate if the strength of a material depends on the strain rate. Rows that are rebuilt keep their
+ * rate. */
+static void rates_make(struct bonds *b, const struct bonds *previous, const struct bond_limit *limit)
+{
+    bool any = false;
+    for (int k = 0; k < square(limit->materials); k++) any |= limit->softening[k].rate != NULL;
+    if (!any) return;
+    b->soft.rate = NEW("bonds.rate", b->row_blocks * LANES, real);
+    b->soft.beyond = NEW("bonds.beyond", b->row_blocks * LANES, real);
+    for (int64_t row = 0; row < b->rows && previous; row++) {
+        const int32_t before = previous->row_of[b->particle[row]];
+        if (before >= 0) b->soft.rate[row] = previous->soft.rate[before];
+        if (before >= 0) b->soft.beyond[row] = previous->soft.beyond[before];
+    }
+    b->soft.rates_kept = previous && previous->soft.rates_kept;
+}
+
 void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                               const struct particles *p)
 {
@@ -42,6 +59,7 @@ void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, con
         if (isfinite(range.onset)) b->soft.least_ratio = real_min(b->soft.least_ratio, range.end / range.onset);
     }
     rows_watch(b, previous, source, p);
+    rates_make(b, previous, &source->limit);
 }
 
 void row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
@@ -77,13 +95,16 @@ void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i
 }
 
 /* Copies the softening of the bond at entry q of the rows `old` to the bond of row `row` in b whose neighbour is nbr,
- * if it exists. */
+ * if it exists; in state-based models its weight, too. */
 static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struct bonds *old, int64_t q)
 {
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
         bond_softness_store(&b->soft, bond.entry, bond_softness_load(&old->soft, q));
+        if (!b->soft.whole || !(b->soft.whole[bond.entry] > 0) || old->w[q] == 0) continue;
+        b->w[bond.entry] = old->w[q];
+        bond_changed_update_column(b, row, bond.entry);
     }
 }
 
@@ -119,6 +140,12 @@ status softening_save_or_load(struct bonds *b, struct archive *a)
     TRY(a->exchange(a, "bonds/softening_any_due", &b->soft.any_due, sizeof b->soft.any_due));
     if (b->soft.near)
         TRY(a->exchange(a, "bonds/softening_near", b->soft.near, (size_t)b->row_blocks * sizeof *b->soft.near));
+    if (b->soft.rate) {
+        const size_t rows = (size_t)(b->row_blocks * LANES) * sizeof *b->soft.rate;
+        TRY(a->exchange(a, "bonds/strain_rate", b->soft.rate, rows));
+        TRY(a->exchange(a, "bonds/strain_beyond", b->soft.beyond, rows));
+        TRY(a->exchange(a, "bonds/strain_rates_kept", &b->soft.rates_kept, sizeof b->soft.rates_kept));
+    }
     for (int64_t g = 0; g < b->row_blocks; g++) columns += b->soft.begun[g] ? b->column_count[g] : 0;
     if (columns == 0) return OK;
     struct bond_softness *packed = NEW("bonds.softness", columns * LANES, struct bond_softness);

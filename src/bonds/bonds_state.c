@@ -14,8 +14,8 @@ real state_row_intact_weighted_volume(const struct bonds *b, int64_t row)
 
 /* Computes the weighted volume Q = sum w r^2 of each row (the bonds of a particle) of row block g [m^2]. With
  * b->state.local, and if all lattice sites within the horizon of the particle are occupied, the sum is over the present
- * bonds. Otherwise it is that of the undamaged family: of a full one on the lattice or, near faces, of the particle's
- * surface class (surface.h). */
+ * bonds, and those that have softened or ended so, with their weights before. Otherwise it is that of the undamaged
+ * family: of a full one on the lattice or, near faces, of the particle's surface class (surface.h). */
 static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)
 {
     const struct family *f = &s->family;
@@ -24,8 +24,10 @@ static void row_block_weigh(struct bonds *b, const struct particles *p, const st
     for (int l = 0; l < LANES; l++) Q[l] = 0;
     for (int64_t k = 0; b->state.local && k < b->column_count[g]; k++) {
         bond_column_read(&column, b, g, k);
-        for (int l = 0; l < LANES; l++)
-            if (column.w[l] != 0) Q[l] += column.w[l] / square(column.inverse_length[l]);
+        for (int l = 0; l < LANES; l++) {
+            const real w = bond_whole_weight(b, g, (b->column[g] + k) * LANES + l, column.w[l]);
+            if (w != 0) Q[l] += w / square(column.inverse_length[l]);
+        }
     }
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
         if (!b->state.local || !b->whole[g * LANES + l])

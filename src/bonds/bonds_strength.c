@@ -379,7 +379,7 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
     const real onset = real_max(sqrt(length2) * bond->inverse_length - 1, real_min(least, closed));
     const bool sudden = !(onset < critical * (1 - SUDDEN));
     const real end = sudden ? onset * (1 + SUDDEN) : softening_end_stretch(limit->curve, onset, critical);
-    return (struct bond_softness){(float)onset, (float)onset, (float)end};
+    return (struct bond_softness){(float)onset, (float)onset, (float)end, 0};
 }
 
 /* Starts the bonds of row block g that have not begun to soften and lead from or to a particle on its surface. */

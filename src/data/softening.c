@@ -1,5 +1,5 @@
 /* Curves by which bonds soften, their energy, and the strength that uniformly strained bonds have with them. */
-#include "data/softening.h"
+#include "data/softening_states.h"
 
 #define DECAY 5.0 /* exponent of exponential softening at its end */
 
@@ -81,6 +81,7 @@ struct directions {
     const struct softening_curve *curve;
     enum space space;
     real reach;
+    const struct softening_model *model;
 };
 
 /* Returns the force of a bond over stiffness, weight and onset stretch s_0 [1]. s: stretch of the bond over s_0 [1].
@@ -91,6 +92,37 @@ static real bond_tension(const struct directions *a, real s)
     return a->reach > 0 ? softening_curve_value(a->curve, (s - 1) / a->reach) : 0;
 }
 
+/* Returns the share of its stiffness that a bond has at the stretch s over s_0 [1]. */
+static real bond_share(const struct directions *a, real s) { return s <= 1 ? 1 : bond_tension(a, s) / s; }
+
+/* Returns the square of the cosine of the angle between the axis and the k-th direction [1]. */
+static real direction_along(const struct directions *a, int k)
+{
+    const real at = (k + 0.5) / DIRECTIONS;
+    return a->space == SPACE_SOLID ? square(at) : square(cos(0.5 * M_PI * at));
+}
+
+/* Does what family_stress does, for state-based bonds: the derivatives by the strain of
+ * W = [A <q s>^2 + B <q |e|^2>]/2, where < > is the mean over directions n, q the share of its stiffness that a bond
+ * keeps, and e the extension s, or the whole displacement eps . n in models with rotations. */
+static struct stress_pair state_family_stress(const struct directions *a, real axial, real lateral)
+{
+    const struct softening_model *m = a->model;
+    const real across_axes = space_dim(a->space) - 1;
+    struct stress_pair pull = {0, 0}, sum = {0, 0};
+    real mean = 0;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        const real along = direction_along(a, k), across = (1 - along) / across_axes;
+        const real s = axial * along + lateral * (1 - along), share = bond_share(a, s) / DIRECTIONS;
+        mean += share * s;
+        pull.axial += share * along, pull.lateral += share * across;
+        sum.axial += share * along * (m->rotates ? axial : s),
+            sum.lateral += share * across * (m->rotates ? lateral : s);
+    }
+    return (struct stress_pair){m->A * mean * pull.axial + m->B * sum.axial,
+                                m->A * mean * pull.lateral + m->B * sum.lateral};
+}
+
 /* Returns axial and lateral stress over E' s_0 [1] of a family of bonds in all directions, strained by `axial` along
  * one axis and by `lateral` in all directions normal to it, both over s_0 [1]. Bonds have nu = 1/3 in the plane (plane
  * strain: with E' and nu/(1 - nu)) and 1/4 in a solid. */
@@ -98,9 +130,9 @@ static struct stress_pair family_stress(const struct directions *a, real axial, 
 {
     struct stress_pair sum = {0, 0};
     if (a->space == SPACE_LINE) return (struct stress_pair){bond_tension(a, axial), 0};
+    if (a->model->B > 0) return state_family_stress(a, axial, lateral);
     for (int k = 0; k < DIRECTIONS; k++) {
-        const real at = (k + 0.5) / DIRECTIONS;
-        const real along = a->space == SPACE_SOLID ? square(at) : square(cos(0.5 * M_PI * at)), across = 1 - along;
+        const real along = direction_along(a, k), across = 1 - along;
         const real force = bond_tension(a, axial * along + lateral * across);
         sum.axial += force * along, sum.lateral += force * across;
     }
@@ -177,14 +209,22 @@ static real peak(const struct directions *a, real (*stress)(const struct directi
     return most;
 }
 
-struct softening_strength softening_curve_strength(const struct softening_curve *c, enum space space,
-                                                   real squared_ratio)
+static const struct softening_model bond_based = {0, 0, false};
+
+struct softening_strength softening_model_strength(const struct softening_curve *c, enum space space,
+                                                   real squared_ratio, const struct softening_model *model)
 {
-    const struct directions a = {c, space, (squared_ratio - 1) / (2 * c->area)};
+    const struct directions a = {c, space, (squared_ratio - 1) / (2 * c->area), model};
     return (struct softening_strength){peak(&a, tension_at), peak(&a, biaxial_at), peak(&a, shear_at)};
 }
 
-real softening_onset_from_strength(const struct material *m, enum space space)
+struct softening_strength softening_curve_strength(const struct softening_curve *c, enum space space,
+                                                   real squared_ratio)
+{
+    return softening_model_strength(c, space, squared_ratio, &bond_based);
+}
+
+real softening_model_onset(const struct material *m, enum space space, const struct softening_model *model)
 {
     const struct softening_curve c = softening_curve_of(m->softening);
     const real strain = m->tensile_strength / material_uniaxial_tension_modulus(m, space);
@@ -192,10 +232,39 @@ real softening_onset_from_strength(const struct material *m, enum space space)
     for (int k = 0; k < 20; k++) {
         const real kappa = square(m->critical_stretch / onset);
         if (!(kappa > 1)) break;
-        const struct directions a = {&c, space, (kappa - 1) / (2 * c.area)};
+        const struct directions a = {&c, space, (kappa - 1) / (2 * c.area), model};
         const real next = strain / peak(&a, tension_at);
         if (fabs(next - onset) < 1e-9 * onset) break;
         onset = next;
     }
     return onset;
+}
+
+real softening_onset_from_strength(const struct material *m, enum space space)
+{
+    return softening_model_onset(m, space, &bond_based);
+}
+
+/* ---- rates ------------------------------------------------------------------------------------------------------- */
+
+real strength_rate_interpolate(const struct strength_rate *r, const real *value, real rate)
+{
+    int k = 0;
+    while (k < r->points && r->rate[k] < rate) k++;
+    if (k == 0 || k == r->points) return value[k == 0 ? 0 : k - 1];
+    const real part = log(rate / r->rate[k - 1]) / log(r->rate[k] / r->rate[k - 1]);
+    return value[k - 1] + part * (value[k] - value[k - 1]);
+}
+
+real strength_rate_compute_onsets(struct material *m, enum space space, const struct softening_model *model)
+{
+    real least = INFINITY;
+    for (int k = 0; k < m->rate.points; k++) {
+        struct material stronger = *m;
+        stronger.tensile_strength *= m->rate.factor[k];
+        const real onset = softening_model_onset(&stronger, space, model);
+        m->rate.onset[k] = onset / m->onset_stretch;
+        least = real_min(least, square(m->critical_stretch / onset));
+    }
+    return least;
 }

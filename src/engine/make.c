@@ -61,7 +61,7 @@ static void make_softening(const struct scene *s, struct material_tables *tables
             const struct material *first = m->onset_stretch <= n->onset_stretch ? m : n;
             tables->pair_softening[a * s->materials + b] = (struct softening_pair){
                 first->onset_stretch, first->scatter.given && first->scatter.of == SCATTER_STRENGTH,
-                material_has_surface(first)};
+                material_has_surface(first), first->rate.points > 0 ? &first->rate : NULL};
         }
     }
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;

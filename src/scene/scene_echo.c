@@ -250,15 +250,15 @@ void write_mapping(struct writer *w, const char *key, const char *group, const v
     w->indent -= 2;
 }
 
-/* Writes the points of a hardening curve as the key `table`: a list of pairs of plastic strain [1] and stress [Pa]. */
-static void write_curve(struct writer *w, const struct flow_curve *c)
+/* Writes the key `table` with `points` pairs of x[k] and y[k]. units: of both, as a comment. */
+static void write_pairs(struct writer *w, const real *x, const real *y, int points, const char *units)
 {
-    writer_begin_key(w, flow_properties[FLOW_TABLE].word);
-    for (int k = 0; k < c->points; k++) {
+    writer_begin_key(w, "table");
+    for (int k = 0; k < points; k++) {
         fputs(k ? ", " : " [", w->out);
-        write_list(w, (const real[]){c->strain[k], c->stress[k]}, 2);
+        write_list(w, (const real[]){x[k], y[k]}, 2);
     }
-    fputs("]  # 1, Pa\n", w->out);
+    fprintf(w->out, "]  # %s\n", units);
 }
 
 /* Writes the flow law and the kinematic hardening of a material that yields. Writes no flow law if it is linear
@@ -277,12 +277,23 @@ static void write_material_law(struct writer *w, const struct material *m)
         fputc('\n', w->out);
         w->indent += 2;
         if (law->flow == FLOW_TABLE)
-            write_curve(w, &law->table);
+            write_pairs(w, law->table.strain, law->table.stress, law->table.points, "1, Pa");
         else
             write_mapping(w, word, group, law);
         w->indent -= 2;
     }
     if (law->kinematic.modulus > 0) write_mapping(w, "kinematic", "material.kinematic", law);
+}
+
+/* Writes how the tensile strength of a material grows with the strain rate, if it does. */
+static void write_rate(struct writer *w, const struct strength_rate *rate)
+{
+    if (rate->points == 0) return;
+    writer_begin_key(w, "rate");
+    fputc('\n', w->out);
+    w->indent += 2;
+    write_pairs(w, rate->rate, rate->factor, rate->points, "1/s, 1");
+    w->indent -= 2;
 }
 
 /* Writes `material` for a single material, else the list `materials`. */
@@ -298,6 +309,7 @@ static void write_materials(struct writer *w)
         if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
         write_material_law(w, &m);
+        write_rate(w, &m.rate);
         if (material_has_viscosity(&m)) write_mapping(w, "viscosity", "material.viscosity", &m);
         if (m.scatter.given) write_mapping(w, "scatter", "material.scatter", &m.scatter);
     }

@@ -24,6 +24,13 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         "with tensile_strength: how the force of a bond falls from its peak to 0; bilinear: concrete, its kink at a "
         "third of the strength",
         .words = "linear|bilinear|exponential", .has = FLAG(material, softening_given)),
+    KEY("material.rate", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
+        "with tensile_strength: how it grows with the strain rate; explicit steps, without a strength surface"),
+    KEY("material.rate.table", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(1, 16), REQUIRED,
+        "rates that ascend, factors on tensile_strength from 1 on that do not fall; linear in the logarithm of the "
+        "rate "
+        "between points, constant beyond; a bond keeps the strength at which it begins to soften, and spends G_c",
+        .words = "list of pairs [strain rate, factor]"),
     KEY("material.compressive_strength", KEY_REAL, UNIT_PRESSURE, AT(material, compressive_strength), ABOVE(0), NONE,
         "with tensile_strength: a strength surface (Drucker and Prager) starts the softening of bonds; at most one of "
         "these three gives its second point; explicit steps, model bond, not in a line"),

@@ -25,7 +25,7 @@ static const struct {
 } combination[] = {
     {METHOD_PD, MODEL_BOND, HAS_RIGID | HAS_YIELD | HAS_SOFTENING | HAS_VISCOSITY | HAS_INTERFACES},
     {METHOD_ADAPTIVE, MODEL_BOND, HAS_RIGID | HAS_YIELD | HAS_SOFTENING | HAS_VISCOSITY},
-    {METHOD_PD, MODEL_OSPD, HAS_RIGID | HAS_RATIO | HAS_INTERFACES},
+    {METHOD_PD, MODEL_OSPD, HAS_RIGID | HAS_RATIO | HAS_SOFTENING | HAS_INTERFACES},
     {METHOD_ADAPTIVE, MODEL_OSPD, HAS_RIGID | HAS_RATIO},
     {METHOD_MPM, MODEL_BOND, HAS_RATIO | HAS_YIELD | HAS_FLOW | HAS_VISCOSITY | HAS_INTERFACES},
 };
@@ -187,10 +187,12 @@ status refuse_softening(struct reader *r, const struct yaml_node *n)
 {
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
-    if (change) return fault(r, n, "is of bonds of model bond, which soften; %s is expected", change);
-    return fault(r, n,
-                 "is of bonds of model bond, which soften and do not have %s; without this key, and softening, bonds "
-                 "are brittle",
+    if (r->scene->method == METHOD_PD)
+        return fault(r, n,
+                     "is of bonds that soften: those of ospd and mospd do in explicit steps alone; `solver: explicit` "
+                     "is expected; without this key, and softening, bonds are brittle");
+    if (change) return fault(r, n, "is of bonds that soften; %s is expected", change);
+    return fault(r, n, "is of bonds that soften and do not have %s; without this key, and softening, bonds are brittle",
                  names_of(r, has & ~(unsigned)HAS_SOFTENING));
 }
 

@@ -1,9 +1,42 @@
 /* Reads the tensile strength of a material: its bonds soften. */
 #include <math.h>
 
-#include "data/softening.h"
+#include "bonds/softening_work.h"
+#include "scene/scene_softening.h"
 #include "scene_internal.h"
 #include "scene_remedies.h"
+
+enum { ITERATIONS = 30 }; /* of stretches; each leaves about a tenth of the error */
+
+struct softening_model scene_softening_model(const struct scene *s, const struct material *m)
+{
+    const bool rotates = s->model == MODEL_MOSPD;
+    const real unit = material_uniaxial_tension_modulus(m, s->space);
+    if (s->model == MODEL_BOND) return (struct softening_model){0, 0, false};
+    const struct state_modulus modulus = state_modulus_of_material(m, s->space, rotates);
+    return (struct softening_model){modulus.A / unit, modulus.B / unit, rotates};
+}
+
+/* Sets the onset at which bonds of material m have its tensile strength, and, in state-based models, whose bonds spend
+ * energy together, the critical stretch with which a lattice that is separated spends G_c: both by fixed-point
+ * iteration. */
+static void set_stretches(const struct scene *s, struct material *m)
+{
+    const struct softening_model model = scene_softening_model(s, m);
+    m->onset_stretch = softening_model_onset(m, s->space, &model);
+    if (s->model == MODEL_BOND || isnan(m->energy_release_rate)) return;
+    struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
+    const struct state_modulus modulus = state_modulus_of_material(m, s->space, model.rotates);
+    const struct softening_curve curve = softening_curve_of(m->softening);
+    family_make(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    for (int k = 0; k < ITERATIONS && m->onset_stretch < m->critical_stretch; k++) {
+        const struct softening_range range = softening_range_of(&curve, m->onset_stretch, m->critical_stretch);
+        const real work = family_softening_work_per_area(&f, &modulus, model.rotates, &curve, range);
+        m->critical_stretch *= sqrt(m->energy_release_rate / work);
+        m->onset_stretch = softening_model_onset(m, s->space, &model);
+        if (fabs(work / m->energy_release_rate - 1) < 1e-7) break;
+    }
+}
 
 /* Returns REFUSED if bonds of material m would break before its tensile strength is reached, or if the strength is
  * above a tenth of Young's modulus. m->onset_stretch must be set. n: node of the tensile strength. */
@@ -25,11 +58,66 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
                  most / s->horizon, strength_unit_hint(s, most));
 }
 
-/* Returns REFUSED for a key of a strength surface in a material without tensile strength. */
+/* Reads the list n of pairs of strain rate and factor into m->rate. Returns REFUSED for points out of order. */
+static status read_rate_table(struct reader *r, const struct yaml_node *n, struct strength_rate *rate)
+{
+    const struct key rates = {
+        .path = "material.rate.table", .type = KEY_REAL, .unit = UNIT_RATE, .range = {0, INFINITY, true, true}};
+    const struct key factors = {
+        .path = "material.rate.table", .type = KEY_REAL, .unit = UNIT_NONE, .range = {1, 100, false, true}};
+    TRY(expect_node_kind(r, n, NODE_LIST, "a list of points [strain rate, factor]"));
+    if (n->n < 1 || n->n > RATE_POINTS) return fault(r, n, "has %d points; 1 to %d are expected", n->n, RATE_POINTS);
+    for (const struct yaml_node *point = n->first; point; point = point->next) {
+        const int k = rate->points++;
+        if (point->kind != NODE_LIST || point->n != 2)
+            return fault(r, point, "%s is no point; [strain rate, factor] is expected", node_text(r, point));
+        TRY(read_number(r, &rates, point->first, &rate->rate[k]));
+        TRY(read_number(r, &factors, point->first->next, &rate->factor[k]));
+        if (k > 0 && !(rate->rate[k] > rate->rate[k - 1]))
+            return fault(r, point,
+                         "the rate %g 1/s is not above the previous one, %g 1/s; ascending rates are expected",
+                         rate->rate[k], rate->rate[k - 1]);
+        if (k > 0 && rate->factor[k] < rate->factor[k - 1])
+            return fault(r, point, "the factor falls from %g to %g; a strength that does not fall is expected",
+                         rate->factor[k - 1], rate->factor[k]);
+    }
+    return OK;
+}
+
+/* Reads how the tensile strength of material m grows with the strain rate, after m->onset_stretch is set. n: the
+ * material. Returns REFUSED where rates have no meaning, and for a strength that bonds of this horizon do not reach. */
+static status read_rate(struct reader *r, const struct yaml_node *n, struct material *m)
+{
+    const struct scene *s = r->scene;
+    const struct yaml_node *rate = yaml_node_find(n, "rate"), *table = rate ? yaml_node_find(rate, "table") : NULL;
+    if (!rate) return OK;
+    TRY(read_group(r, rate, rate, "material.rate", m));
+    if (!table) return fault_missing_key(r, rate, key_find("material.rate", "table"));
+    if (s->solver != SOLVER_EXPLICIT)
+        return fault(r, rate,
+                     "load steps have no strain rate; tensile_strength alone, or solver: explicit, is expected");
+    if (material_has_surface(m))
+        return fault(r, rate, "a strength surface does not depend on the rate; one of both is expected");
+    TRY(read_rate_table(r, table, &m->rate));
+    const real strongest = m->tensile_strength * m->rate.factor[m->rate.points - 1];
+    TRY(check_strength_size(r, table, m, strongest));
+    const struct softening_model model = scene_softening_model(s, m);
+    const real least = strength_rate_compute_onsets(m, s->space, &model);
+    if (least >= RATE_LEAST_RATIO) return OK;
+    const real most = s->horizon * s->spacing * least / RATE_LEAST_RATIO;
+    return fault(r, table,
+                 "bonds of this horizon, %.4g m, break by the energy release rate before %.4g Pa, the strength at the "
+                 "last rate; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
+                 s->horizon * s->spacing, strongest, most, most / s->horizon);
+}
+
+/* Returns REFUSED for a key of a strength surface, or of a rate, in a material without tensile strength. */
 static status check_no_surface(struct reader *r, const struct yaml_node *n)
 {
     static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength",
                                         "strength_radius"};
+    const struct yaml_node *rate = yaml_node_find(n, "rate");
+    if (rate) return fault(r, rate, "is how tensile_strength grows with the strain rate; that key is expected with it");
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         const struct yaml_node *key = yaml_node_find(n, names[k]);
         if (key) return fault(r, key, "is of a strength surface; tensile_strength is expected with it");
@@ -53,8 +141,8 @@ status read_softening(struct reader *r, const struct yaml_node *n, struct materi
     m->onset_stretch = m->critical_stretch;
     if (law && !strength) return fault(r, law, "says how bonds lose their tensile_strength, which is expected with it");
     if (!strength) return check_no_surface(r, n);
-    if (!material_yields(m) && (s->method == METHOD_MPM || s->model != MODEL_BOND))
-        return refuse_softening(r, strength);
+    const bool states = s->model != MODEL_BOND && (s->method != METHOD_PD || s->solver != SOLVER_EXPLICIT);
+    if (!material_yields(m) && (s->method == METHOD_MPM || states)) return refuse_softening(r, strength);
     const char *why = material_yields(m) ? "is of bonds that do not yield; one of yield_stress and tensile_strength is "
                                            "expected"
                       : scene_is_single_equilibrium(s)
@@ -72,9 +160,10 @@ status read_softening(struct reader *r, const struct yaml_node *n, struct materi
         return fault(r, yaml_node_find(scatter, "of"),
                      "with tensile_strength, `of: strength` (at one energy) or critical_stretch (with it) is expected");
     TRY(check_strength_size(r, strength, m, m->tensile_strength));
-    m->onset_stretch = softening_onset_from_strength(m, s->space);
+    set_stretches(s, m);
     TRY(read_surface(r, n, m));
-    return material_has_surface(m) ? OK : check_reachable(r, strength, m);
+    if (!material_has_surface(m)) TRY(check_reachable(r, strength, m));
+    return read_rate(r, n, m);
 }
 
 status check_one_softening(struct reader *r, const struct yaml_node *n, int k)

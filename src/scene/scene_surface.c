@@ -97,6 +97,8 @@ status read_surface(struct reader *r, const struct yaml_node *n, struct material
                      "is of a strength surface; compressive_strength, hydrostatic_strength or biaxial_strength is "
                      "expected with it");
     if (!given) return OK;
+    if (s->model != MODEL_BOND)
+        return fault(r, given, "a strength surface starts bonds of model: bond, which is expected");
     if (s->space == SPACE_LINE)
         return fault(r, given,
                      "is of a strength surface, which a line does not have; tensile_strength alone is expected");

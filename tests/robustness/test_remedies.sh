@@ -117,13 +117,15 @@ remedied -s solver=explicit
 
 # ---- strength ----------------------------------------------------------------------------------------------------------
 
-refused 'which soften; `method: pd` or `method: adaptive` is expected' "$plate" $soft -s method=mpm
+refused 'is of bonds that soften; `method: pd` or `method: adaptive` is expected' "$plate" $soft -s method=mpm
 remedied -s method=pd
 remedied -s method=adaptive
-refused 'which soften; `model: bond` is expected' "$plate" $soft -s model=ospd
+refused 'is of bonds that soften; `model: bond` is expected' "$plate" $soft -s model=ospd -s method=adaptive
 remedied -s model=bond
-refused "which soften and do not have a Poisson's ratio that bonds do not have; without this key, and softening, bonds are brittle" "$plate" $soft \
-    -s model=ospd -s material.poisson=0.2
+refused 'is of bonds that soften; `method: pd` is expected' "$plate" $soft -s model=ospd -s material.poisson=0.2 -s method=adaptive
+remedied -s method=pd
+refused 'explicit steps alone; `solver: explicit` is expected' "$plate" $soft -s model=ospd $steps
+remedied -s model=ospd -s solver=explicit
 remedied -s material.tensile_strength=
 refused 'solver: explicit or static is expected' "$plate" $soft -s solver=cg
 remedied -s solver=explicit

@@ -74,7 +74,6 @@ bad "a large strength" "above a tenth of Young's modulus" -s materials.0.tensile
 bad "no energy" "energy at which bonds end" -s materials.0.energy_release_rate=
 bad "softening alone" "tensile_strength, which is expected with it" -s materials.1.softening=bilinear
 bad "two laws" "another law than material glass" -s 'materials.1.energy_release_rate=10' -s materials.1.tensile_strength=40MPa -s materials.1.softening=bilinear
-bad "ospd" "is of bonds of model bond" -s model=ospd
 bad "static" "none does in a single equilibrium" -s solver=cg
 bad "mpm" "is of bonds" -s method=mpm
 bad "yield" "do not yield" -s materials.0.yield_stress=30MPa

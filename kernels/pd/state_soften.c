@@ -1,0 +1,102 @@
+/* Bonds of state-based models that soften (data/softening.h). A bond of damage d has 1 - d of its weight in the sums of
+ * both families, in extension and pressure alike, while the weighted volumes Q stay those of the intact families:
+ *
+ *     W_i = share_i/2 [A Q S_i^2 + B sum w (1 - d) e^2],   S_i = sum w (1 - d) r e/Q,   share = V/Q
+ *
+ * with w (1 - d) stored as the weight, so that forces, energies and stresses are those of any weights (state_laws.h):
+ * the exact gradient of W. The damage d(k) follows the largest stretch k. It grows only where that sets energy free,
+ *
+ *     Y = - dW/dd = w [r e (P_i + P_j) + (g_i |e_i|^2 + g_j |e_j|^2)/2] > 0,   P = A S share,  g = B share
+ *
+ * e_i the extension, or the effective displacement Y - R_i xi: a family under pressure would give energy otherwise.
+ * What a row loses in a step, at positions half a step back, is fracture energy at once: a leap-frog step from weights
+ * w_0 at x_0 to w_1 at x_1 loses x_0 x_1 (w_0 - w_1)/2 of a spring's energy, so that the balance is of second order. */
+#include <math.h>
+
+#include "bond_last.h"
+#include "kernels/kernels.h"
+#include "state_last.h"
+
+/* Returns Y/w of a bond in the row of particle i, at the present states of both families [J]. Both rows of a bond get
+ * equal bits. */
+static real bond_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
+{
+    const struct state *t = &b->state;
+    const int32_t at[2] = {i, bond->nbr};
+    const int dim = p->dim;
+    const real r = 1 / bond->inverse_length;
+    real y[DIM_MAX], xi[DIM_MAX], y2 = 0, own[2] = {0, 0};
+    for (int d = 0; d < dim; d++) {
+        y[d] = p->x[d][at[1]] - p->x[d][i], xi[d] = p->X[d][at[1]] - p->X[d][i];
+        y2 += square(y[d]);
+    }
+    const real e = sqrt(y2) - r;
+    for (int end = 0; end < 2; end++) {
+        const real g = t->spring[at[end]];
+        if (!t->rotation[0]) own[end] = g * square(e);
+        if (!t->rotation[0] || g == 0) continue;
+        lanes turned[DIM_MAX], arm[DIM_MAX], rotation[ROTATION]; /* eight equal lanes */
+        for (int d = 0; d < dim; d++) turned[d] = lanes_broadcast(0), arm[d] = lanes_broadcast(xi[d]);
+        for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_broadcast(t->rotation[c][at[end]]);
+        if (dim == 2)
+            rotation_subtract_product(turned, rotation, arm, 2);
+        else
+            rotation_subtract_product(turned, rotation, arm, 3);
+        for (int d = 0; d < dim; d++) own[end] += square(g * (y[d] - xi[d]) + turned[d][0]) / g;
+    }
+    return r * e * (t->pressure[at[0]] + t->pressure[at[1]]) + 0.5 * (own[0] + own[1]);
+}
+
+/* Sets the damage of the bond with index q of a row, which softens, to that of its largest stretch `most` [1]. Returns
+ * 1 if the bond has ended. */
+static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, int64_t q, real most)
+{
+    const struct softened *soft = &b->soft;
+    soft->most[q] = (float)most;
+    if (soft->most[q] >= soft->end[q]) {
+        bond_end(b, p, row, q);
+        return 1;
+    }
+    b->w[q] = soft->whole[q] *
+              softening_remaining_stiffness_fraction(soft->curve, soft->onset[q], soft->end[q], soft->most[q]);
+    bond_changed_update_column(b, row, q);
+    return 0;
+}
+
+/* Lets the bonds of one row soften. Sets *changed to true if one of them has. Returns the number of bonds that have
+ * ended. */
+static int64_t row_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row,
+                          bool *changed)
+{
+    const int32_t i = b->particle[row];
+    int64_t ended = 0;
+    real before = NAN;
+    for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        if (bond.w == 0) continue;
+        const real stretch = bond_stretch_at_earlier_time(p, bond.inverse_length, i, bond.nbr, 0);
+        if (!bond_is_softening(b, row / LANES, bond.entry)) {
+            if (stretch > b->soft.end[bond.entry]) row_block_mark_due(b, row / LANES);
+            continue;
+        }
+        if (!(stretch > b->soft.most[bond.entry]) || !(bond_driving_energy(b, p, &bond, i) > 0)) continue;
+        if (isnan(before)) before = state_row_energy(b, p, row, 0.5 * limit->dt);
+        ended += bond_damage(b, p, row, bond.entry, stretch);
+    }
+    if (isnan(before)) return 0;
+    b->fracture_energy[row] += before - state_row_energy(b, p, row, 0.5 * limit->dt);
+    *changed = true;
+    return ended;
+}
+
+int64_t state_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed)
+{
+    int64_t ended = 0;
+    bool any = false;
+#pragma omp parallel for schedule(dynamic, 8) reduction(+ : ended) reduction(| : any)
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        for (int64_t row = g * LANES; b->soft.begun[g] && row < b->rows && row < (g + 1) * LANES; row++)
+            ended += row_soften(b, p, limit, row, &any);
+    *changed = any;
+    return ended;
+}
