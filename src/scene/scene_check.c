@@ -432,6 +432,25 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
+/* Returns REFUSED for what state-based models do not support where bonds soften. root: tree of the scene. */
+static status check_soft_states(struct reader *r, const struct yaml_node *root)
+{
+    const struct scene *s = r->scene;
+    const struct yaml_node *model = yaml_node_find(root, "model"), *growth = yaml_node_find(root, "growth");
+    bool softens = false;
+    for (int m = 0; m < s->materials; m++) softens |= material_softens(&s->material[m]);
+    if (!softens || s->model == MODEL_BOND) return OK;
+    if (growth)
+        return fault(r, growth, "cuts bonds that soften with model: bond, which is expected, or no tensile_strength");
+    for (int m = 0; m < s->materials; m++)
+        if (isfinite(s->material[m].critical_stretch) && !material_softens(&s->material[m]))
+            return fault(r, model,
+                         "material %s breaks without softening, which model %s does not mix; a tensile_strength of all "
+                         "materials that break, or of none, is expected",
+                         s->material[m].name, node_text(r, model));
+    return OK;
+}
+
 /* Returns REFUSED for keys that the static solvers do not support. Call it after materials and probes are read. root:
  * tree of the scene, for the location in the message. */
 status check_solver(struct reader *r, const struct yaml_node *root)
@@ -439,6 +458,7 @@ status check_solver(struct reader *r, const struct yaml_node *root)
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
     TRY(check_load_step_keys_unused(r, root));
+    TRY(check_soft_states(r, root));
     if (!solver || scene_is_dynamic(s)) return OK;
     if (scene_has_load_steps(s)) return check_load_steps(r, root);
     for (int m = 0; m < s->materials; m++)
@@ -459,25 +479,6 @@ status check_solver(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for what state-based models do not support where bonds soften. root: tree of the scene. */
-static status check_soft_states(struct reader *r, const struct yaml_node *root)
-{
-    const struct scene *s = r->scene;
-    const struct yaml_node *model = yaml_node_find(root, "model"), *growth = yaml_node_find(root, "growth");
-    bool softens = false;
-    for (int m = 0; m < s->materials; m++) softens |= material_softens(&s->material[m]);
-    if (!softens || s->model == MODEL_BOND) return OK;
-    if (growth)
-        return fault(r, growth, "cuts bonds that soften with model: bond, which is expected, or no tensile_strength");
-    for (int m = 0; m < s->materials; m++)
-        if (isfinite(s->material[m].critical_stretch) && !material_softens(&s->material[m]))
-            return fault(r, model,
-                         "material %s breaks without softening, which model %s does not mix; a tensile_strength of all "
-                         "materials that break, or of none, is expected",
-                         s->material[m].name, node_text(r, model));
-    return OK;
-}
-
 status check_scene(struct reader *r, const struct yaml_node *root)
 {
     resolve_defaults(r, root);
@@ -485,7 +486,6 @@ status check_scene(struct reader *r, const struct yaml_node *root)
     TRY(check_origin(r, root));
     TRY(check_transfer(r, root));
     TRY(check_model(r, root));
-    TRY(check_soft_states(r, root));
     TRY(check_accuracy(r, root));
     TRY(check_times(r, root));
     TRY(check_damping(r, root));

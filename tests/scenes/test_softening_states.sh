@@ -1,0 +1,85 @@
+#!/bin/sh
+# Bonds of ospd and mospd that soften, from the command line: strength of a strip, energy, equal bits on any number of threads and after a
+# checkpoint, what a crack dissipates, compression, a strip in plane strain, what check prints, refusals.
+test_name=test_softening_states
+. tests/support/summary.sh
+. tests/support/scenes.sh
+. tests/support/trust.sh
+
+# The shipped strip with the glass's own Poisson's ratio.
+sed 's/young: 70 GPa/young: 70 GPa, poisson: 0.22/; s|nu: 1/3|nu: 0.22|; s/^method: pd/&\nmodel: ospd/' inputs/strength_strip.yaml >"$work/strip.yaml"
+start ospd "$work/strip.yaml"
+start mospd "$work/strip.yaml" -s model=mospd; wait
+start half "$work/strip.yaml" -s time.safety=0.25
+start pressed "$work/strip.yaml" -s variables.start='-1*strain' -s variables.rate='-4*strain/40 us' -s duration=40us; wait
+
+# The largest mean stress across the grips is the strength, within 5 % (4.3 % low; bonds: 3.8 %).
+strength() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /reaction.force_y/) at = k } $at + 0 > most { most = $at }
+    END { print most / 5e-6 / 40e6 }' "$work/$1/history.csv"; }
+for run in ospd mospd; do between "$run: strength" "$(strength $run)" 0.95 1.04; done
+
+# Energy closes to 5e-3 at half the critical step and with the square of the step.
+error() { figure "$work/$1" energy.balance_error; }
+for run in ospd mospd; do
+    echo "# $run: $(strength $run) $(error $run)" >&2
+    between "$run: energy" "$(error $run)" -5e-3 5e-3
+done
+between "energy at half the step" "$(error half)" -1.7e-3 1.7e-3
+between "it breaks" "$(last ospd fracture)" 1e-4 1
+
+# Nothing softens under five times the strength in compression.
+is "compression: dissipated" "$(last pressed fracture)" 0
+
+# A crack that runs 9 mm through a strip between grips, which store about G_c: what it dissipates over its length, within 10 %.
+cat >"$work/drive.yaml" <<'END'
+name: drive
+space: plane stress
+thickness: 1.5 mm
+duration: 14 us
+method: pd
+model: ospd
+variables: {eps: 2.6e-4}
+materials:
+  - {name: glass, young: 70 GPa, poisson: 0.22, density: 2440 kg/m^3, energy_release_rate: 10 J/m^2, tensile_strength: 40 MPa}
+  - {name: grip, young: 70 GPa, poisson: 0.22, density: 2440 kg/m^3}
+body: {box: {from: [0, -2.4 mm], to: [12 mm, 2.4 mm]}}
+parts:
+  - {region: {box: {from: [0, 2 mm], to: [12 mm, 2.4 mm]}}, material: grip}
+  - {region: {box: {from: [0, -2.4 mm], to: [12 mm, -2 mm]}}, material: grip}
+cracks: [{from: [-1 mm, 0], to: [3.02 mm, 0]}]
+particles: {spacing: 0.1 mm}
+initial: [{displacement_gradient: [[0, 0], [0, eps]], centre: [0, 0]}]
+boundary:
+  - {name: top, velocity: [0, 0], region: {box: {from: [0, 2 mm], to: [12 mm, 2.4 mm]}}}
+  - {name: bottom, velocity: [0, 0], region: {box: {from: [0, -2.4 mm], to: [12 mm, -2 mm]}}}
+contact: {between: none}
+output: {frames: 2, samples: 70}
+END
+start drive "$work/drive.yaml"
+start drive_mospd "$work/drive.yaml" -s model=mospd -s variables.eps=2.7e-4; wait
+for run in drive drive_mospd; do
+    between "$run: it crosses the strip" "$(last $run crack_length)" 8.5e-3 9.1e-3
+    between "$run: G/G_c" "$(compute "$(last $run fracture) / (10 * 1.5e-3 * $(last $run crack_length))")" 0.97 1.12
+    echo "# $run: $(compute "$(last $run fracture) / (10 * 1.5e-3 * $(last $run crack_length))")" >&2
+done
+
+# Equal bits.
+same() { if cmp "$work/$1/history.csv" "$work/$2/history.csv"; then pass; else fail "$1 and $2 differ"; fi; }
+"$cleave" run "$work/drive.yaml" -o "$work/two" -t 2 -q 2>"$work/two.err" || fail "two: $(cat "$work/two.err")"
+same drive two
+part=$(compute "0.3 * $(figure "$work/two" wall_seconds)")
+"$cleave" run "$work/drive.yaml" -o "$work/cut" -t 2 -q -s time.wall="$part" 2>/dev/null
+is "cut" $? 130
+"$cleave" run "$work/drive.yaml" -o "$work/cut" -t 1 -q --resume 2>"$work/cut.err" || fail "cut: $(cat "$work/cut.err")"
+same drive cut
+
+"$cleave" check "$work/strip.yaml" --no-trial >"$work/said" 2>&1
+holds "check: strength" grep -q 'strength  *glass: 4e+07 Pa in tension, .*(kappa 2.15, phi 1.05)' "$work/said"
+
+bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/strip.yaml" "$@"; }
+bad "a large horizon" "particles.spacing below 0.00019" -s particles.spacing=0.2mm
+bad "adaptive" "is of explicit steps of method: pd" -s method=adaptive
+bad "load steps" "is of explicit steps of method: pd" -s solver=static
+bad "a surface" "starts bonds of model: bond" -s materials.0.compressive_strength=1GPa
+bad "brittle beside softening" "breaks without softening" -s materials.1.energy_release_rate=10
+finish
