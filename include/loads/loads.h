@@ -151,12 +151,11 @@ struct loads {
                                  [1/s^2], 0: none */
     real place_step[DIM_MAX]; /* positions across mirrors are rounded to multiples of this, 0: not rounded [m] */
     struct absorbing absorbing;
-    bool ended;         /* forces are computed that no step follows */
-    real *share;        /* working memory: driven mass of the grid's nodes [kg] */
-    real *mesh_share;   /* working memory: driven mass of the mesh's nodes [kg] */
-    uint8_t *mesh_mark; /* working memory: marks of these nodes, 0 between calls */
-    struct constrained_set
-        constrained_mesh; /* nodes of the mesh in driven regions, on mirrors, and with mostly driven points */
+    bool ended;                              /* forces are computed that no step follows */
+    real *share;                             /* working memory: driven mass of the grid's nodes [kg] */
+    real *mesh_share;                        /* working memory: driven mass of the mesh's nodes [kg] */
+    uint8_t *mesh_mark;                      /* working memory: marks of these nodes, 0 between calls */
+    struct constrained_set constrained_mesh; /* mesh nodes in driven regions, on mirrors, with mostly driven points */
 };
 
 /* Marks in loads.loaded. LOADED: forces other than those of bonds and grid may act on the particle. MOVES_LATER: bonds
