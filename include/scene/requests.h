@@ -12,7 +12,7 @@
 
 /* Words of the key `accept`, in the order of enum accept. */
 #define ACCEPT_WORDS                                                                                                   \
-    "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy|growth|mass|"           \
+    "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy|heat|growth|mass|"      \
     "brittleness|times|contact|coupling|cell|speed|shock|rayleigh"
 
 /* Warnings that a scene can silence by the key `accept`, one bit each: those up to ACCEPT_TIMES are about figures that
@@ -30,6 +30,7 @@ enum accept {
     ACCEPT_PASSAGES,
     ACCEPT_THICKNESS,
     ACCEPT_ENERGY,
+    ACCEPT_HEAT,
     ACCEPT_GROWTH,
     ACCEPT_MASS,
     ACCEPT_BRITTLENESS,

@@ -18,10 +18,10 @@ enum { RULES = ACCEPT_TIMES + 1 };
  * without flaws. Stress, over the strength E s_c: cracks raise it tenfold. Strain: a load over Young's modulus. Reach:
  * of waves in the duration [spacings]. Density: aerogels have 1 kg/m^3 and more, osmium 22,600. Yield: over Young's
  * modulus, 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves across all bodies in the duration. Energy:
- * twice the surface energy of waxes is 0.04 J/m^2, tough steels have 0.2 MJ/m^2. Growth: the energy release rate of a
- * crack as long as the body, over that of the material (units_of_growth). Mass: foams have 50 kg/m^3, and more than
- * osmium's has none. Brittleness: E G_c/strength^2 is below 1 m but for concrete with fibres. Times: largest load of
- * the run over the largest of all times. */
+ * twice the surface energy of waxes is 0.04 J/m^2, tough steels have 0.2 MJ/m^2. Heat: at 293 K, uranium 116 J/(kg K),
+ * hydrogen 14,300. Growth: the energy release rate of a crack as long as the body, over that of the material
+ * (units_of_growth). Mass: foams have 50 kg/m^3, and more than osmium's has none. Brittleness: E G_c/strength^2 is
+ * below 1 m but for concrete with fibres. Times: largest load of the run over the largest of all times. */
 static const struct {
     real least, most;
     const char *what, *unit, *look;
@@ -47,6 +47,7 @@ static const struct {
     [ACCEPT_THICKNESS] = {0, 10, "in plane stress its thickness over the longest edge of its bodies is", "",
                           "thickness and lengths (mm?)"},
     [ACCEPT_ENERGY] = {0.03, 1e6, "its energy release rate is", " J/m^2", "energy_release_rate (J/m^2)"},
+    [ACCEPT_HEAT] = {50, 2e4, "its specific heat is", " J/(kg K)", "specific_heat (J/(kg K); kJ/(kg K)?)"},
     [ACCEPT_GROWTH] =
         {0.1, INFINITY,
          "no crack can grow: what one as long as the body could release, over the energy release rate, is", "",
@@ -95,8 +96,8 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
                      subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
-/* Warns of implausible wave speeds, densities, energy release rates, yield stresses and critical stretches of the
- * materials. */
+/* Warns of implausible wave speeds, densities, energy release rates, specific heats, yield stresses and critical
+ * stretches of the materials. */
 static void units_of_materials(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -107,6 +108,7 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         units_of_waves(s, subject, a, to);
         units_judge(s, ACCEPT_DENSITY, subject, a->density, "", to);
         if (isfinite(a->energy_release_rate)) units_judge(s, ACCEPT_ENERGY, subject, a->energy_release_rate, "", to);
+        if (a->law.specific_heat > 0) units_judge(s, ACCEPT_HEAT, subject, a->law.specific_heat, "", to);
         const real yield = material_initial_yield_stress(a);
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", yield, a->young);
         if (material_yields(a)) units_judge(s, ACCEPT_YIELD, subject, yield / a->young, note, to);

@@ -27,6 +27,22 @@ static const struct format *format_of(const char *path)
     return is_exodus_name(path) ? &exodus : NULL;
 }
 
+/* Returns REFUSED if all faces of a surface in 3D lie in one plane x, y or z = const to 1e-6 of their extent, as in a
+ * mesh of plane elements. path: its file, for the message. */
+static status check_not_plane(const struct hull *s, const char *path)
+{
+    const real *low = s->node[0].low, *high = s->node[0].high;
+    real longest = 0;
+    for (int d = 0; d < s->dim; d++) longest = real_max(longest, high[d] - low[d]);
+    for (int d = 0; d < s->dim && s->dim == 3; d++)
+        if (high[d] - low[d] <= 1e-6 * longest)
+            return status_set(REFUSED,
+                              "%s: its elements are plane, all at %c = %.6g m, and fill no volume; space: plane stress "
+                              "or plane strain, or extrude with this mesh as its shape, is expected",
+                              path, "xyz"[d], low[d]);
+    return OK;
+}
+
 /* Returns REFUSED if the surface encloses nothing, is too large, or is so open that inside and outside cannot be
  * distinguished. path: its file, for messages. */
 static status check_closed(const struct hull *s, const char *path)
@@ -41,6 +57,7 @@ static status check_closed(const struct hull *s, const char *path)
         if (!(fabs(s->node[0].low[d]) < FARTHEST && fabs(s->node[0].high[d]) < FARTHEST))
             return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
                               path, real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
+    TRY(check_not_plane(s, path));
     const real doubt = s->open_edges > 0 ? hull_ambiguous_fraction(s) : 0;
     if (doubt > DOUBT_MOST)
         return status_set(REFUSED,

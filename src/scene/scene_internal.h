@@ -156,13 +156,10 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
  * none. */
 size_t quantity_read_unit(struct quantity *q, const char *text);
 
-/* Returns true if the text is a unit with kelvin of this kind. Kelvin is no symbol of its own, since variables may be
- * called K. */
-static inline bool unit_is_kelvin(const char *text, enum unit unit)
-{
-    if (unit == UNIT_TEMPERATURE) return strcmp(text, "K") == 0;
-    return unit == UNIT_SPECIFIC_HEAT && (strcmp(text, "J/(kg K)") == 0 || strcmp(text, "J/kg/K") == 0);
-}
+/* Returns the unit `text` of a temperature or specific heat without its kelvin, such as kJ/kg of kJ/(kg K) or kJ/kg/K,
+ * which is written to plain[capacity]; other texts and units of other kinds are returned as they are. Kelvin is no
+ * symbol of its own, since variables may be called K. */
+const char *unit_without_kelvin(const char *text, enum unit unit, char *plain, size_t capacity);
 
 /* Returns true if q has the unit `unit` or no unit. Otherwise returns false and writes the fault to message[capacity],
  * as the rest of a sentence that begins with the text of the value. */

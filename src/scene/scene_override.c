@@ -171,6 +171,18 @@ static status scene_override_entry_of(struct reader *r, struct yaml_node *map, c
     return OK;
 }
 
+/* Returns true if the last part of a path addresses the item behind the last one of a list, and `value` can be one:
+ * a mapping or list, or for probes a word. key[length]: the part, or index: its [index]. */
+static bool is_new_item(const struct yaml_node *list, const char *key, size_t length, int index,
+                        const struct yaml_node *value)
+{
+    char number[16];
+    if (list->kind != NODE_LIST || !value) return false;
+    snprintf(number, sizeof number, "%d", list->n);
+    const bool next = index == list->n || (index < 0 && strlen(number) == length && !memcmp(key, number, length));
+    return next && (value->kind != NODE_SCALAR || (list->key && strcmp(list->key, "probes") == 0));
+}
+
 /* Replaces the value of node n by that of `value`; its key and its position in the tree are kept. */
 static void replace(struct yaml_node *n, const struct yaml_node *value)
 {
@@ -182,8 +194,9 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
     for (struct yaml_node *c = n->first; c; c = c->next) c->parent = n;
 }
 
-/* Applies override number `origin` to the tree of the scene: sets the value at its path, or removes the key if the
- * value is empty. Returns REFUSED for a malformed path, and if the key to remove is missing. */
+/* Applies override number `origin` to the tree of the scene: sets the value at its path, appends it to a list if the
+ * path ends in the index behind the last item, or removes the key if the value is empty. Returns REFUSED for a
+ * malformed path, and if the key to remove is missing. */
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];
@@ -197,6 +210,7 @@ static status override_one(struct reader *r, struct yaml_node *root, int origin)
             return fault_at_location(r, origin, 0, 0,
                                      "%s: not a path of keys; material.young or boundary.0.velocity is one",
                                      text_for_message(r, o->key));
+        if (*path == '\0' && is_new_item(n, key, length, index, value)) return yaml_node_append(n, value), OK;
         TRY(index >= 0 ? item_of(r, n, index, origin, &n) : scene_override_entry_of(r, n, key, length, origin, &n));
     }
     if (n == root) return fault_at_location(r, origin, 0, 0, "no key; material.young=70e9 is an override");

@@ -110,15 +110,15 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
 
 #define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
-/* Returns the spacing that the scene gives [m]; NAN if it gives none. n: any node of the scene's tree. */
-static real spacing_given(struct reader *r, const struct yaml_node *n)
+/* Sets *spacing to the spacing that the scene gives [m], or to NAN if it gives none. n: any node of the scene's tree.
+ * Returns REFUSED if the spacing is no length in its range. */
+static status read_spacing(struct reader *r, const struct yaml_node *n, real *spacing)
 {
-    real spacing = NAN;
+    *spacing = NAN;
     while (n->parent) n = n->parent;
     const struct yaml_node *given = tree_find(n, "particles.spacing");
     const struct key *k = key_find("particles", "spacing");
-    if (given && k && read_number(r, k, given, &spacing) == OK) return spacing;
-    return NAN;
+    return given && k ? read_number(r, k, given, spacing) : OK;
 }
 
 /* Reads the file f of a solid, or finds the same file with the same settings among those already read. Takes ownership
@@ -133,9 +133,11 @@ static status shape_take(struct reader *r, const struct yaml_node *n, struct sha
             *known = *last;
             return OK;
         }
-    const real fine = f->kind == SHAPE_MESH ? CURVE_FINE * spacing_given(r, n) : NAN;
-    const status s = f->kind == SHAPE_IMAGE ? image_read(&f->voxels, f->files, f->path, f->dim, f->size, f->from)
-                                            : geometry_read(&f->geometry, f->path[0], f->dim, f->scale, fine);
+    real spacing = NAN;
+    status s = f->kind == SHAPE_MESH ? read_spacing(r, n, &spacing) : OK;
+    if (s == OK)
+        s = f->kind == SHAPE_IMAGE ? image_read(&f->voxels, f->files, f->path, f->dim, f->size, f->from)
+                                   : geometry_read(&f->geometry, f->path[0], f->dim, f->scale, CURVE_FINE * spacing);
     if (s != OK) {
         shape_file_free(f);
         return s;
@@ -193,7 +195,8 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
     if (within && !s->hull->open)
         return fault(r, within, "has no meaning for what fills a volume; only sets of nodes or faces have it");
     if (!s->hull->open) return OK;
-    s->radius = within ? words->within : spacing_given(r, n);
+    TRY(read_spacing(r, n, &s->radius));
+    if (within) s->radius = words->within;
     if (s->radius > 0) return OK;
     return fault(r, n,
                  "set %s is one of nodes or faces; within, the distance up to which particles belong to it, is "

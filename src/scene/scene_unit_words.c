@@ -52,3 +52,18 @@ const char *unit_meant_by_word(const char *text)
     }
     return NULL;
 }
+
+const char *unit_without_kelvin(const char *text, enum unit unit, char *plain, size_t capacity)
+{
+    const size_t length = strlen(text);
+    const char *bracket = strstr(text, "/(");
+    if (unit == UNIT_TEMPERATURE) return strcmp(text, "K") == 0 ? "" : text;
+    if (unit != UNIT_SPECIFIC_HEAT || length >= capacity) return text;
+    if (length > 2 && strcmp(text + length - 2, "/K") == 0)
+        return snprintf(plain, capacity, "%.*s", (int)length - 2, text), plain;
+    if (!bracket || length < 6 || (strcmp(text + length - 3, " K)") != 0 && strcmp(text + length - 3, "*K)") != 0))
+        return text;
+    snprintf(plain, capacity, "%.*s%.*s", (int)(bracket - text) + 1, text, (int)length - 3 - (int)(bracket + 2 - text),
+             bracket + 2);
+    return plain;
+}

@@ -308,7 +308,7 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
 {
     struct measure m;
     char wrong[64], other[UNIT_LONGEST + 1];
-    *ten = 0;
+    unit_text = unit_without_kelvin(unit_text, unit, wrong, sizeof wrong), *ten = 0;
     if (*unit_text == '\0') return true;
     if (!unit_read(&m, unit_text)) {
         const char *meant = unit_meant_by_word(unit_text);
@@ -407,7 +407,7 @@ bool number_read(real *value, const char *text, enum unit unit, bool allow_infin
     const int clock = clock_seconds(rest, unit);
     const real radians = unit == UNIT_ANGLE ? angle_radians(rest) : 1;
     if (radians == 0) return complain(c, *rest ? "has another unit" : "has no unit", unit);
-    if (unit == UNIT_ANGLE || unit_is_kelvin(rest, unit)) rest = "";
+    if (unit == UNIT_ANGLE) rest = "";
     if (!clock && !unit_fits(c, rest, unit, &ten)) return false;
     if (divisor == 0) return complain(c, "divides by 0", unit);
     *value = number_scaled(text, length, ten, clock, divisor) * radians;

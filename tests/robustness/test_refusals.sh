@@ -192,6 +192,10 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 200 K}}|6:99|is not above T_room
 6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356 m}}|6:99|a temperature in kelvin is expected
 6|material: {young: 190 GPa, density: 7800, specific_heat: 383}|6:43|no meaning without johnson_cook
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, Tm: 1356}}|6:99|Tm: unknown key; here it is `T_melt`
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, N: 0.3, C: 0.025, T_melt: 1356}}|6:81|N: unknown key; here it is `n`
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, D1: 0.1}}|6:99|does not do Johnson and Cook's failure law
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}, specific_heat: 0.4 kJ/m}|6:114|a specific heat is expected
 6|material: {young: 190 GPa, density: 7800, specific_heat: 383 J}|6:43|a specific heat is expected
 6|material: {young: 190 GPa, density: 7800, taylor_quinney: 0.9}|6:43|no meaning without specific_heat
 6|material: steel|6:1|not a mapping

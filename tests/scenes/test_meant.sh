@@ -48,6 +48,11 @@ silent "some steps" "$units" "$glass" -s duration=3us
 says "very many steps" '^warning: time: the number of time steps is [0-9.]*e+08 of .* s, above 1e+08: ' "$glass" -s duration=100s
 says "a spacing of 1 cm" '^warning: body body: it has a crack, and its least number of particles across is 4, along y, below 8: ' "$glass" -s particles.spacing=1cm
 says "a density in g/m^3" '^warning: material material: its density is 2.44e+06 kg/m^3, above 3e+04: check the units of density' "$glass" -s variables.rho=2.44e6
+hot="material={young: 72 GPa, density: 2780, johnson_cook: {A: 265 MPa, B: 426 MPa, n: 0.34, C: 0.015, T_melt: 775 K}, specific_heat:"
+says "a specific heat in kJ/(kg K)" '^warning: material material: its specific heat is 0.875 J/(kg K), below 50: .* accept: .heat.' "$glass" -s method=mpm -s cracks=[] \
+    -s "$hot 0.875}"
+silent "a specific heat with its unit" 'its specific heat is' "$glass" -s method=mpm -s cracks=[] -s "$hot 0.875 kJ/(kg K)}"
+silent "a specific heat that is meant" 'its specific heat is' "$glass" -s method=mpm -s cracks=[] -s "$hot 0.875}" -s 'accept=[heat]'
 says "a yield stress in MPa" '^warning: material material: its yield stress over Young.s modulus is 4.17e-09 (300 Pa over 7.2e+10 Pa), below 2e-05' "$glass" \
     -s material.yield_stress=300
 says "a yield stress in GPa" "its yield stress over Young.s modulus is 4.17 .*, above 0.3" "$glass" -s material.yield_stress=300GPa

@@ -244,6 +244,7 @@ static void refused_curves(void **state)
     (void)state;
     struct geometry g;
     write_ring("r.inp", "CPS8");
+    assert_refused(geometry_read(&g, "r.inp", 3, 1, NAN), "r.inp: its elements are plane, all at z = 0 m");
     assert_refused(geometry_read(&g, "r.inp", 2, 1, 1e-12), "r.inp: second-order elements have edges curved by");
     write_ring("r.inp", "CPS6");
     assert_ok(geometry_read(&g, "r.inp", 2, 1, NAN)); /* without a spacing: 16 pieces */
