@@ -4,17 +4,17 @@
 
 #include "scene/scene.h"
 
-/* The fastest collision of bodies that a scene leads to expect. */
+/* The collision that a scene leads to expect whose front is nearest to breaking or yielding a body. */
 struct shock {
     real speed;         /* closing speed from the initial velocities of the bodies [m/s] */
-    real share;         /* speed over the speed at which a front breaks or yields a body; 0 if it is below a tenth of
-                           that, or if all materials are viscous [1] */
+    real share;         /* speed over the closing speed at which a front breaks or yields one of the two bodies; 0 if it
+                           is below a tenth of that, or if all materials are viscous [1] */
     const char *remedy; /* what the scene can do against oscillations behind the front; NULL if share is 0 */
 };
 
-/* Returns the fastest collision between two bodies, or between a body and a rigid body, within the duration of a
- * scene. The velocity of a body is that of `bodies.velocity` and of `initial` at the centre of its bounding box; bodies
- * from particle lists are left out. */
+/* Returns the collision with the largest `share` between two bodies, or between a body and a rigid body, within the
+ * duration of a scene. The velocity of a body is that of `bodies.velocity` and of `initial` at the centre of its
+ * bounding box; bodies from particle lists are left out. Returns zeros if there is none, or if its share would be 0. */
 struct shock scene_fastest_collision(const struct scene *s);
 
 #endif

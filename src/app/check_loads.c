@@ -2,6 +2,7 @@
  * these belong to the computed part of the body. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "check_parts.h"
@@ -314,8 +315,61 @@ static void say_load(const struct run *e, int which)
     putchar('\n');
 }
 
+/* ---- balance ----------------------------------------------------------------------------------------------------- */
+
+#define UNBALANCED 0.01 /* net force from which on loads do not balance, over the sum of their forces */
+enum { INSTANTS = 64 }; /* times at which the net force is evaluated */
+
+/* Returns true if one body moves freely in time under loads alone: nothing holds or drives it, and it meets none. */
+static bool is_free_body(const struct scene *s, const struct particles *p, const struct loads *loads)
+{
+    bool is_free = scene_is_dynamic(s) && s->rigids == 0 && p->n > 0 && p->n == p->n_body;
+    for (int b = 1; b < s->bodies; b++) is_free = is_free && s->body[b].joined == 0;
+    for (int b = 0; b < loads->n; b++) is_free = is_free && boundary_applies_force(loads->load[b].boundary);
+    return is_free;
+}
+
+/* Computes the net force of all loads but weights at time t [s] into force[DIM_MAX] [N]. Returns the sum of the sizes
+ * of the forces of the loads [N]. */
+static real net_force(const struct loads *loads, const struct particles *p, real t, real *force)
+{
+    real all = 0;
+    for (int d = 0; d < DIM_MAX; d++) force[d] = 0;
+    for (int b = 0; b < loads->n; b++) {
+        if (loads->load[b].boundary->by_mass) continue;
+        const struct resultant r = resultant_at(&loads->load[b], p, t);
+        for (int d = 0; d < DIM_MAX; d++) force[d] += r.force[d];
+        all += sqrt(dot(r.force, r.force, DIM_MAX));
+    }
+    return all;
+}
+
+/* Prints the largest net force on a free body if its loads do not balance, its acceleration by that force, and its
+ * speed and displacement at the end of the run, by integration with the midpoint rule. */
+static void say_balance_of_loads(const struct run *e)
+{
+    real force[DIM_MAX], largest[DIM_MAX] = {0}, v[DIM_MAX] = {0}, u[DIM_MAX] = {0}, mass = 0, all = 0;
+    const real dt = e->scene->duration / INSTANTS;
+    if (!is_free_body(e->scene, &e->part, &e->loads)) return;
+    for (int64_t i = 0; i < e->part.n; i++) mass += e->part.mass[i];
+    for (int k = 0; k < INSTANTS; k++) {
+        all = real_max(all, net_force(&e->loads, &e->part, (k + 0.5) * dt, force));
+        if (dot(force, force, DIM_MAX) > dot(largest, largest, DIM_MAX)) memcpy(largest, force, sizeof largest);
+        for (int d = 0; d < DIM_MAX; d++)
+            u[d] += dt * (v[d] + 0.5 * dt * force[d] / mass), v[d] += dt * force[d] / mass;
+    }
+    const real net = sqrt(dot(largest, largest, DIM_MAX));
+    if (!(net > UNBALANCED * all) || !isfinite(net)) return;
+    printf("balance        the loads do not balance, and nothing holds the body: net force up to ");
+    say_vector(largest, e->part.dim);
+    printf(" N, acceleration %.3g m/s^2; at the end its mean velocity has changed by %.3g m/s and it has drifted %.3g "
+           "m\n",
+           net / mass, sqrt(dot(v, v, DIM_MAX)), sqrt(dot(u, u, DIM_MAX)));
+}
+
 void print_loads(const struct run *e)
 {
     for (int b = 0; b < e->loads.n && b < SAID; b++) say_load(e, b);
     if (e->loads.n > SAID) printf("load           and %d more loads and supports\n", e->loads.n - SAID);
+    say_balance_of_loads(e);
 }

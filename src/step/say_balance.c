@@ -80,7 +80,7 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
         return false;
     snprintf(text, capacity,
              "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the front of "
-             "the wave breaks or yields the bodies; stress oscillates by 10 to 30 %% behind the front, so that bonds "
+             "the wave breaks or yields one of them; stress oscillates by 10 to 30 %% behind the front, so that bonds "
              "can break too early: %s; if this is meant: accept: [shock]",
              w->break_time, shock.speed, shock.share, shock.remedy);
     return true;

@@ -5,16 +5,36 @@
 
 #define SHOCK 0.1 /* least reported collision speed, over the speed at which a front breaks or yields a body */
 
-/* Returns the smallest particle speed behind a front that breaks or yields a material of the scene: strain limit times
- * wave speed [m/s]; INFINITY without limits. */
-static real speed_limit(const struct scene *s)
+/* Returns the strain that breaks or yields a material [1]; INFINITY if none does. */
+static real strain_limit(const struct scene *s, const struct material *m)
+{
+    const real strain = s->method == METHOD_MPM ? INFINITY : m->onset_stretch;
+    return material_yields(m) ? real_min(strain, material_initial_yield_stress(m) / m->young) : strain;
+}
+
+/* Returns the least impedance of the materials of body b [kg/(m^2 s)]; INFINITY for a rigid body. */
+static real least_impedance(const struct scene *s, int b)
 {
     real least = INFINITY;
-    for (int m = 0; m < s->materials; m++) {
+    for (int m = 0; m < s->materials && b < s->bodies; m++)
+        if (scene_body_has_material(&s->body[b], m))
+            least = real_min(least, s->material[m].density * s->material[m].wave_speed);
+    return least;
+}
+
+/* Returns the closing speed at which the front that body b strikes into body a breaks or yields a [m/s]; INFINITY
+ * without limits. Equal stress and velocity at the face leave a the share Z_b/(Z_a + Z_b) of the closing speed v, where
+ * Z = density times wave speed c, so that its strain is that share of v/c: v/(2 c) between bodies of one material, v/c
+ * beside a rigid body. */
+static real speed_limit(const struct scene *s, int a, int b)
+{
+    const real other = least_impedance(s, b);
+    real least = INFINITY;
+    for (int m = 0; m < s->materials && a < s->bodies; m++) {
         const struct material *own = &s->material[m];
-        real strain = s->method == METHOD_MPM ? INFINITY : own->onset_stretch;
-        if (material_yields(own)) strain = real_min(strain, material_initial_yield_stress(own) / own->young);
-        least = real_min(least, strain * own->wave_speed);
+        if (!scene_body_has_material(&s->body[a], m)) continue;
+        const real share = 1 / (1 + own->density * own->wave_speed / other);
+        least = real_min(least, strain_limit(s, own) * own->wave_speed / share);
     }
     return least;
 }
@@ -79,10 +99,13 @@ struct shock scene_fastest_collision(const struct scene *s)
     bool viscous = true;
     for (int m = 0; m < s->materials; m++) viscous = viscous && material_has_viscosity(&s->material[m]);
     for (int a = 0; a < s->bodies; a++)
-        for (int b = a + 1; b < s->bodies + s->rigids; b++)
-            if (b >= s->bodies || s->contact_between != CONTACT_NONE)
-                shock.speed = real_max(shock.speed, closing_speed(s, a, b));
-    if (viscous || !scene_is_dynamic(s) || !(shock.speed > SHOCK * speed_limit(s))) return shock;
-    shock.share = shock.speed / speed_limit(s), shock.remedy = remedy_of(s);
+        for (int b = a + 1; b < s->bodies + s->rigids; b++) {
+            if (b < s->bodies && s->contact_between == CONTACT_NONE) continue;
+            const real speed = closing_speed(s, a, b);
+            const real share = speed / real_min(speed_limit(s, a, b), speed_limit(s, b, a));
+            if (share > shock.share) shock.speed = speed, shock.share = share;
+        }
+    if (viscous || !scene_is_dynamic(s) || shock.share <= SHOCK) return (struct shock){0};
+    shock.remedy = remedy_of(s);
     return shock;
 }
