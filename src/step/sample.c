@@ -190,7 +190,7 @@ static int meshes(const struct reference_frame *frame, const struct grid *nodes[
     return 1 + levels->n;
 }
 
-/* Computes the present momentum of all bodies, momentum[dim] [kg m/s]. */
+/* Computes the present momentum of all particles, momentum[dim] [kg m/s]. */
 static void momentum_now(const struct particles *p, const struct reference_frame *frame, real *momentum)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
