@@ -172,4 +172,33 @@ if command -v gnuplot >/dev/null 2>&1; then
         holds "profiles.png of $run" test -s "$work/$run/pictures/profiles.png"
     done
 fi
+
+# ---- spall strength from a free surface --------------------------------------------------------------------------------
+
+# E s_c = 300 MPa is put in. rho c du/2 of the first dip of the free surface (contact.md, c = sqrt(E/rho)): behind a pulse that falls within
+# 1.5 us it is 271 MPa at 20 um, and 285 at 5 um; behind one that falls within 20 ns bonds end the tension at once, and the dip is a
+# spike of 177 MPa.
+cat >"$work/spall.yaml" <<'END'
+space: line
+duration: 2.2 us
+method: pd
+material: {young: 107 GPa, density: 2700 kg/m^3, critical_stretch: 0.28 %, viscosity: {}}
+body: {box: {from: 0, to: 6 mm}}
+particles: {spacing: 0.02 mm}
+boundary: [{name: blow, traction: [850 MPa], face: x-, time: {table: [[0, 0], [0.2 us, 1], [1.7 us, 0], [9 us, 0]]}}]
+probes: [break, {point: {name: free, at: 5.99 mm}}]
+output: {frames: 1, samples: 2000}
+END
+dip()
+{
+    "$cleave" run -q -o "$work/$1" "$work/spall.yaml" -s "boundary.blow.time={table: $2}" 2>/dev/null
+    awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^free.velocity_x/) at = k; next }
+        $at > top && !(low < top - 5 && $at > low + 3) { top = low = $at }
+        $at < low { low = $at }
+        low < top - 5 && $at > low + 3 { exit }
+        END { print 2700 * sqrt(107e9 / 2700) * (top - low) / 2 * 1e-6 }' "$work/$1/history.csv"
+}
+slow=$(dip slow "[[0, 0], [0.2 us, 1], [1.7 us, 0], [9 us, 0]]") sudden=$(dip sudden "[[0, 0], [20 ns, 1], [0.635 us, 1], [0.655 us, 0], [9 us, 0]]")
+between "spall strength behind a slow pulse" "$slow" 270 273 # 0.6 MPa: a step of the history
+between "spall strength behind a sudden one" "$sudden" 174 180
 finish
