@@ -89,7 +89,12 @@ function showConvergenceTable() {
     const wanted = byId("wanted").value.toLowerCase().split(/[ ,]+/).filter(Boolean), all = byId("technical").checked;
     const rows = study.rows.filter((row) => (all || !ofComputation.test(row[0])) &&
             (wanted.length === 0 || wanted.some((word) => row[0].toLowerCase().includes(word))));
-    tableOf(["figure", "value", "± (95 %)", "of it scatter", "of it spacing", "behaviour", "order", "limit"],
+    const finest = rows.length > 0 ? cellValue(at(rows[0], "spacing_0")) : NaN;
+    tableOf(
+        [
+            "figure", "value" + (Number.isFinite(finest) ? " at a spacing of " + quantity(finest, "m") : ""),
+            "± (95 %)", "of it scatter", "of it spacing", "behaviour", "order", "limit"
+        ],
         rows.map((row) => {
             const unit = at(row, "unit"), cell = (name) => ({
                 text: at(row, name) === "" ? "" : quantity(cellValue(at(row, name)), unit),
@@ -158,6 +163,11 @@ function drawStudy() {
                       key + (xUnit.name ? " [" + xUnit.name + "]" : ""),
         figure + (yUnit.name ? " [" + yUnit.name + "]" : ""));
     drawSeries(context, area, points);
+    if (!sweep) {
+        const words = "means and their 95 % intervals, by scatter and spacing";
+        context.fillStyle = "#5d6675";
+        context.fillText(words, area.right - context.measureText(words).width, area.top - 14);
+    }
     study.area = area, study.xUnit = xUnit, study.yUnit = unit;
 }
 

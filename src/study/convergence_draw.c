@@ -40,7 +40,8 @@ static struct unit figure_unit(const struct scalar_result_study *f)
 }
 
 /* Sends three data blocks for the figure f in panel number `panel`: $r, its value in every run over the spacing; $m,
- * the means of the levels with their errors; $e, the extrapolated value with its interval, at spacing 0. */
+ * the means of the levels with their 95 % intervals by scatter and spacing, as on pages; $e, at spacing 0, the
+ * extrapolated value and the mean of the finest level with its interval. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_find_result(&s->table, f->name);
@@ -52,7 +53,7 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
     fprintf(to, "EOD\n$m%d << EOD\n", panel);
     for (int k = 0; k < f->c.levels; k++)
         fprintf(to, "%.8g %.10g %.10g\n", 1e3 * f->c.level[k].spacing, f->c.level[k].mean / factor,
-                f->c.level[k].error / factor);
+                f->c.uncertainty[k] / factor);
     fprintf(to, "EOD\n$e%d << EOD\n0 %.10g %.10g %.10g\nEOD\n", panel, f->c.extrapolated / factor,
             f->c.level[0].mean / factor, f->c.uncertainty[0] / factor);
 }
@@ -75,9 +76,9 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
                 curve_colour[1]);
     }
     fprintf(to,
-            "$e%d using 1:3:4 with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' title '95 %% interval', "
+            "$e%d using 1:3:4 with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' title 'finest mean', "
             "$r%d using 1:2 with points pt 7 ps 0.5 lc rgb '%s' title 'runs', "
-            "$m%d using 1:2:3 with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' title 'means'\n",
+            "$m%d using 1:2:3 with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' title 'means, 95 %% intervals'\n",
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 

@@ -59,6 +59,13 @@ says solid "s['field'] == 'von_mises' and s['turned'] and 0.05 * s['painted_turn
 says bar "s['column_added']"
 says sweep "s['rows'] == 4 and s['columns'] > 6"
 
+# The table of a convergence study says the spacing of its values, that of the finest level.
+"$cleave" converge "$work/plate.yaml" -s particles.spacing=2mm --runs 1 --levels 3 -o "$work/levels" -q >/dev/null 2>&1
+"$cleave" report "$work/levels" -q
+finest=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next } NR == 2 { printf "%.3g", 1e3 * $at["spacing_0 [m]"] }' "$work/levels/converge.csv")
+chrome --dump-dom "file://$work/levels/report.html" >"$work/dom"
+holds "a spacing of $finest mm is said" grep -q "value at a spacing of $finest[0-9]* mm" "$work/dom"
+
 # A screenshot of the page as it is, at its first and last frame: the crack is red from x = 0 to 15 mm, then farther.
 cat >"$work/pixels.py" <<'END'
 import struct, sys, zlib
