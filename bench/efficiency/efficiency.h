@@ -22,7 +22,7 @@ struct scene_case {
     struct mark mark[2];
 };
 
-enum { EFFICIENCY_CASES = 22 };
+enum { EFFICIENCY_CASES = 21 };
 extern const struct scene_case efficiency_case[EFFICIENCY_CASES];
 
 /* A variant: full peridynamics first, then adaptive runs with different levers (values of scene keys). */

@@ -31,7 +31,7 @@ const struct scene_case efficiency_case[EFFICIENCY_CASES] = {
     {PLATE_CRACK, "bond", "0", FINER("0.25 mm", 0.90)},  {PLATE_HOLE, "bond", "0", FINER("0.25 mm", 0.90)},
     {KALTHOFF, "bond", "3", FINER("0.5 mm", 0.90)},      {KALTHOFF_3D, "bond", "1", FINER("1 mm", 0.85)},
     {PLATE_CRACK, "bond", "0", FINER("0.125 mm", 0.95)}, {PLATE_HOLE, "bond", "0", FINER("0.125 mm", 0.95)},
-    {KALTHOFF, "bond", "3", FINER("0.25 mm", 0.95)},     {KALTHOFF_3D, "bond", "1", FINER("0.5 mm", 0.93)},
+    {KALTHOFF, "bond", "3", FINER("0.25 mm", 0.95)},
     {KALTHOFF_3D, "ospd", "1", FINER("1 mm", 0.85)},     {KALTHOFF_3D, "mospd", "1", FINER("1 mm", 0.85)},
 };
 /* clang-format on */

@@ -189,8 +189,9 @@ status laws_sphere(const struct laws_case *c, double *found)
     found[0] = front, found[1] = 1e6 * outer;
     while (high - low > 0.01) {
         const double middle = 0.5 * (low + high);
-        TRY(shell_run(true, 0.5e-3, middle * YIELD, &front, &outer));
-        if (outer > 2 * full)
+        const status ran = shell_run(true, 0.5e-3, middle * YIELD, &front, &outer);
+        if (ran == REFUSED) return ran;
+        if (ran == FAILED || outer > 2 * full) /* a load step without equilibrium: the sphere bears less */
             high = middle;
         else
             low = middle;
