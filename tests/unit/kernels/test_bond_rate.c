@@ -52,7 +52,7 @@ static void test_onsets(void **state)
 static void body_make(struct soft_body *s, enum space space, const struct strength_rate *rate, real critical)
 {
     memset(s, 0, sizeof *s);
-    plotted_particles_make(&s->c, &(struct cloud_plan){.space = space, .count = {11, 11, 7}, .horizon = 2.015});
+    particle_cloud_make(&s->c, &(struct cloud_plan){.space = space, .count = {11, 11, 7}, .horizon = 2.015});
     cloud_exact(&s->c);
     soft_bonds(s, SOFTENING_LINEAR, ONSET, critical);
     bonds_free(&s->c.bonds);
@@ -89,7 +89,7 @@ static void test_begin(void **state)
                 if (s.c.bonds.soft.begun[g]) begun = strain / ONSET;
         }
         assert_true(begun > expected[k / 3] - 1e-3 && begun < expected[k / 3] + 0.0095);
-        plotted_particles_free(&s.c);
+        particle_cloud_free(&s.c);
     }
 }
 
@@ -117,7 +117,7 @@ static void test_rate(void **state)
     for (int k = 0; k < 2; k++) pull(&s, 0.49 * ONSET, 100);
     assert_exact(b->soft.rate[row], 0);
     assert_true(!b->soft.rates_kept);
-    plotted_particles_free(&s.c);
+    particle_cloud_free(&s.c);
 }
 
 int main(void)

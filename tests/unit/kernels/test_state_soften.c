@@ -25,10 +25,10 @@ struct state_body {
 static void body_make(struct state_body *a, const struct cloud_plan *plan, enum pd_model model, real poisson,
                       real onset, real critical)
 {
-    struct plotted_particles *c = &a->s.c;
+    struct particle_cloud *c = &a->s.c;
     memset(a, 0, sizeof *a);
     omp_set_num_threads(2);
-    plotted_particles_make(c, plan);
+    particle_cloud_make(c, plan);
     a->model = model;
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         c->material[m].poisson = poisson;
@@ -42,12 +42,12 @@ static void body_make(struct state_body *a, const struct cloud_plan *plan, enum 
 
 static int64_t forces(struct state_body *a)
 {
-    struct plotted_particles *c = &a->s.c;
+    struct particle_cloud *c = &a->s.c;
     return bond_forces(state_force_table[c->p.dim][a->model], &c->bonds, &c->p, &c->source.limit, NULL);
 }
 
 /* Moves particles at random by up to `size` spacings, on top of a uniform dilatation. */
-static void shake(struct plotted_particles *c, uint64_t *seed, real size, real dilatation)
+static void shake(struct particle_cloud *c, uint64_t *seed, real size, real dilatation)
 {
     for (int64_t i = 0; i < c->p.n; i++)
         for (int d = 0; d < c->p.dim; d++)
@@ -154,7 +154,7 @@ static void test_gradient(void **state)
             }
         assert_true(ended > 4);
         memory_free(w);
-        plotted_particles_free(&a.s.c);
+        particle_cloud_free(&a.s.c);
     }
 }
 
@@ -195,7 +195,7 @@ static void test_ends(void **state)
                 }
             }
         assert_true(checked > 50);
-        plotted_particles_free(&a.s.c);
+        particle_cloud_free(&a.s.c);
     }
 }
 
@@ -231,7 +231,7 @@ static void test_strength(void **state)
             peak = real_max(peak, p->stress[0][middle]);
         }
         assert_close(peak, m->young * SMALL * softening_model_strength(&curve, space, 4, &model).tension, 0.05);
-        plotted_particles_free(&a.s.c);
+        particle_cloud_free(&a.s.c);
     }
 }
 
@@ -266,7 +266,7 @@ static void test_separation(void **state)
         assert_close(work / area, expected, 2e-3);
         assert_close(spent / area, expected, 1e-2);
         assert_near(before, 0, 1e-9 * a.s.c.material[0].young * area);
-        plotted_particles_free(&a.s.c);
+        particle_cloud_free(&a.s.c);
     }
 }
 
@@ -290,7 +290,7 @@ static void test_pressure(void **state)
         before = now;
     }
     assert_true(before > 0);
-    plotted_particles_free(&a.s.c);
+    particle_cloud_free(&a.s.c);
 }
 
 int main(void)
