@@ -336,7 +336,7 @@ static void advise_separation(const struct scene *s, const struct loads *l, cons
         stretch = real_max(stretch, pulled_stretch(l, p, s->duration, d));
     if (yields)
         advise_pulled_metal(s, stretch, out);
-    else if (stretch > 0.9 * s->cell)
+    else if (stretch > 1 && stretch > 0.9 * s->cell)
         fprintf(out,
                 "accuracy       the body is pulled to %.3g times its length; beyond a stretch of %.3g (cell over "
                 "spacing) its points no longer share nodes, and it parts: use mpm.cell: %.2g, mpm.shape: cpgimp or "

@@ -78,8 +78,8 @@ holds "check: strength" grep -q 'strength  *glass: 4e+07 Pa in tension, .*(kappa
 
 bad() { what=$1 words=$2; shift 2; refused "$what" "$work/no" "$words" "$work/strip.yaml" "$@"; }
 bad "a large horizon" "particles.spacing below 0.00019" -s particles.spacing=0.2mm
-bad "adaptive" "is of explicit steps of method: pd" -s method=adaptive
-bad "load steps" "is of explicit steps of method: pd" -s solver=static
+bad "adaptive" 'is of bonds that soften; `method: pd` is expected' -s method=adaptive
+bad "load steps" 'explicit steps alone; `solver: explicit` is expected' -s solver=static
 bad "a surface" "starts bonds of model: bond" -s materials.0.compressive_strength=1GPa
 bad "brittle beside softening" "breaks without softening" -s materials.1.energy_release_rate=10
 finish

@@ -151,7 +151,7 @@ other "a small biaxial strength" "more than 2e+07 and at most 4e+07" -s material
 other "a large biaxial strength" "more than 2e+07 and at most 4e+07" -s materials.0.biaxial_strength=41MPa
 other "radius alone" "is expected with it" -s materials.0.strength_radius=1mm
 bad "no tensile strength" "tensile_strength is expected with it" -s materials.0.tensile_strength=
-bad "ospd" "is of bonds of model bond" -s model=ospd
+bad "ospd" "a strength surface starts bonds of model: bond" -s model=ospd
 bad "an equilibrium" "none does in a single equilibrium" -s solver=cg
 bad "load steps" "starts bonds in explicit steps alone" -s solver=static
 refused "line" "$work/no" "which a line does not have" inputs/hopkinson_bar.yaml -s 'material.tensile_strength=100' -s 'material.compressive_strength=900'
