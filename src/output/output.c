@@ -17,11 +17,16 @@
 #include "output/pictures.h"
 #include "output/summary_read.h"
 
+/* Released memory that HDF5 keeps of each kind [byte]. */
+enum { HDF5_KEPT = 4 << 20 };
+
 void output_configure_hdf5(void)
 {
     /* HDF5 1.10 flushes its open files again at exit, and crashes on files that could not be written. */
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    /* The tables of a closed file, 0.6 MB, serve the next file; the kernel need not clear pages for each. */
+    H5set_free_list_limits(HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT);
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
     invariant_set_cleanup(files_unfinished_remove);

@@ -14,6 +14,10 @@ enum { CHUNK_ROWS = 4096, GZIP_LEVEL = 4 };
 /* Half of the number of chunks in a node of their index. HDF5's 32 give every dataset 2 to 4 kB of index. */
 enum { INDEX_HALF = 4 };
 
+/* Size of the buffers in which HDF5 converts the reference to a text of variable length [byte]; HDF5 clears its default
+ * of 1 MiB for every text. */
+enum { TEXT_BUFFER = 1024 };
+
 size_t hdf_type_size(enum hdf_type type)
 {
     static const size_t size[] = {[HDF_F32] = 4, [HDF_F64] = 8, [HDF_U8] = 1, [HDF_I32] = 4, [HDF_I64] = 8};
@@ -293,17 +297,19 @@ void hdf_write_text(struct hdf *f, const char *name, const char *text)
 void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
 {
     const hsize_t one = 1;
-    hid_t type = -1, space = -1, list = -1, set = -1;
+    hid_t type = -1, space = -1, list = -1, transfer = -1, set = -1;
     char *plain = f->failed ? NULL : strdup(text);
     if (!ready(f)) return;
     for (char *c = plain; c && *c; c++)
         if ((unsigned char)*c > 126) *c = '?';
     (void)(good(f, plain ? 0 : -1) && good(f, type = H5Tcopy(H5T_C_S1)) && good(f, H5Tset_size(type, H5T_VARIABLE)) &&
            good(f, space = H5Screate_simple(1, &one, NULL)) && good(f, list = H5Pcreate(H5P_DATASET_CREATE)) &&
-           good(f, H5Pset_obj_track_times(list, false)) &&
+           good(f, H5Pset_obj_track_times(list, false)) && good(f, transfer = H5Pcreate(H5P_DATASET_XFER)) &&
+           good(f, H5Pset_buffer(transfer, TEXT_BUFFER, NULL, NULL)) &&
            good(f, set = H5Dcreate2(f->file, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
-           good(f, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &plain)) && good(f, H5Dclose(set)) &&
-           good(f, H5Pclose(list)) && good(f, H5Sclose(space)) && good(f, H5Tclose(type)));
+           good(f, H5Dwrite(set, type, H5S_ALL, H5S_ALL, transfer, &plain)) && good(f, H5Dclose(set)) &&
+           good(f, H5Pclose(transfer)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)) &&
+           good(f, H5Tclose(type)));
     free(plain);
 }
 
