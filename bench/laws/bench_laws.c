@@ -10,7 +10,10 @@
 #define MPM3D "MPM3D-F90, linear shapes, November 2026"
 #define ARMSTRONG "k + C/gamma (1 - exp(-gamma a)); stable: k + C/gamma tanh(gamma da/2)"
 #define PRANDTL "equations of Prandtl & Reuss"
+#define LOCKED "MPM3D-F90, linear shapes, November 2026; own dilatations of the points, as there"
+#define FINER "own result with half the spacing; pressure: below 0.6 GPa, MPM3D-F90 1.36, half the flow stress"
 #define HILL "Hill 1950"
+#define HILL_RADIAL "Hill 1950; nu 0.3: radial integration of Prandtl & Reuss, 800 elements, both readings"
 #define HEATING "T* = 1 - exp(-beta R W/(rho c (T_melt - T_room)))"
 #define RATE "integration in 100000 steps a cycle, each by bisection; 5 cycles"
 #define RELAX "sigma = sigma_0 (1 - C log(exp(-y) + t E eps0/(sigma_0 C))), y = (sigma(0)/sigma_0 - 1)/C"
@@ -68,20 +71,27 @@ const struct laws_case laws_cases[] = {
     {"beam, plane strain, 4 times", "1.026 times plane stress", laws_beam, true, {1, 4},
      {{"moment", "M_y", 1.507, 0.015}}},
     {"hollow sphere, b/a 2, front at 1.5 a", HILL, laws_sphere, true, {0},
-     {{"front", "a", 1.5, 0.03}, {"outer displacement", "um", 7.3828, 0.37}, {"collapse", "sigma_y", 1.38629, 0.04}}},
-    {"thick cylinder, b/a 2, front at 1.2 a", HILL, laws_cylinder, true, {1.2}, {{"front", "a", 1.2, 0.03}}},
-    {"thick cylinder, front at 1.5 a", HILL, laws_cylinder, true, {1.5}, {{"front", "a", 1.5, 0.03}}},
-    {"thick cylinder, front at 1.8 a", HILL, laws_cylinder, true, {1.8}, {{"front", "a", 1.8, 0.03}}},
+     {{"front, elastic part", "a", 1.5, 0.03}, {"front, plastic strain", "a", 1.5, 0.03},
+      {"outer displacement", "um", 7.3828, 0.37}, {"collapse", "sigma_y", 1.38629, 0.04}}},
+    {"thick cylinder, b/a 2, front at 1.2 a", HILL_RADIAL, laws_cylinder, true, {1.2},
+     {{"front, elastic part", "a", 1.2003, 0.015}, {"front, plastic strain", "a", 1.1999, 0.015}}},
+    {"thick cylinder, front at 1.5 a", HILL_RADIAL, laws_cylinder, true, {1.5},
+     {{"front, elastic part", "a", 1.5021, 0.015}, {"front, plastic strain", "a", 1.5011, 0.015}}},
+    {"thick cylinder, front at 1.8 a", HILL_RADIAL, laws_cylinder, true, {1.8},
+     {{"front, elastic part", "a", 1.8155, 0.03}, {"front, plastic strain", "a", 1.8137, 0.03}}},
     {"copper bar, 400 + 100 a MPa, 227 m/s, gimp", WILKINS, laws_bar_wilkins, true, {0},
      {{"length", "mm", 21.4, 0.1}, {"foot", "mm", 7.1, 0.3}, {"energy balance", "%", 0, 0.3}}},
     {"copper bar, 227 m/s, linear", WILKINS, laws_bar_wilkins, true, {1},
      {{"length", "mm", 21.4, 0.1}, {"foot", "mm", 7.1, 0.3}, {"energy balance", "%", 0, 0.3}}},
     {"copper bar, 157 + 425 a MPa, 190 m/s, gimp", MPM3D, laws_bar_copper, true, {0},
      {{"height", "mm", 16.24, 0.25}, {"radius", "mm", 6.56, 0.1}, {"plastic strain", "1", 1.60, 0.05},
-      {"energy balance", "%", 0, 0.3}}},
-    {"copper bar, 190 m/s, linear", MPM3D, laws_bar_copper, true, {1},
+      {"pressure at rest, r.m.s.", "GPa", 0.3, 0.3}, {"energy balance", "%", 0, 0.3}}},
+    {"copper bar, 190 m/s, linear, cells that lock", LOCKED, laws_bar_copper, true, {1, 1},
      {{"height", "mm", 16.24, 0.16}, {"radius", "mm", 6.56, 0.1}, {"plastic strain", "1", 1.60, 0.05},
-      {"energy balance", "%", 0, 0.3}}},
+      {"pressure at rest, r.m.s.", "GPa", 1.36, 0.15}}},
+    {"copper bar, 190 m/s, linear", FINER, laws_bar_copper, true, {1},
+     {{"height", "mm", 16.125, 0.16}, {"radius", "mm", 6.751, 0.1}, {"plastic strain", "1", 1.66, 0.08},
+      {"pressure at rest, r.m.s.", "GPa", 0.3, 0.3}, {"energy balance", "%", 0, 0.3}}},
     {"Johnson-Cook copper bar, 190 m/s, gimp", MPM3D, laws_bar_johnson_cook, true, {0},
      {{"height", "mm", 17.09, 0.16}, {"radius", "mm", 7.03, 0.1}, {"temperature", "K", 546, 10},
       {"energy balance", "%", 0, 0.3}}},
@@ -100,7 +110,7 @@ static void laws_rows(const struct laws_case *c, const double *found, struct ben
     for (int k = 0; k < LAWS_FIGURES && c->asked[k].what; k++) {
         const struct laws_figure *f = &c->asked[k];
         const char *const verdict = laws_figure_holds(f, found[k]) ? "holds" : "MISSED";
-        printf("  %-43s %-27s %9.6g %9.6g %9.2g %-7s %s\n", c->name, f->what, f->expected, found[k], f->tolerance,
+        printf("  %-44s %-27s %9.6g %9.6g %9.2g %-7s %s\n", c->name, f->what, f->expected, found[k], f->tolerance,
                f->unit, verdict);
         bench_text(rows, c->name), bench_text(rows, f->what), bench_text(rows, f->unit);
         bench_number(rows, f->expected), bench_number(rows, found[k]), bench_number(rows, f->tolerance);
@@ -116,7 +126,7 @@ status bench_laws(bool quick)
     if (!quick) TRY(bench_scenes_needed("laws", needed, COUNT_OF(needed)));
     printf("laws: metals beside closed forms and published values\n");
     bench_print_machine(team_set_threads(0));
-    printf("  %-43s %-27s %9s %9s %9s\n", "", "", "expected", "found", "tolerance");
+    printf("  %-44s %-27s %9s %9s %9s\n", "", "", "expected", "found", "tolerance");
     bench_table_make(&rows, "", "case,figure,unit,expected,found,tolerance,verdict,source");
     for (int k = 0; k < laws_cases_count; k++) {
         const struct laws_case *c = &laws_cases[k];

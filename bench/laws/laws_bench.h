@@ -72,7 +72,8 @@ status laws_energy(const struct laws_case *c, double *found);
 
 /* ---- laws_bodies.c: bodies --------------------------------------------------------------------------------------- */
 
-/* Cases: bars that hit a wall (given: 0 gimp, 1 linear shapes), and bodies under static loads. */
+/* Cases: bars that hit a wall (given: 0 gimp, 1 linear shapes; 0 mean dilatations of cells, 1 own ones of the points),
+ * and bodies under static loads. */
 status laws_bar_wilkins(const struct laws_case *c, double *found);
 status laws_bar_copper(const struct laws_case *c, double *found);
 status laws_bar_johnson_cook(const struct laws_case *c, double *found);
