@@ -94,11 +94,18 @@ struct tip_surroundings {
     real half;    /* half of the damage of particles beside a plane cut [1] */
 };
 
-/* Returns the crack area created up to the last sample [m^2]. A crack that starts at a pre-crack counts with its growth
- * in strips one spacing wide along its front, without branches; with half of that if it lies in a plane of symmetry,
- * since half of its energy is in the modelled body. Any other crack counts with half the number of its particles times
- * the area of a particle. s: planes of symmetry and thickness. */
-real tips_crack_area(const struct crack_tips *t, const struct particles *p, const struct tip_surroundings *s);
+/* Area of cracks [m^2]. face: of one of both faces. own: the area whose energy is in the modelled body, which is half
+ * of the face of a crack in a plane of symmetry. */
+struct crack_area {
+    real face, own;
+};
+
+/* Returns the crack area created up to the last sample. The face of a crack that starts at a pre-crack is its growth in
+ * strips one spacing wide along its front, without branches. That of any other crack is half the number of its
+ * particles times the area of a particle; all of them in a plane of symmetry, beside which they are on one side. s:
+ * planes of symmetry and thickness. */
+struct crack_area tips_crack_area(const struct crack_tips *t, const struct particles *p,
+                                  const struct tip_surroundings *s);
 
 /* Frees the arrays of t. */
 void tips_free(struct crack_tips *t);

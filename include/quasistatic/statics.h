@@ -113,7 +113,8 @@ struct release_mark {
 struct steps_record {
     struct release_mark mark[2]; /* the release rate is computed from the growth since the first one */
     real released;               /* energy released until the last record [J] */
-    real area;                   /* crack area at the last record [m^2] */
+    real area;                   /* crack area at the last record, halved on planes of symmetry [m^2] */
+    real face;                   /* area of one face of the crack at the last record [m^2] */
     real rate;                   /* release rate of the last growth, 0 before any growth [J/m^2] */
     real broken;                 /* crack area by the number of broken bonds [m^2] */
     real load_most;              /* largest load size so far, under energy control [m, N] */

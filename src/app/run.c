@@ -51,6 +51,15 @@ static void print_breaks(const struct run *e)
         printf("  first bond broken of particles that a boundary drives: at %.4g s\n", w->driven_time);
 }
 
+/* Prints the energy that load steps released, and the area of the crack. */
+static void print_release(const struct steps_record *r)
+{
+    const bool beside_mirror = r->face > r->area;
+    printf("  released %.4g J%s over %.4g m^2 of new crack: %.4g J/m^2%s\n", r->released,
+           beside_mirror ? " on this side of the mirror" : "", r->face, r->released / r->area,
+           beside_mirror ? " on both sides" : "");
+}
+
 static void print_summary(const struct run *e, const char *folder, double wall)
 {
     const struct printable_name shown = printable_name(folder);
@@ -62,9 +71,7 @@ static void print_summary(const struct run *e, const char *folder, double wall)
     else
         printf("%lld steps of %.4g s, %.1f s\n", (long long)e->clock.step, e->clock.dt, wall);
     print_breaks(e);
-    if (in_steps && e->statics->record.area > 0)
-        printf("  released %.4g J over %.4g m^2 of new crack: %.4g J/m^2\n", e->statics->record.released,
-               e->statics->record.area, e->statics->record.released / e->statics->record.area);
+    if (in_steps && e->statics->record.area > 0) print_release(&e->statics->record);
     printf("  peridynamic particles: %.2f %% at the start, %.2f %% at the end\n",
            100.0 * (double)e->coupling->conversion.start / (double)e->part.n_body,
            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body);

@@ -97,10 +97,11 @@ bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_ti
     return on;
 }
 
-real tips_crack_area(const struct crack_tips *t, const struct particles *p, const struct tip_surroundings *s)
+struct crack_area tips_crack_area(const struct crack_tips *t, const struct particles *p,
+                                  const struct tip_surroundings *s)
 {
     int64_t first[TIPS_MAX + 1] = {0};
-    real area = 0;
+    struct crack_area area = {0};
     for (int k = 0; k < t->n; k++) first[k + 1] = first[k] + strips_of(t, &t->tip[k]);
     const int64_t deepest = strips_mark(t, p, s->half, first, 0, NULL) + 1;
     uint8_t *cell = NEW("tips.cell", first[t->n] * deepest, uint8_t);
@@ -109,10 +110,11 @@ real tips_crack_area(const struct crack_tips *t, const struct particles *p, cons
         const struct crack_tip *tip = &t->tip[k];
         const int64_t n = first[k + 1] - first[k];
         const real wide = t->dim == 3 ? front_width(tip, 3) / (real)n : s->section;
-        const real part = tip_grows_on_mirror_plane(t, tip, s->mirror, s->mirrors) ? 0.5 : 1;
+        const bool halved = tip_grows_on_mirror_plane(t, tip, s->mirror, s->mirrors);
+        real sides = tip->from_crack ? 0 : (real)tip->particles * pow(t->spacing, t->dim - 1) * s->section;
         for (int64_t b = first[k]; b < first[k + 1] && tip->from_crack; b++)
-            area += part * wide * t->spacing * (real)strip_length(cell + b * deepest, deepest);
-        if (!tip->from_crack) area += 0.5 * (real)tip->particles * pow(t->spacing, t->dim - 1) * s->section;
+            sides += (halved ? 1 : 2) * wide * t->spacing * (real)strip_length(cell + b * deepest, deepest);
+        area.own += 0.5 * sides, area.face += halved ? sides : 0.5 * sides;
     }
     memory_free(cell);
     return area;

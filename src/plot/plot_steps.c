@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "output/pictures.h"
+#include "output/summary_read.h"
 #include "plot/plot.h"
 #include "scene/scene_read.h"
 
@@ -284,14 +285,14 @@ static void release_send(FILE *to, const struct history *h, int area, int rate, 
     fputs("EOD\n", to);
 }
 
-/* Plots the energy release rate over the crack area, the mean rate [J/m^2], and the critical rates toughness[n] of the
- * materials as horizontal lines. rate: unit of the axis. */
+/* Plots the energy release rate over the crack area, the mean rate [J/m^2] unless it is NAN, and the critical rates
+ * toughness[n] of the materials as horizontal lines. rate: unit of the axis. */
 static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
 {
-    fprintf(to,
-            "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate', %.9g with lines lw 1.6 "
-            "dt (3,4) lc rgb '%s' title 'mean %.4g %s'",
-            curve_colour[0], mean / rate.factor, curve_colour[0], mean / rate.factor, rate.name);
+    fprintf(to, "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate'", curve_colour[0]);
+    if (isfinite(mean))
+        fprintf(to, ", %.9g with lines lw 1.6 dt (3,4) lc rgb '%s' title 'mean %.4g %s'", mean / rate.factor,
+                curve_colour[0], mean / rate.factor, rate.name);
     for (int k = 0; k < n; k++)
         fprintf(to, ", %.9g with lines lw 1.8 dt (10,6) lc rgb '%s' title 'G_c = %.4g %s'", toughness[k] / rate.factor,
                 curve_colour[1 + k], toughness[k] / rate.factor, rate.name);
@@ -300,15 +301,15 @@ static void release_plot(FILE *to, const double *toughness, int n, double mean, 
 
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h)
 {
-    const int area = history_find_column(h, "crack_area"), rate = history_find_column(h, "release_rate"),
-              released = history_find_column(h, "released");
+    const int area = history_find_column(h, "crack_area"), rate = history_find_column(h, "release_rate");
     const double grown = history_largest_magnitude(h, area);
     double toughness[TOUGHNESSES_SHOWN] = {0}, top = history_largest_magnitude(h, rate);
     struct gnuplot g;
     if (!(grown > 0)) return report_nothing_to_draw(sheet.path, "no crack has grown");
     const int n = toughnesses_of(folder, toughness);
     for (int k = 0; k < n; k++) top = fmax(top, toughness[k]);
-    const double mean = history_value_at(h, h->rows - 1, released) / history_value_at(h, h->rows - 1, area);
+    double mean; /* NAN before the run has ended */
+    (void)summary_read_number(folder, "load_steps.release_rate", &mean);
     top = fmax(top, mean);
     const struct unit square = unit_for_area(grown), joule = unit_for_largest_value(top, "J/m²");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));

@@ -36,9 +36,7 @@ enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
 
 /* ---- area of a crack increment ----------------------------------------------------------------------------------- */
 
-/* Returns the share of the crack area that belongs to the body [1]: 1/2 if all cracks lie on planes of symmetry, else
- * 1. d: only planes perpendicular to axis d are considered; -1: all planes. */
-static real symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d)
+real crack_symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d)
 {
     bool on = t->n > 0;
     for (int k = 0; k < t->n && on; k++) {
@@ -61,7 +59,7 @@ static real front_length(const struct crack_tips *t, const struct bond_source *s
     if (p->dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
         particles_coordinate_range(p, p->n, d, &low, &high);
-        length = real_min(length, (high - low + h) / symmetry_share(t, source, d));
+        length = real_min(length, (high - low + h) / crack_symmetry_share(t, source, d));
     }
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack) edges += 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3));
@@ -74,7 +72,13 @@ static real increment_area(const struct scene *s, const struct crack_tips *t, co
                            real front)
 {
     const real ahead = INCREMENT_SPACINGS * (s->dim > 1 ? s->spacing : 1);
-    return symmetry_share(t, source, -1) * ahead * scene_section_or_thickness(s) * front;
+    return crack_symmetry_share(t, source, -1) * ahead * scene_section_or_thickness(s) * front;
+}
+
+real crack_area_of_spacing(const struct run *e)
+{
+    const struct crack_tips *t = &e->fracture->tips;
+    return increment_area(e->scene, t, &e->source, front_length(t, &e->source, &e->part)) / INCREMENT_SPACINGS;
 }
 
 /* Returns the number of pairs of bonds that may break between two equilibria: `steps.breaks` for each spacing of the

@@ -2,7 +2,16 @@
 #ifndef CLEAVE_CRACK_INCREMENT
 #define CLEAVE_CRACK_INCREMENT
 
+#include "fracture/tips.h"
 #include "run/run.h"
+
+/* Returns the share of the crack area whose energy belongs to the body [1]: 1/2 if all cracks t lie on planes of
+ * symmetry, else 1. d: only planes perpendicular to axis d are considered; -1: all planes. */
+real crack_symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d);
+
+/* Returns the area by which the cracks grow one spacing along their whole fronts [m^2], halved on planes of symmetry.
+ * Without a pre-crack the front in space is the shortest side of the body. */
+real crack_area_of_spacing(const struct run *e);
 
 /* Determines the next crack increment from trial equilibria, unless it is already known. Stores its bonds in
  * statics.next, its energies in statics.ahead, and the load size at which it is due in statics.due. Returns FAILED if

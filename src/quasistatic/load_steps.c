@@ -273,17 +273,15 @@ static status check_opening(const struct scene *scene, const struct particles *p
 }
 
 /* Returns REFUSED, with a message, if loads and supports do not depend on the pseudo-time, although the control (energy
- * or opening) scales them by it. */
-static status check_loads_grow(const struct run *e)
+ * or opening) scales them by it. quarter, half, whole: load sizes at these parts of the duration. */
+static status check_loads_grow(const struct scene *s, real quarter, real half, real whole)
 {
-    const real whole = e->scene->duration, size = statics_load_size(e, whole);
-    const real half = statics_load_size(e, 0.5 * whole), quarter = statics_load_size(e, 0.25 * whole);
-    if (e->scene->steps.control == CONTROL_LOAD || half != size || quarter != size) return OK;
+    if (s->steps.control == CONTROL_LOAD || half != whole || quarter != whole) return OK;
     return status_set(
         REFUSED,
         "steps.control: energy or opening requires loads or displacements that grow with pseudo-time, and all of this "
         "scene are constant; add time: {ramp: {until: %.3g s}} to the boundary that loads the body",
-        whole);
+        s->duration);
 }
 
 status statics_check_scene(const struct run *e)
@@ -291,7 +289,8 @@ status statics_check_scene(const struct run *e)
     const struct scene *s = e->scene;
     if (!scene_has_load_steps(s)) return OK;
     if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e->scene, &e->part));
-    TRY(check_loads_grow(e));
+    TRY(check_loads_grow(s, statics_load_size(e, 0.25 * s->duration), statics_load_size(e, 0.5 * s->duration),
+                         statics_load_size(e, s->duration)));
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
         if (!e->frame->choice[b].reference)
             return status_set(REFUSED,

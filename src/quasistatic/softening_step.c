@@ -14,6 +14,7 @@
 
 #include "account.h"
 #include "balance.h"
+#include "crack_increment.h"
 #include "load_size.h"
 #include "softening.h"
 #include "stretch_ratio.h"
@@ -28,7 +29,7 @@
 #define SOLVED_TO 0.1      /* residual of a solution with fixed k over that of the state before */
 #define SOLVED_LEAST 1e-3  /* largest residual of such a solution [1] */
 #define THROUGH 1e-2       /* share of the largest load size at which the body counts as severed */
-#define LENGTH_SHARE 0.25  /* crack growth of a load step by default [spacings] */
+#define STEP_SPACINGS 0.25 /* crack growth of a load step by default [spacings] */
 #define FIRST_SHARE 1e-3   /* share of the energy of a load step that the first one dissipates */
 enum { ITERATIONS_MOST = 400, TRIES_MOST = 5, GROWTHS_MOST = 200 };
 
@@ -148,8 +149,7 @@ static status step_try(struct run *e, real t, real spent)
     return OK;
 }
 
-/* Returns the smallest crack energy per area of the materials whose bonds soften [J/m^2]. */
-static real least_toughness(const struct scene *s, const struct bond_source *source)
+real softening_least_toughness(const struct scene *s, const struct bond_source *source)
 {
     real least = INFINITY;
     for (int m = 0; m < s->materials; m++)
@@ -158,30 +158,17 @@ static real least_toughness(const struct scene *s, const struct bond_source *sou
     return least;
 }
 
-/* Returns the area by which a crack grows in a load step by default [m^2]: LENGTH_SHARE spacings times the thickness,
- * in space times the shortest side of the body. */
-static real area_of_step(const struct scene *s, const struct particles *p)
-{
-    real shortest = INFINITY, low, high;
-    if (p->dim == 1) return LENGTH_SHARE * scene_section_or_thickness(s);
-    for (int d = 0; d < p->dim; d++) {
-        particles_coordinate_range(p, p->n, d, &low, &high);
-        shortest = real_min(shortest, high - low + s->spacing);
-    }
-    return LENGTH_SHARE * s->spacing * (p->dim == 2 ? scene_section_or_thickness(s) : shortest);
-}
-
 /* Under control by energy the first step ends where bonds begin to soften: on a coarse lattice that may be the largest
  * load, and the work over a step is computed from both its ends. If no equilibrium is found, bonds dissipate a half, a
  * quarter .. of the energy. */
 status softening_step(struct run *e, real t)
 {
     struct statics *s = e->statics;
-    const real toughness = least_toughness(e->scene, &e->source), given = e->scene->steps.energy;
+    const real toughness = softening_least_toughness(e->scene, &e->source), given = e->scene->steps.energy;
     const real before = bonds_fracture_energy(&e->bonds);
     const bool by_energy = e->scene->steps.control == CONTROL_ENERGY;
     if (by_energy) t = e->scene->duration;
-    real spent = !by_energy ? INFINITY : given > 0 ? given : toughness * area_of_step(e->scene, &e->part);
+    real spent = !by_energy ? INFINITY : given > 0 ? given : STEP_SPACINGS * toughness * crack_area_of_spacing(e);
     if (before == 0) spent *= FIRST_SHARE;
     softening_settle(&e->bonds, &e->part, &e->source.limit);
     status tried = step_try(e, t, spent);

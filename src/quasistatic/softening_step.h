@@ -9,4 +9,7 @@
  * Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
 status softening_step(struct run *e, real t);
 
+/* Returns the smallest crack energy per area of the materials whose bonds soften [J/m^2], INFINITY without any. */
+real softening_least_toughness(const struct scene *s, const struct bond_source *source);
+
 #endif

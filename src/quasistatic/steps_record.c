@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "steps_record.h"
+#include "crack_increment.h"
 #include "sif_cracks.h"
 #include "load_size.h"
 #include "contact_set.h"
@@ -65,12 +66,15 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Returns the area of the crack faces along the paths of the SIF-driven tips [m^2]. */
-static real sif_paths_area(const struct sif_cracks *l, const struct particles *p)
+/* Returns the area along the paths of the SIF-driven tips. */
+static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct particles *p)
 {
-    real area = 0;
-    for (int64_t k = 0; k < l->segments; k++)
-        area += sif_plane_crack_area(&l->plane, p, l->path[k].at[0], l->path[k].at[1]);
+    struct crack_area area = {0};
+    for (int64_t k = 0; k < l->segments; k++) {
+        const real *from = l->path[k].at[0], *to = l->path[k].at[1];
+        const real own = sif_plane_crack_area(&l->plane, p, from, to);
+        area.own += own, area.face += own * (sif_plane_segment_is_on_mirror(&l->plane, from, to) ? 2 : 1);
+    }
     return area;
 }
 
@@ -85,15 +89,16 @@ static void measure(struct run *e)
     struct steps_record *r = &e->statics->record;
     const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section_or_thickness(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
-    const real path = sif_paths_area(&s->sif, &e->part),
-               spacing = growth_by_spacing(&e->fracture->tips, scene_section_or_thickness(e->scene));
-    const bool solid = e->part.dim == 3 && path == 0;
-    const real damaged = solid ? r->broken : tips_crack_area(&e->fracture->tips, &e->part, &around);
-    const bool by_path = path > 0 && damaged <= path + 1.5 * spacing;
-    const real area = by_path ? path : damaged, growth = by_path || solid ? 0 : GROWTH * spacing;
+    const struct crack_area path = sif_paths_area(&s->sif, &e->part);
+    const real spacing = growth_by_spacing(&e->fracture->tips, scene_section_or_thickness(e->scene));
+    const bool solid = e->part.dim == 3 && path.own == 0;
+    const struct crack_area bonds = {r->broken / crack_symmetry_share(&e->fracture->tips, &e->source, -1), r->broken},
+                            damaged = solid ? bonds : tips_crack_area(&e->fracture->tips, &e->part, &around);
+    const bool by_path = path.own > 0 && damaged.own <= path.own + 1.5 * spacing;
+    const real area = by_path ? path.own : damaged.own, growth = by_path || solid ? 0 : GROWTH * spacing;
     r->released = statics_energy_released(s, &e->bonds);
     if (!(area > r->area)) return;
-    r->area = area;
+    r->area = area, r->face = by_path ? path.face : damaged.face;
     r->rate = (r->released - r->mark[0].released) / (area - r->mark[0].area);
     if (area - r->mark[1].area < growth * (1 - 1e-9)) return;
     r->mark[0] = r->mark[1];
@@ -110,7 +115,7 @@ void statics_write_record(struct run *e, real *record)
     const real own[STATICS_COLUMNS - MODES - DIM_MAX] = {s->t,
                                                          s->stretch_ratio,
                                                          s->record.released,
-                                                         s->record.area,
+                                                         s->record.face,
                                                          rate,
                                                          bonds,
                                                          (real)(s->balance.directions - s->record.directions),

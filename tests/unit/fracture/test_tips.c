@@ -289,7 +289,7 @@ static void tip_of_a_front(void **state)
 }
 
 /* Crack area in 2D: both faces of five spacings from a pre-crack; an oblique path; a separate crack, half of whose
- * particles count; in a plane of symmetry half of the area. */
+ * particles count; in a plane of symmetry half of the area belongs to the body. */
 static void tips_area_in_the_plane(void **state)
 {
     (void)state;
@@ -299,17 +299,18 @@ static void tips_area_in_the_plane(void **state)
     const struct tip_surroundings around = {NULL, 0, 2, 0.2}, on = {&along, 1, 2, 0.2}, beside = {&across, 1, 2, 0.2};
     notched_make(&b, &t, 4);
     tips_update(&t, &b.p, &b.c, 0);
-    assert_near(tips_crack_area(&t, &b.p, &around), 0, 0);
+    assert_near(tips_crack_area(&t, &b.p, &around).face, 0, 0);
     for (real x = 10.5; x < 15; x++) hurt(&b, x, 10.5, 0), hurt(&b, x, 9.5, 0), hurt(&b, x, 11.5, 0);
     tips_update(&t, &b.p, &b.c, 1);
-    assert_near(tips_crack_area(&t, &b.p, &around), 2 * 5, ROUND_OFF);
-    assert_near(tips_crack_area(&t, &b.p, &on), 5, ROUND_OFF);
-    assert_near(tips_crack_area(&t, &b.p, &beside), 2 * 5, ROUND_OFF);
+    assert_near(tips_crack_area(&t, &b.p, &around).face, 2 * 5, ROUND_OFF);
+    assert_near(tips_crack_area(&t, &b.p, &on).own, 5, ROUND_OFF);
+    assert_near(tips_crack_area(&t, &b.p, &on).face, 2 * 5, ROUND_OFF);
+    assert_near(tips_crack_area(&t, &b.p, &beside).own, 2 * 5, ROUND_OFF);
     hurt(&b, 15.5, 12.5, 0), hurt(&b, 16.5, 13.5, 0);
     for (real x = 30.5; x < 33; x++) hurt(&b, x, 4.5, 0), hurt(&b, x, 3.5, 0);
     tips_update(&t, &b.p, &b.c, 2);
     assert_int_equal(t.n, 2);
-    assert_near(tips_crack_area(&t, &b.p, &around), 2 * (ceil(hypot(6.5, 3)) + 3), ROUND_OFF);
+    assert_near(tips_crack_area(&t, &b.p, &around).face, 2 * (ceil(hypot(6.5, 3)) + 3), ROUND_OFF);
     notched_free(&b, &t);
 }
 
@@ -329,7 +330,7 @@ static void tips_area_of_a_front(void **state)
         for (real x = 5.5; x < (z < 3 ? 8 : 6); x++) hurt(&b, x, 3.5, z), hurt(&b, x, 2.5, z);
     tips_update(&t, &b.p, &b.c, 0);
     const real strip = 2 * fabs(t.tip[0].edge[2]) / 6;
-    assert_near(tips_crack_area(&t, &b.p, &(struct tip_surroundings){NULL, 0, 1, 0.2}), (3 * 3 + 3 * 1) * strip,
+    assert_near(tips_crack_area(&t, &b.p, &(struct tip_surroundings){NULL, 0, 1, 0.2}).own, (3 * 3 + 3 * 1) * strip,
                 ROUND_OFF);
     notched_free(&b, &t);
 }
