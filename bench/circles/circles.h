@@ -17,7 +17,7 @@ struct circle_run;
 
 /* A specimen. text: its scene, whose spacing is the variable h, or NULL, with `path` that of a shipped scene. from, to:
  * corners of the body [m]; radius: of a disc round the origin, 0: a box. turned: an override beside those of the list
- * for a body whose lattice is turned by 45 degrees, or none. area: of the section through its middle [m^2]. measure:
+ * for a body whose lattice is turned, or none. area: of the section through its middle [m^2]. measure:
  * returns the figure of a run in the unit of its case from the output in `folder`; NAN: none. */
 struct circle_specimen {
     const char *name, *path, *text;
@@ -40,21 +40,26 @@ enum circle_specimens {
 };
 extern const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS];
 
-/* Largest number of spacings, and of overrides, of a case. */
-enum { CIRCLE_SPACINGS = 3, CIRCLE_OVERRIDES = 2 };
+/* Largest number of spacings, of turned lattices, and of overrides of a case. */
+enum { CIRCLE_SPACINGS = 4, CIRCLE_LATTICES = 2, CIRCLE_OVERRIDES = 2 };
 
 /* A circle with an expected value; a found value may differ by `tolerance`. Both in `unit`. surface: softening starts
  * by a strength surface (strengths of 40 and 1000 MPa), else by the stretch. set: overrides of the scene. spacing,
- * turned: spacings of the lattices along the axes and at 45 degrees [mm], the coarsest first, which is also run with
- * --quick; 0 ends the list. crack: length of the pre-crack [mm] that has to be three horizons for the expected value to
- * apply, 0: it always applies. why: reason for which there is no run, or NULL. */
+ * turned: spacings of the lattices along the axes and of the turned ones [mm], the coarsest first, which is also run
+ * with --quick; 0 ends the list. degrees: angles of the turned lattices, 0 ends the list. crack: length of the
+ * pre-crack [mm] that has to be three horizons for the expected value to apply, 0: it always applies. horizon: largest
+ * horizon over E G_c/strength^2 at which the expected value applies, 0: at any. why: reason for which there is no run,
+ * or NULL.
+ */
 struct circle_case {
     const char *circle, *figure, *unit;
     double expected, tolerance;
     enum circle_specimens specimen;
     bool surface;
     struct scene_override set[CIRCLE_OVERRIDES];
-    double spacing[CIRCLE_SPACINGS], turned[CIRCLE_SPACINGS], crack;
+    double spacing[CIRCLE_SPACINGS], turned[CIRCLE_SPACINGS];
+    int degrees[CIRCLE_LATTICES];
+    double crack, horizon;
     const char *why;
 };
 extern const struct circle_case circle_cases[];
@@ -62,19 +67,20 @@ extern const struct circle_case circle_cases[];
 /* Number of cases. */
 extern const int circle_cases_count;
 
-/* A run of a case. spacing [mm]; turned: is its lattice? found: its figure. table: receives a line after the run. */
+/* A run of a case. spacing [mm]; degrees: angle of its lattice; found: its figure. table: receives a line after the
+ * run. */
 struct circle_run {
     const struct circle_case *of;
     double spacing, found;
-    bool turned;
+    int degrees;
     struct bench_table *table;
 };
 
-/* Returns "holds" or "MISSED" by the tolerance of the case, or "-" for a pre-crack shorter than three horizons. */
+/* Returns "holds" or "MISSED" by the tolerance of the case, or "-" where its expected value does not apply. */
 const char *circle_verdict(const struct circle_run *r);
 
-/* Writes the particles of a body of the specimen to the file `path`, on a lattice that is turned by 45 degrees; columns
+/* Writes the particles of a body of the specimen to the file `path`, on a lattice that is turned by `degrees`; columns
  * x, y, volume. spacing [m]; the thickness is 1 mm. FAILED if the file cannot be written. */
-status circle_list_write(const char *path, const struct circle_specimen *s, double spacing);
+status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees);
 
 #endif

@@ -87,10 +87,10 @@ static const char notch[] =
 #define LOWER_LOAD \
     "{body_force: [0, -P/(0.5 mm)], region: {box: {from: [0, -6 mm], to: [5 mm, -5.5 mm]}}, " RAMP "}"
 
-/* Half of a strip 5 mm high with a long crack. Its grip is strained like the strip, which clamps its face exactly. */
+/* Half of a strip 5 mm high with a long crack, which grows 0.025 mm in each load step. Its grip is strained like the strip, which clamps its face exactly. */
 static const char pure_shear[] =
     "space: plane stress\nthickness: 1 mm\n" STATIC
-    "steps: {number: 16, control: energy, energy: 0.25 uJ}\nparticles: {spacing: h}\nvariables: {h: 0.1 mm}\n"
+    "steps: {number: 32, control: energy, energy: 0.125 uJ}\nparticles: {spacing: h}\nvariables: {h: 0.1 mm}\n"
     "body: {box: {from: [0, 0], to: [30 mm, 2.5 mm + 3*h]}}\n"
     "parts: [{region: {box: {from: [0, 1.5 mm], to: [30 mm, 4 mm]}}, material: grip}]\n"
     "cracks: [{from: [-1 mm, 0], to: [10 mm, 0]}]\n"
@@ -101,7 +101,7 @@ static const char pure_shear[] =
 /* Half of a double cantilever beam: 55 x 20 x 2.5 mm, a crack of 25 mm from the line of the loads. */
 static const char cantilever[] =
     "space: plane strain\nthickness: 2.5 mm\n" STATIC
-    "steps: {number: 12, control: energy}\nparticles: {spacing: h}\nvariables: {h: 0.1 mm}\n"
+    "steps: {number: 24, control: energy}\nparticles: {spacing: h}\nvariables: {h: 0.1 mm}\n"
     "body: {box: {from: [0, 0], to: [55 mm, 10 mm]}}\n"
     "parts: [{region: {box: {from: [0, 2 mm], to: [55 mm, 10 mm]}}, material: grip}]\n"
     "cracks: [{from: [-1 mm, 0], to: [25 mm + h/2, 0]}]\n"
@@ -167,7 +167,7 @@ static double notch_load(const char *folder, const struct circle_run *r)
  * weakens them break in any place. */
 static double short_notch_load(const char *folder, const struct circle_run *r)
 {
-    const double halves = r->turned ? 2 : 1;
+    const double halves = r->degrees ? 2 : 1;
     return r->of->expected * load_share(folder, "fracture", halves * CIRCLE_TOUGHNESS * 0.25e-3 * 1e-3);
 }
 
@@ -214,17 +214,18 @@ const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS] = {
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-status circle_list_write(const char *path, const struct circle_specimen *s, double spacing)
+status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees)
 {
     char *text = NULL;
     size_t length = 0;
+    const double along = cos(degrees * M_PI / 180), across = sin(degrees * M_PI / 180);
     const int most = (int)ceil(hypot(s->to[0] - s->from[0], s->to[1] - s->from[1]) / spacing);
     FILE *to = memory_stream_open(&text, &length);
     if (!to) return status_set(FAILED, "cannot write %s: out of memory", path);
     fprintf(to, "x,y,volume\n");
     for (int p = -most; p <= most; p++)
         for (int q = -most; q <= most; q++) { /* no particle is on y = 0 */
-            const double x = M_SQRT1_2 * spacing * (p + 0.5 - q), y = M_SQRT1_2 * spacing * (p + 0.5 + q);
+            const double x = spacing * (along * (p + 0.5) - across * q), y = spacing * (across * (p + 0.5) + along * q);
             const bool in = x > s->from[0] && x < s->to[0] && y > s->from[1] && y < s->to[1];
             if (in && (s->radius == 0 || hypot(x, y) < s->radius))
                 fprintf(to, "%.17g,%.17g,%.17g\n", x, y, 1e-3 * spacing * spacing);
