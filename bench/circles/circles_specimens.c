@@ -87,7 +87,8 @@ static const char notch[] =
 #define LOWER_LOAD \
     "{body_force: [0, -P/(0.5 mm)], region: {box: {from: [0, -6 mm], to: [5 mm, -5.5 mm]}}, " RAMP "}"
 
-/* Half of a strip 5 mm high with a long crack, which grows 0.025 mm in each load step. Its grip is strained like the strip, which clamps its face exactly. */
+/* Half of a strip 5 mm high with a long crack, which grows 0.025 mm in each load step. Its grip is strained like the
+ * strip, which clamps its face exactly. */
 static const char pure_shear[] =
     "space: plane stress\nthickness: 1 mm\n" STATIC
     "steps: {number: 32, control: energy, energy: 0.125 uJ}\nparticles: {spacing: h}\nvariables: {h: 0.1 mm}\n"

@@ -20,6 +20,7 @@ struct pilot_wish {
     char figure[128];      /* figure of summary.json whose error is bounded; "": not given */
     double within, budget; /* largest relative error of this figure [1]; time for the runs [s] */
     double spacing;        /* given by the scene [m]; 0: not given */
+    double spacing_most;   /* largest one that suits the strengths of bonds that soften [m]; INFINITY: any */
     char model[16];        /* given by the scene; "": not given */
     bool at_rest;          /* the solver is not explicit */
     bool has_accuracy;     /* the scene has the key `accuracy` */

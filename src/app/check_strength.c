@@ -5,8 +5,6 @@
 #include "check_parts.h"
 #include "scene/scene_softening.h"
 
-#define FREE_OF_TRAPPING 2 /* kappa from which on the lattice hardly holds cracks back; measured */
-
 /* Energy that driven cracks dissipate beyond G_c, as bonds beside them soften, too [%], by kappa: measured by a
  * separate program of the same law, in the plane and, for bonds of the cubic lattice in plane strain, in 3D. */
 enum { EXCESSES = 5 };
@@ -14,17 +12,6 @@ static const struct {
     int n;
     real kappa[EXCESSES], excess[EXCESSES];
 } measured[2] = {{5, {2.1, 4.2, 8.3, 17, 33}, {2, 3, 5, 4, 7}}, {4, {1.2, 2.4, 4.7, 9.7}, {2, 4, 5.5, 12}}};
-
-/* Returns the horizon [m] at which the softening law of material m has the ratio kappa = (critical stretch/onset
- * stretch)^2 [1]. */
-static real horizon_of_ratio(const struct scene *s, const struct material *m, real kappa)
-{
-    const struct softening_curve curve = softening_curve_of(m->softening);
-    const struct softening_model model = scene_softening_model(s, m);
-    const real phi = kappa > 1 ? softening_model_strength(&curve, s->space, kappa, &model).tension : 1;
-    const real onset = m->tensile_strength / (material_uniaxial_tension_modulus(m, s->space) * phi);
-    return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
-}
 
 /* Prints the horizon of a scene, in E G_c/strength^2 of material m, too, if G_c is given. */
 static void say_horizon(const struct scene *s, const struct material *m)
@@ -58,7 +45,7 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
 {
     say_horizon(s, m);
     printf("; this strength needs less than %.4g m, and cracks run free of the lattice below %.4g m",
-           horizon_of_ratio(s, m, 1), horizon_of_ratio(s, m, FREE_OF_TRAPPING));
+           scene_softening_horizon(s, m, 1), scene_softening_horizon(s, m, FREE_OF_TRAPPING));
     if (s->dim > 1) say_excess(s, kappa);
     printf("\n");
 }
@@ -74,15 +61,13 @@ static void print_surface(const struct scene *s, const struct material *m)
     const struct softening_strength own =
         softening_curve_strength(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
     const real own_shear = isnan(own.shear) ? m->young * m->onset_stretch / (1 + m->poisson) : unit * own.shear;
-    const real strain = real_max(surface.tension / material_uniaxial_tension_modulus(m, s->space),
-                                 surface.shear * (1 + m->poisson) / m->young);
     printf("strength       %s: %.4g Pa in tension, %.4g Pa in equal biaxial tension, %.4g Pa in shear", m->name,
            surface.tension, surface.biaxial, surface.shear);
     if (s->dim == 3) printf(", %.4g Pa in hydrostatic tension", surface.hydrostatic);
     printf(", by a strength surface; strains are averaged over %.4g m (%d means over families)\n",
            horizon * sqrt(m->surface_means + 0.3), m->surface_means);
     say_horizon(s, m);
-    printf("; the surface needs less than %.4g m", horizon * square(m->onset_stretch / strain));
+    printf("; the surface needs less than %.4g m", scene_surface_horizon(s, m));
     if (surface.tension > unit) printf("; in tension bonds begin to soften by themselves at about %.4g Pa", unit);
     if (surface.shear > own_shear)
         printf("; shear falls short: bonds soften by themselves at about %.4g Pa", own_shear);

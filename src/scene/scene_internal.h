@@ -60,6 +60,8 @@ struct reader {
     const struct yaml_node *regions;  /* mapping of the named regions; NULL: none */
     const struct yaml_node *sections; /* mapping of the named plane sections of extrusions; NULL: none */
     const struct naming *naming;      /* innermost named region that is being read; NULL: none */
+    real *spacing_most; /* receives the largest spacing that suits all strengths [m], none of which is refused for the
+                         * present spacing; NULL: they are refused */
 };
 
 /* Returns zeroed memory that arena_free releases. */
@@ -456,6 +458,14 @@ status check_joined_bodies(struct reader *r, const struct yaml_node *root);
 /* Returns the critical stretch that follows from the energy release rate of a material, for the model, horizon and
  * space of the scene [1]. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
+
+/* Returns true if the reader accepts strengths at any spacing, and reduces the spacing that it reports to `most` [m].
+ */
+static inline bool note_largest_spacing(struct reader *r, real most)
+{
+    if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, most);
+    return r->spacing_most != NULL;
+}
 
 /* Sets m->onset_stretch, at which the bonds of material m begin to soften; m->critical_stretch must be set. n: the
  * material in the scene. REFUSED where bonds cannot soften, or where they break before the tensile strength is

@@ -38,6 +38,15 @@ static void set_stretches(const struct scene *s, struct material *m)
     }
 }
 
+real scene_softening_horizon(const struct scene *s, const struct material *m, real kappa)
+{
+    const struct softening_curve curve = softening_curve_of(m->softening);
+    const struct softening_model model = scene_softening_model(s, m);
+    const real phi = kappa > 1 ? softening_model_strength(&curve, s->space, kappa, &model).tension : 1;
+    const real onset = m->tensile_strength / (material_uniaxial_tension_modulus(m, s->space) * phi);
+    return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
+}
+
 /* Returns REFUSED if bonds of material m would break before its tensile strength is reached, or if the strength is
  * above a tenth of Young's modulus. m->onset_stretch must be set. n: node of the tensile strength. */
 static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
@@ -45,6 +54,9 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
     const struct scene *s = r->scene;
     const real strain = m->tensile_strength / material_uniaxial_tension_modulus(m, s->space);
     const real most = s->horizon * s->spacing * square(m->critical_stretch / strain);
+    const bool spacing_counts = !isnan(m->energy_release_rate);
+    if (spacing_counts && note_largest_spacing(r, scene_softening_horizon(s, m, FREE_OF_TRAPPING) / s->horizon))
+        return OK;
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
         return fault(r, n,
@@ -103,8 +115,8 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
     TRY(check_strength_size(r, table, m, strongest));
     const struct softening_model model = scene_softening_model(s, m);
     const real least = strength_rate_compute_onsets(m, s->space, &model);
-    if (least >= RATE_LEAST_RATIO) return OK;
     const real most = s->horizon * s->spacing * least / RATE_LEAST_RATIO;
+    if (least >= RATE_LEAST_RATIO || note_largest_spacing(r, most / s->horizon)) return OK;
     return fault(r, table,
                  "bonds of this horizon, %.4g m, break by the energy release rate before %.4g Pa, the strength at the "
                  "last rate; a horizon below %.4g m, particles.spacing below %.4g m, is expected",

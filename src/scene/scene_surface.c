@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "data/softening.h"
+#include "scene/scene_softening.h"
 #include "scene_internal.h"
 #include "scene_remedies.h"
 
@@ -65,6 +66,14 @@ static real characteristic_length(const struct scene *s, const struct material *
     return m->young * release_rate / square(m->tensile_strength);
 }
 
+real scene_surface_horizon(const struct scene *s, const struct material *m)
+{
+    const struct surface_strengths surface = material_surface_strengths(m, s->space);
+    const real strain = real_max(surface.tension / material_uniaxial_tension_modulus(m, s->space),
+                                 surface.shear * (1 + m->poisson) / m->young);
+    return s->horizon * s->spacing * square(m->onset_stretch / strain);
+}
+
 /* Returns REFUSED if the bonds of material m begin to soften by themselves before its surface is reached in tension.
  * n: the tensile strength in the scene. */
 static status check_first(struct reader *r, const struct yaml_node *n, const struct material *m)
@@ -74,6 +83,8 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
     const real own = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch *
                      softening_curve_strength(&curve, s->space, OWN_RATIO).tension;
     const real most = s->horizon * s->spacing * square(own / material_surface_strengths(m, s->space).tension);
+    const bool spacing_counts = !isnan(m->energy_release_rate);
+    if (spacing_counts && note_largest_spacing(r, scene_surface_horizon(s, m) / s->horizon)) return OK;
     if (most >= s->horizon * s->spacing) return OK;
     return fault(r, n,
                  "bonds of this horizon, %.4g m, soften by themselves at %.4g Pa, before the strength surface is "

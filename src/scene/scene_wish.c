@@ -43,11 +43,17 @@ static status accuracy_read(struct reader *r, const struct yaml_node *root, stru
 
 /* ---- the scene with a provisional method ------------------------------------------------------------------------- */
 
+/* A provisional method. soft_states: bonds that soften are those of a state-based model. */
+struct provisional_method {
+    const char *method;
+    bool soft_states;
+};
+
 /* Reads the scene in text[length] into s with the given method, and with provisional values for the other choices of
  * the pilot runs that contradict no key of the scene. spacing: used if the scene has none [m]. Returns REFUSED, with s
  * freed, if the scene is invalid. */
-static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s, const char *method,
-                               real spacing)
+static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s,
+                               const struct provisional_method *with, real spacing)
 {
     static const char *const dropped[] = {"accuracy", "pd.surface"};
     struct reader own = *r;
@@ -59,11 +65,12 @@ static status provisional_read(struct reader *r, const char *text, size_t length
         if (tree_find(root, dropped[k])) read = tree_apply_override(&own, root, dropped[k], "");
     const struct yaml_node *space = read == OK ? tree_find(root, "space") : NULL;
     const bool line = space && strcmp(space->text, "line") == 0,
-               bonds = read == OK &&
-                       (scene_material_gives(root, "yield_stress") || scene_material_gives(root, "viscosity"));
+               soft = read == OK && scene_material_gives(root, "tensile_strength"),
+               bonds = read == OK && ((soft && !with->soft_states) || scene_material_gives(root, "yield_stress") ||
+                                      scene_material_gives(root, "viscosity"));
     if (read == OK && !tree_find(root, "particles.spacing"))
         read = tree_apply_override(&own, root, "particles.spacing", number_write_shortest(number, spacing));
-    if (read == OK) read = tree_apply_override(&own, root, "method", method);
+    if (read == OK) read = tree_apply_override(&own, root, "method", with->method);
     if (read == OK) read = tree_apply_override(&own, root, "solver", "explicit");
     if (read == OK && !line && !bonds) read = tree_apply_override(&own, root, "model", "mospd");
     if (read == OK) read = scene_from_tree(&own, root);
@@ -73,20 +80,31 @@ static status provisional_read(struct reader *r, const char *text, size_t length
 }
 
 /* Reads the scene in text[length] into s with method adaptive, or with pd if adaptive is refused, as it is for joined
- * bodies. spacing: used if the scene has none [m]. Returns REFUSED, with s freed, if both are. */
+ * bodies, and then with bonds of a state-based model that soften, as a Poisson's ratio may require. spacing: used if
+ * the scene has none [m]. Returns REFUSED, with s freed, if all are. */
 static status provisional_read_any(struct reader *r, const char *text, size_t length, struct scene *s, real spacing)
 {
-    const status read = provisional_read(r, text, length, s, "adaptive", spacing);
-    return read == REFUSED ? provisional_read(r, text, length, s, "pd", spacing) : read;
+    static const struct provisional_method with[] = {{"adaptive", false}, {"pd", false}, {"pd", true}};
+    status read = REFUSED;
+    for (size_t k = 0; k < COUNT_OF(with) && read == REFUSED; k++)
+        read = provisional_read(r, text, length, s, &with[k], spacing);
+    return read;
 }
 
 /* Reads the scene in text[length] into s with a provisional method. given: true if the scene has a spacing; otherwise
- * it is read with 1 m first and then with a coarse spacing that resolves its lengths. Returns REFUSED if the scene is
- * invalid. */
-static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given)
+ * it is read with 1 m first and then with a coarse spacing that resolves its lengths. *most: receives the largest
+ * spacing that suits the strengths of all materials [m], INFINITY without strengths or if the scene has a spacing.
+ * Returns REFUSED if the scene is invalid. */
+static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given,
+                                real *most)
 {
-    TRY(provisional_read_any(r, text, length, s, 1));
-    const real spacing = given ? 0 : spacing_that_resolves(s);
+    *most = INFINITY;
+    r->spacing_most = given ? NULL : most;
+    const status first = provisional_read_any(r, text, length, s, 1);
+    r->spacing_most = NULL;
+    TRY(first);
+    real spacing = given ? 0 : spacing_that_resolves(s);
+    if (spacing > *most) spacing = spacing_that_fits_lattice(s, *most, true);
     if (spacing > 0) {
         scene_free(s);
         TRY(provisional_read_any(r, text, length, s, spacing));
@@ -109,7 +127,7 @@ status pilot_wish_read(struct reader *r, const struct yaml_node *root, const cha
     if (tree_find(root, "steps"))
         return fault(r, tree_find(root, "method"), "auto does not do load steps (steps); pd, or adaptive, is expected");
     TRY(accuracy_read(r, root, w));
-    TRY(provisional_scene(r, text, length, &w->provisional, given));
+    TRY(provisional_scene(r, text, length, &w->provisional, given, &w->spacing_most));
     if (given) w->spacing = w->provisional.spacing;
     if (model) snprintf(w->model, sizeof w->model, "%s", model->text);
     w->at_rest = solver && strcmp(solver->text, "explicit") != 0;

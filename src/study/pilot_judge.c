@@ -44,9 +44,9 @@ static double pilot_run_figure(const struct convergence_study *s, const char *na
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
-/* Finds the coarsest level whose run is accurate enough for the figure f and stores its spacing, accuracy and duration
- * in *c. If there is none, extrapolates the required spacing from the finest level, with the smallest order of
- * convergence that the means allow. c->spacing remains 0 if neither is possible. */
+/* Finds the coarsest level, not above the largest spacing, whose run is accurate enough for the figure f and stores its
+ * spacing, accuracy and duration in *c. If there is none, extrapolates the required spacing from the finest level, with
+ * the smallest order of convergence that the means allow. c->spacing remains 0 if neither is possible. */
 static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s,
                          const struct scalar_result_study *f)
 {
@@ -59,7 +59,7 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
         c->width = convergence_half_width(&f->c, value, 0.95);
         c->value = value, c->reached = c->width / size;
         const bool fixed = p->wish.spacing > 0 && level != s->own;
-        if (!(c->reached <= p->wish.within) || fixed) continue;
+        if (!(c->reached <= p->wish.within) || fixed || c->finest > p->wish.spacing_most) continue;
         c->spacing = c->finest, c->seconds = seconds, c->expected = c->reached, c->seen = true;
         return;
     }
@@ -73,7 +73,8 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     const double bias = f->c.bias / size, within = sqrt(square(p->wish.within) - square(bias));
     if (!(within > 0)) return;
     const double likely = isfinite(f->c.order_likely) ? f->c.order_likely - f->c.order_error : 0.5;
-    const double finer = pow(sqrt(square(c->reached) - square(bias)) / within, 1 / fmax(likely, 0.5));
+    const double reduction = fmax(square(c->reached) - square(bias), 0); /* a spacing above the largest may be enough */
+    const double finer = fmax(pow(sqrt(reduction) / within, 1 / fmax(likely, 0.5)), c->finest / p->wish.spacing_most);
     c->spacing = spacing_that_fits_lattice(&p->wish.provisional, c->finest / finer, false);
     const double loop = pilot_run_figure(s, "loop_seconds", level_run(s, 0)); /* the rest of wall_seconds is mostly the
                                                                                * start of the process */

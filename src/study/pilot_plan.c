@@ -122,7 +122,10 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
     if (w->spacing > 0)
         fprintf(out, "), the spacing (%.4g mm as given, and coarser)", spacing);
     else
-        fprintf(out, "), the spacing (it starts at %.4g mm; coarser and finer ones are run as well)", spacing);
+        fprintf(out, "), the spacing (it starts at %.4g mm; coarser and finer ones are run as well", spacing);
+    if (isfinite(w->spacing_most))
+        fprintf(out, ", at most %.4g mm is chosen, by tensile_strength", 1e3 * w->spacing_most);
+    if (!(w->spacing > 0)) fprintf(out, ")");
     fprintf(out, "%s\n", w->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
     if (w->at_rest)
         fprintf(out, "auto           the solver of this scene finds one equilibrium, in which no bond breaks; a crack "

@@ -51,6 +51,19 @@ for words in "pilot runs estimate the error of energy.kinetic; 5 % is allowed$" 
     holds "check says $words: $(cat out)" grep -q "^auto  .*$words" out
 done
 
+# Bonds that soften: whatever the accuracy, the spacing is below that of kappa 2, C l phi^2/(2 3.015), C = 4 pi/9, l = E G_c/strength^2 =
+# 0.4375 mm, phi 1.035, above which the lattice holds cracks back. A strength surface starts bonds before they soften by themselves below 0.139 mm.
+sed 's/^method: pd/method: auto/; /^particles:/d; s/^duration: .*/duration: 1 us/' "$root/inputs/strength_strip.yaml" >strip.yaml
+"$cleave" check strip.yaml >out 2>&1
+holds "auto with a strength: $(cat out)" grep -q "it starts at 0.1 mm; .*, at most 0.108[0-9]* mm is chosen, by tensile_strength)" out
+"$cleave" check strip.yaml -s materials.0.compressive_strength=1GPa >out 2>&1
+holds "auto with a surface: $(cat out)" grep -q "at most 0.046[0-9]* mm is chosen" out
+"$cleave" check strip.yaml -s particles.spacing=0.3mm >out 2>&1
+is "auto, a given spacing" $? 2
+"$cleave" run strip.yaml -o strip -q -s 'accuracy={of: energy.strain, within: 50 %, budget: 80 s}' >out 2>&1
+is "auto with a strength, a run: $(cat out)" $? 0
+between "its spacing" "$(awk '$1 == "spacing:" { print $2; exit }' strip/scene.yaml)" 1e-6 0.1084e-3
+
 # A plate with Poisson's ratio 0.2 under tension: sigma^2 V/(2 E), with state-based peridynamics or points, whichever is cheaper; without a
 # name the larger energy is evaluated.
 cat >plate.yaml <<'END'
