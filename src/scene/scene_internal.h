@@ -60,8 +60,7 @@ struct reader {
     const struct yaml_node *regions;  /* mapping of the named regions; NULL: none */
     const struct yaml_node *sections; /* mapping of the named plane sections of extrusions; NULL: none */
     const struct naming *naming;      /* innermost named region that is being read; NULL: none */
-    real *spacing_most; /* receives the largest spacing that suits all strengths [m], none of which is refused for the
-                         * present spacing; NULL: they are refused */
+    real *spacing_most; /* of note_largest_spacing; NULL: strengths that do not suit the spacing are refused */
 };
 
 /* Returns zeroed memory that arena_free releases. */
@@ -459,8 +458,8 @@ status check_joined_bodies(struct reader *r, const struct yaml_node *root);
  * space of the scene [1]. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
-/* Returns true if the reader accepts strengths at any spacing, and reduces the spacing that it reports to `most` [m].
- */
+/* Reduces *r->spacing_most, unless r->spacing_most is NULL, to `most`, the largest spacing that suits a strength [m].
+ * Returns true if it is not NULL: then no strength is refused for the present spacing. */
 static inline bool note_largest_spacing(struct reader *r, real most)
 {
     if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, most);
