@@ -470,12 +470,10 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
 /* Returns true if the run in `folder` consists of load steps. */
 bool run_has_load_steps(const char *folder);
 
-/* Draws the force over the displacement of each reaction probe and rigid body that bears a force, with its peak marked,
- * to the file `sheet`. title: heading of the picture; h: history of the run; scene: scene as run, may be NULL;
- * in_steps: the run has load steps. If there is none or nothing moves, prints that instead, with the probe that is
- * missing. Returns FAILED if gnuplot fails. */
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, const struct scene *scene,
-                              bool in_steps);
+/* Draws the force over the displacement of each support and rigid body that bears a force, with its peak marked, to the
+ * file `sheet`. title: heading of the picture; h: history of the run; in_steps: the run has load steps. If there is
+ * none or nothing moves, prints that instead, with the probe that is missing. Returns FAILED if gnuplot fails. */
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps);
 
 /* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve), with lines at the
  * fracture energy G_c of the materials, to the file `sheet`. folder: folder of the run; title: heading of the picture;

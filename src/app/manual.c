@@ -121,7 +121,8 @@ static const struct entry files[] = {
     {"frames/particles_NNNNNN.h5", "what frames share; a frame that is copied without it cannot be opened", NULL},
     {"frames.xdmf", "the same for other readers", NULL},
     {"history.csv",
-     "one line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares of the particles by "
+     "one line per sample: energies, momentum, crack tip, probes, forces of supports; pd_share and mpm_share, shares "
+     "of the particles by "
      "method, and inactive_share, the share of them that rested, mean over the steps since the last sample; where "
      "nothing outside the bodies acts on them angular_momentum_z (in space _x and _y, too), about their centre of mass",
      NULL},

@@ -16,7 +16,7 @@
 #include "output/output_hdf5.h"
 
 enum { SCENE_LONGEST = 256 << 20 }; /* [byte] far more than the echo of any scene */
-enum { CHECKPOINT_VERSION = 18 };
+enum { CHECKPOINT_VERSION = 19 };
 static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint.previous.h5",
                   damaged_name[] = "checkpoint.damaged.h5";
 

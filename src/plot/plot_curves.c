@@ -232,7 +232,7 @@ static status draw_curves(const struct plot_request *r, const char *title, const
     TRY(draw_energy((struct sheet){energy.text, r->format}, title, s));
     TRY(sif_curves_draw(title, s));
     TRY(crack_paths_draw(r->folder, title, s));
-    TRY(load_displacement_draw((struct sheet){load.text, r->format}, title, s->h, r->projection.scene, in_steps));
+    TRY(load_displacement_draw((struct sheet){load.text, r->format}, title, s->h, in_steps));
     return in_steps ? r_curve_draw((struct sheet){r_curve.text, r->format}, r->folder, title, s->h) : OK;
 }
 

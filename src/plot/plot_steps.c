@@ -61,7 +61,7 @@ static double longest_of(const struct history *h, const struct components *c)
     return most;
 }
 
-/* A curve: force and displacement of a reaction probe. */
+/* A curve: force and displacement of a support or rigid body. A support at rest has no displacement (n = 0). */
 struct reaction {
     char name[NAME_MAX_LENGTH];
     struct components force, displacement;
@@ -118,9 +118,9 @@ static bool reactions_add_rigids(struct reactions *r, const struct history *h, b
     return moving;
 }
 
-/* Finds the curves of force over displacement: of reaction probes whose supports move, and of rigid bodies that move
- * under a force. If none moves, takes all of them and uses the displacement of the first point probe that moves. Stores
- * the largest force, and the largest displacement while there is a force. */
+/* Finds the curves of force over displacement: of supports that move, and of rigid bodies that move under a force. If
+ * none moves, takes all of them and uses the displacement of the first point probe that moves. Stores the largest
+ * force, and the largest displacement while there is a force. */
 static void reactions_find(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
@@ -133,7 +133,7 @@ static void reactions_find(struct reactions *r, const struct history *h)
                                  .displacement = components_of(h, name, ".", "displacement_")};
             const bool moves = longest_of(h, &a.displacement) > 0;
             moving |= moves;
-            if (a.displacement.n == 0 || (pass == 0 && !moves)) continue;
+            if (!(longest_of(h, &a.force) > 0) || (pass == 0 && !moves)) continue;
             memcpy(a.name, name, sizeof name);
             a.peak = peak_of(h, &a.force);
             r->of[r->n++] = a;
@@ -186,45 +186,22 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Returns the support of a scene whose force is the load: the first one that is driven, else the first one at rest;
- * NULL if there is none. s: may be NULL. */
-static const struct boundary *support_of(const struct scene *s)
+/* Prints why the load is not drawn. Prints nothing for a run in time without support and without a rigid body that
+ * bears a load. */
+static status say_missing_load(const char *path, const struct reactions *r, bool in_steps)
 {
-    const struct boundary *resting = NULL;
-    for (int k = 0; s && k < s->boundaries; k++) {
-        const struct boundary *b = &s->boundary[k];
-        if (b->kind != BOUNDARY_VELOCITY) continue;
-        if (!boundary_holds_at_rest(b, s->dim)) return b;
-        if (!resting) resting = b;
-    }
-    return resting;
-}
-
-/* Prints why the load is not drawn, and the probe that measures what is missing. s: scene as run, may be NULL. Prints
- * nothing for a run in time without support and without a rigid body that bears a load. */
-static status say_missing_load(const char *path, const struct reactions *r, const struct scene *s, bool in_steps)
-{
-    const struct boundary *support = support_of(s);
-    char why[256] = "";
     if (r->n > 0)
-        snprintf(why, sizeof why,
-                 "what bears the load does not move; a point probe where the body moves adds the displacement: probes: "
-                 "[{point: {at: [...]}}]");
-    else if (support)
-        snprintf(why, sizeof why, "no probe measures the load; this one does: probes: [{reaction: {boundary: %s}}]",
-                 support->name);
-    else if (in_steps)
-        snprintf(why, sizeof why, "neither a reaction probe nor a rigid body has a force");
-    return why[0] ? report_nothing_to_draw(path, why) : OK;
+        return report_nothing_to_draw(path, "what bears the load does not move; a point probe where the body moves "
+                                            "adds the displacement: probes: [{point: {at: [...]}}]");
+    return in_steps ? report_nothing_to_draw(path, "neither a support nor a rigid body has a force") : OK;
 }
 
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, const struct scene *scene,
-                              bool in_steps)
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps)
 {
     struct reactions r;
     struct gnuplot g;
     reactions_find(&r, h);
-    if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r, scene, in_steps);
+    if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r, in_steps);
     const struct unit newton = unit_for_largest_value(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, h, &r, newton, metre);

@@ -47,7 +47,7 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
         break;
     case PROBE_REACTION:
         columns_by_axis(s, q, "force_", dim, "N");
-        columns_by_axis(s, q, "displacement_", dim, "m");
+        if (!q->rests) columns_by_axis(s, q, "displacement_", dim, "m");
         break;
     case PROBE_POINT:
         for (int k = 0; k < particle_reading_count(p); k++) {
@@ -224,6 +224,42 @@ static status probe_bind(struct probe *q, const struct observed_run *o)
     }
 }
 
+/* Returns true if a REACTION probe measures the boundary called `boundary`. */
+static bool reaction_is_measured(const struct probes *s, const char *boundary)
+{
+    bool measured = false;
+    for (int k = 0; k < s->n; k++)
+        measured |= s->probe[k].request.kind == PROBE_REACTION && !strcmp(s->probe[k].request.boundary, boundary);
+    return measured;
+}
+
+/* Writes the name of the columns of a support to name[]: that of its boundary, preceded by `reaction_` if a probe of
+ * the scene has that name. */
+static void support_name(const struct probes *s, const char *boundary, char name[NAME_MAX_LENGTH])
+{
+    bool taken = false;
+    for (int k = 0; k < s->n; k++) taken |= strcmp(s->probe[k].request.name, boundary) == 0;
+    snprintf(name, NAME_MAX_LENGTH, "%s%.54s", taken ? "reaction_" : "", boundary);
+}
+
+/* Appends a REACTION probe for each boundary that prescribes a motion and that no probe of the scene measures, so that
+ * history.csv has the force of every support, and its displacement unless it rests. These probes have no figures. */
+static void supports_observe(struct probes *s, const struct observed_run *o)
+{
+    for (int k = 0; o->loads && k < o->loads->n; k++) {
+        const struct boundary *b = o->loads->load[k].boundary;
+        if (b->kind != BOUNDARY_VELOCITY || reaction_is_measured(s, b->name)) continue;
+        GROW("probes.probe", s->probe, s->n + 1);
+        struct probe *q = &s->probe[s->n];
+        *q = (struct probe){.of_history = true, .rests = boundary_holds_at_rest(b, o->part->dim)};
+        q->request.kind = PROBE_REACTION;
+        snprintf(q->request.boundary, NAME_MAX_LENGTH, "%s", b->name);
+        support_name(s, b->name, q->request.name);
+        s->n++;
+        columns_add(s, q, o->part);
+    }
+}
+
 status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed_run *o)
 {
     *s = (struct probes){.n = n};
@@ -240,6 +276,7 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
         }
         columns_add(s, q, o->part);
     }
+    supports_observe(s, o);
     s->value = NEW("probes.value", s->columns, real);
     s->sampled = NAN;
     return OK;
@@ -314,7 +351,7 @@ void probes_update_broken_bonds(struct probes *s, const struct observed_run *o)
 void probes_update_every_step(struct probes *s, const struct observed_run *o)
 {
     for (int k = 0; k < s->n; k++)
-        if (s->probe[k].request.kind == PROBE_REACTION) step_reaction(&s->probe[k], o);
+        if (s->probe[k].request.kind == PROBE_REACTION && !s->probe[k].of_history) step_reaction(&s->probe[k], o);
     probes_update_broken_bonds(s, o);
 }
 
@@ -340,6 +377,7 @@ static void probes_sample_energy(const struct probe *q, const struct observed_ru
 void probes_sample_begin(struct probes *s, const struct observed_run *o)
 {
     const int dim = o->part->dim;
+    real no_displacement[DIM_MAX];
     s->sampled = o->t;
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
@@ -349,7 +387,7 @@ void probes_sample_begin(struct probes *s, const struct observed_run *o)
             sample_tip(q, o, value);
             break;
         case PROBE_REACTION:
-            probe_reaction(q, o->loads, dim, value, value + dim);
+            probe_reaction(q, o->loads, dim, value, q->rests ? no_displacement : value + dim);
             break;
         case PROBE_POINT:
             particle_compute_readings(o, q->list[0], value);

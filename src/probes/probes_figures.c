@@ -404,6 +404,7 @@ void probes_visit_results(const struct probes *s, const struct observed_run *o,
         [PROBE_GROWTH] = figures_growth, [PROBE_RIGID] = figures_rigid,
     };
     for (int k = 0; k < s->n; k++) {
+        if (s->probe[k].of_history) continue;
         const real *sampled = s->sampled == o->t ? s->value + s->probe[k].first : NULL;
         figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o, sampled});
     }

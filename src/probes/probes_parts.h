@@ -43,6 +43,8 @@ struct sampled_motion {
 
 struct probe {
     struct probe_request request; /* its region is kept by reference */
+    bool of_history;              /* REACTION: added for a support that no probe of the scene measures; no figures */
+    bool rests;                   /* REACTION: of a support at rest, without columns of displacement */
     int first, columns;           /* index of its first column in the history; number of its columns */
     int64_t n;
     /* [n] particles of the region, the particle of the point, or those of stations, -1 outside the body */

@@ -407,7 +407,7 @@ const struct key keys[] = {
     KEY("probes.break.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(break)", "name in the results"),
     KEY("probes.break.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
     KEY("probes.reaction", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
-        "force and displacement of driven or held particles; in load steps of a load, too"),
+        "largest force of a support, in load steps of a load; its force over time is in history.csv without a probe"),
     KEY("probes.reaction.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(reaction)", "name in the results"),
     KEY("probes.reaction.boundary", KEY_NAME, UNIT_NONE, AT(probe_request, boundary), ANY, REQUIRED,
         "name of a boundary condition"),
