@@ -174,6 +174,13 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
  * (accuracy_store.c). */
 status accuracy_store_read(struct accuracy_plan *plan);
 
+/* Returns true if results/bench/accuracy.csv exists. */
+bool accuracy_store_exists(void);
+
+/* Reads the results of bench/accuracy/cost_accuracy.csv, the stored copy of the last complete measurement, which has
+ * neither parts of errors nor times on two threads. Returns FAILED if it cannot be read. */
+status accuracy_stored_read(struct accuracy_plan *plan);
+
 /* Appends the result of a point to results/bench/accuracy.csv and flushes the file. */
 status accuracy_store_append(const struct accuracy_entry *entry);
 

@@ -21,9 +21,9 @@ static const struct {
 
 /* Charts in a row, and at most; size of a chart, height of the heading of the page and of the space below the charts
  * [pixel]. */
-enum { COLUMNS = 3, CHARTS_MAX = 16, WIDTH = 480, HEIGHT = 380, HEADING = 64, FOOT = 16 };
+enum { COLUMNS = 3, CHARTS_MAX = 16, WIDTH = 480, HEIGHT = 380, HEADING = 88, FOOT = 16 };
 /* Margins of a chart [pixel]. */
-enum { LEFT = 84, RIGHT = 14, ABOVE = 40, BELOW = 58 };
+enum { LEFT = 92, RIGHT = 14, ABOVE = 40, BELOW = 58 };
 static const double asked[] = {0.05, 0.01}; /* errors at which methods are compared */
 
 /* The runs of a problem, and those of each class. */
@@ -101,11 +101,21 @@ static void chart_send(FILE *to, const struct chart *c, int number)
     memory_free(front);
 }
 
-/* Writes the title of the picture: on how many problems each class of methods is the cheapest for 5 % and 1 % error. */
+/* Writes one line of the heading, as label number `number`. above: distance from the upper edge [pixel]; height: of the
+ * picture [pixel]; font: as of gnuplot. */
+static void heading_line_write(FILE *to, int number, const char *text, double above, int height, const char *font)
+{
+    fprintf(to, "set label %d ", number);
+    gnuplot_quote(to, text);
+    fprintf(to, " at screen 0.5,%.5g center font '%s' textcolor rgb '#111111'\n", 1 - above / height, font);
+}
+
+/* Writes the heading of the picture: the question, and as answer on how many problems each class of methods is the
+ * cheapest for 5 % and 1 % error. */
 static void heading_write(FILE *to, const struct charts *p)
 {
-    char text[256];
-    int length = snprintf(text, sizeof text, "Which is cheapest?");
+    char text[256] = "";
+    int length = 0;
     for (size_t e = 0; e < COUNT_OF(asked); e++) {
         int wins[CLASSES + 1] = {0}; /* the last: no class reaches the error */
         for (int k = 0; k < p->n; k++) {
@@ -113,14 +123,14 @@ static void heading_write(FILE *to, const struct charts *p)
             wins[g < 0 ? CLASSES : g]++;
         }
         length += snprintf(text + length, sizeof text - (size_t)length,
-                           "%s %g %% error: pd on %d of %d problems, mpm %d, adaptive %d", e ? "; at" : " At",
+                           "%s %g %% error: pd on %d of %d problems, mpm %d, adaptive %d", e ? "; at" : "At",
                            100 * asked[e], wins[CLASS_PD], p->n, wins[CLASS_MPM], wins[CLASS_BOTH]);
         if (wins[CLASSES] > 0)
             length += snprintf(text + length, sizeof text - (size_t)length, ", none %d", wins[CLASSES]);
     }
-    fputs("set label 1 ", to);
-    gnuplot_quote(to, text);
-    fprintf(to, " at screen 0.5,%.5g center font ',15' textcolor rgb '#111111'\n", 1 - 30.0 / charts_height(p));
+    heading_line_write(to, 1, "Which is cheapest: peridynamics, material points, or both together?", 28,
+                       charts_height(p), "Liberation Sans:Bold,18");
+    heading_line_write(to, 2, text, 60, charts_height(p), ",15");
 }
 
 static void chart_plot(FILE *to, const struct charts *p, int number)
@@ -130,17 +140,21 @@ static void chart_plot(FILE *to, const struct charts *p, int number)
     const double x = number % COLUMNS * WIDTH, y = HEADING + number / COLUMNS * HEIGHT;
     fprintf(to,
             "set lmargin at screen %.6g\nset rmargin at screen %.6g\nset tmargin at screen %.6g\nset bmargin at screen "
-            "%.6g\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nset ylabel '%s' offset 0.2,0\nset xlabel '%s'\nset "
-            "title ",
+            "%.6g\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nset xlabel '%s'\nset label 3 '%s' at screen "
+            "%.6g,%.6g center rotate\nset title ",
             (x + LEFT) / width, (x + WIDTH - RIGHT) / width, 1 - (y + ABOVE) / height,
             1 - (y + HEIGHT - BELOW) / height, c->soonest, c->latest, 100 * c->least, 100 * c->most,
-            number % COLUMNS ? "" : "error [%]", number + COLUMNS < p->n ? "" : "loop time on one thread");
+            number + COLUMNS < p->n ? "" : "loop time on one thread", number % COLUMNS ? "" : "error [%]",
+            (x + 16) / width, 1 - (y + 0.5 * (HEIGHT + ABOVE - BELOW)) / height);
     gnuplot_quote(to, c->problem->title);
-    fprintf(to, "\nplot $all%d using 1:2 with points pt 7 ps 0.35 lc rgb '#cccccc' notitle", number);
+    fputs(" font 'Liberation Sans:Bold,14'\nplot ", to);
+    for (size_t e = 0; e < COUNT_OF(asked); e++)
+        fprintf(to, "%g with lines lw 1.2 dt (6,5) lc rgb '#999999' notitle, ", 100 * asked[e]);
+    fprintf(to, "$all%d using 1:2 with points pt 7 ps 0.35 lc rgb '#cccccc' notitle", number);
     for (int g = 0; g < CLASSES; g++)
         fprintf(to, ", $f%d_%d using 1:2 with linespoints lw 2 pt %s ps 0.9 lc rgb '%s' notitle", number, g,
                 class_of[g].symbol, class_of[g].colour);
-    fputs("\nunset label 1\n", to);
+    fputs("\nunset label 1\nunset label 2\nunset label 3\n", to);
 }
 
 /* Plots the legend in the first empty position among the charts, as a panel without axes. */
@@ -159,7 +173,8 @@ static void legend_plot(FILE *to, const struct charts *p)
         fprintf(to, "NaN with linespoints lw 2 pt %s ps 1.2 lc rgb '%s' title '%s', ", class_of[g].symbol,
                 class_of[g].colour, class_of[g].name);
     fputs("NaN with points pt 7 ps 0.6 lc rgb '#bbbbbb' title 'every run; lines join those that no other run of', "
-          "NaN with points pt 7 ps 0 lc rgb '#ffffff' title 'the same kind beats in both time and error'\n",
+          "NaN with points pt 7 ps 0 lc rgb '#ffffff' title 'the same kind beats in both time and error', "
+          "NaN with lines lw 1.2 dt (6,5) lc rgb '#999999' title '5 % and 1 % error'\n",
           to);
 }
 

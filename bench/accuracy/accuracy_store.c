@@ -10,6 +10,7 @@
 #include "output/output_files.h"
 
 #define STORE BENCH_FOLDER "/accuracy.csv"
+#define STORED "bench/accuracy/cost_accuracy.csv"
 #define HEADER                                                                                                         \
     "problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,particles,"   \
     "steps,stable,version,settings"
@@ -56,6 +57,41 @@ static void take_line(struct accuracy_result *r, const char *line, size_t key)
     r->particles = next_number(&at), r->steps = next_number(&at);
     r->stable = next_number(&at) > 0;
 }
+
+/* Reads the result of a point from a line of the stored table: error, time on one thread, particles and steps. key:
+ * length of the columns that identify the point. */
+static void take_stored_line(struct accuracy_result *r, const char *line, size_t key)
+{
+    const char *at = line + key;
+    *r = (struct accuracy_result){.known = true, .stable = true, .part = {NAN, NAN, NAN}, .seconds = {NAN, NAN}};
+    r->error = next_number(&at), r->seconds[0] = next_number(&at);
+    r->particles = next_number(&at), r->steps = next_number(&at);
+}
+
+/* Calls take(result, line, length of its key) for each line of text that has the columns of a point of the plan. */
+static void take_lines(struct accuracy_plan *plan, const char *text,
+                       void (*take)(struct accuracy_result *r, const char *line, size_t key))
+{
+    char key[256];
+    for (int k = 0; k < plan->n; k++) {
+        put_key(&plan->entry[k].point, key, sizeof key);
+        const size_t wanted = strlen(key);
+        for (const char *line = text; line; line = strchr(line, '\n'), line = line ? line + 1 : NULL)
+            if (strncmp(line, key, wanted) == 0) take(&plan->entry[k].result, line, wanted);
+    }
+}
+
+status accuracy_stored_read(struct accuracy_plan *plan)
+{
+    char *text;
+    size_t length;
+    TRY(file_read_whole(STORED, &text, &length));
+    take_lines(plan, text, take_stored_line);
+    memory_free(text);
+    return OK;
+}
+
+bool accuracy_store_exists(void) { return path_is_file(STORE); }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
@@ -136,16 +172,11 @@ status accuracy_store_write(const struct accuracy_plan *plan)
  * lines that belong to a point of the plan. FAILED if the file cannot be read or written. */
 status accuracy_store_read(struct accuracy_plan *plan)
 {
-    char *text, key[256];
+    char *text;
     size_t length;
-    if (!path_is_file(STORE)) return OK;
+    if (!accuracy_store_exists()) return OK;
     TRY(file_read_whole(STORE, &text, &length));
-    for (int k = 0; k < plan->n; k++) {
-        put_key(&plan->entry[k].point, key, sizeof key);
-        const size_t wanted = strlen(key);
-        for (const char *line = text; line; line = strchr(line, '\n'), line = line ? line + 1 : NULL)
-            if (strncmp(line, key, wanted) == 0) take_line(&plan->entry[k].result, line, wanted);
-    }
+    take_lines(plan, text, take_line);
     memory_free(text);
     return accuracy_store_write(plan);
 }

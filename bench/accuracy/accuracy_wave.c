@@ -126,7 +126,7 @@ static status accuracy_wave_measure(const struct accuracy_point *p, struct run *
 
 const struct accuracy_problem accuracy_wave = {
     .name = "wave",
-    .title = "plane waves, nu = 1/3",
+    .title = "plane waves, ν = 1/3",
     .error =
         "velocity over that of the wave, root mean square over a disc; split into the phase, in Gaussian radii ahead, "
         "and the amplitude in excess",

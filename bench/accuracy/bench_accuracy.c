@@ -156,11 +156,15 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
     return OK;
 }
 
-/* Writes tables, charts and overview page of the cost-accuracy table from the results that are known, without runs.
- * Returns the first status that is not OK. */
+/* Writes table and charts of the cost-accuracy table from the results that are known, without runs; if there are none,
+ * draws the charts of the stored table. Returns the first status that is not OK. */
 static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));
+    if (!accuracy_store_exists()) {
+        TRY(accuracy_stored_read(plan));
+        return accuracy_draw(plan);
+    }
     TRY(accuracy_store_read(plan));
     TRY(accuracy_table_write(plan));
     return accuracy_draw(plan);

@@ -140,9 +140,17 @@ particles,steps,stable,version,settings ] || fail "columns of accuracy.csv"
 for file in accuracy.json accuracy.md accuracy.png accuracy.svg accuracy_bar.png accuracy_bar.svg cost_accuracy.csv; do
     [ -s $file ] || fail "$file is missing"
 done
-grep -q 'Which is cheapest? At 5 % error: pd on [01] of 1 problems, mpm [01], adaptive [01]' accuracy.svg || fail "the picture does not answer its question"
+grep -q 'Which is cheapest: peridynamics, material points, or both together?' accuracy.svg || fail "the picture has no question"
+grep -q 'At 5 % error: pd on [01] of 1 problems, mpm [01], adaptive [01]' accuracy.svg || fail "the picture does not answer its question"
 rm accuracy.svg
 cd ../..
+
+# Without results the charts are drawn from the stored table, and no table is written.
+mkdir -p drawn/bench/accuracy
+cp "$measured" drawn/bench/accuracy
+(cd drawn && "$cleave" bench accuracy=chart >out) || fail "accuracy=chart of the stored table failed"
+grep -q 'At 5 % error: pd on [0-9]* of 11 problems' drawn/results/bench/accuracy.svg || fail "accuracy=chart of the stored table"
+[ ! -e drawn/results/bench/cost_accuracy.csv ] || fail "accuracy=chart writes a table without results"
 
 # The stored table has the form of bench/accuracy/cost_accuracy.csv, and is rewritten from known results without a run.
 [ "$(head -1 results/bench/cost_accuracy.csv)" = "$(head -1 "$measured")" ] || fail "columns of cost_accuracy.csv"
