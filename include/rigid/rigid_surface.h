@@ -23,8 +23,9 @@ void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int
                         const real *high);
 
 /* Computes the box in which a rigid body is shown between low[dim] and high[dim] [m]: its bounds, or, if it is
- * unbounded, the box of the particles, wider on all sides by 0.08 of its longest edge. low and high hold the box of the
- * particles at the call. Returns true if the body is bounded. */
+ * unbounded, the box of the particles, wider on all sides by 0.08 of its longest edge and extended to the nearest part
+ * of a body that is farther away. low and high hold the box of the particles at the call. Returns true if the body is
+ * bounded. */
 bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high);
 
 /* Releases the arrays of *s. */

@@ -166,11 +166,11 @@ static status read_fps(struct plot_words *w, const char *text)
     return option_read_count(&w->request.fps, "plot: --fps", text, 1, 240);
 }
 
-/* Reads the value of --size: 1200x800 [pixel] or 90mmx60mm. REFUSED unless both lengths are from 300 to 10000
- * pixels. */
+/* Reads the value of --size: 1200x800 [pixel] or 90mmx60mm. REFUSED unless the width is from 300 pixels (53 mm) and
+ * the height from 226 (40 mm) to 10000: a smaller picture has no space beside its letters. */
 static status read_picture_size(struct plot_words *w, const char *text)
 {
-    enum { LEAST = 300, MOST = 10000 };
+    enum { WIDTH_LEAST = 300, HEIGHT_LEAST = 226, MOST = 10000 };
     double size[2], factor = 1;
     char *end;
     size[0] = strtod(text, &end);
@@ -179,9 +179,10 @@ static status read_picture_size(struct plot_words *w, const char *text)
     size[1] = cross ? strtod(end + 1, &end) : 0;
     if (factor != 1) end = strncmp(end, "mm", 2) == 0 ? end + 2 : "?";
     for (int k = 0; k < 2; k++) size[k] *= factor;
-    if (!cross || *end || !(size[0] >= LEAST && size[1] >= LEAST && size[0] <= MOST && size[1] <= MOST))
+    if (!cross || *end || !(size[0] >= WIDTH_LEAST && size[1] >= HEIGHT_LEAST && size[0] <= MOST && size[1] <= MOST))
         return status_set(REFUSED,
-                          "plot: --size %s: WxH from 300x300 to 10000x10000 or WmmxHmm from 53mmx53mm is expected",
+                          "plot: --size %s: WxH from 300x226 to 10000x10000 or WmmxHmm from 53mmx40mm is expected; "
+                          "letters leave less no space",
                           printable_name(text).text);
     w->size.width = (int)size[0], w->size.height = (int)size[1];
     return OK;

@@ -23,6 +23,14 @@ bool run_has_load_steps(const char *folder)
     return in_steps;
 }
 
+/* Sets the distance of the tics of a horizontal axis from 0 to `high`, so far apart that their numbers do not touch. */
+static void write_horizontal_tics(FILE *to, const struct curves_layout *l, double high)
+{
+    const double letters = 2 + fmax(floor(log10(high)), 0); /* of the longest number, with a space */
+    const double pixels = l->width - l->left - l->right;
+    fprintf(to, "set xtics %.9g\n", tic_distance(high, pixels, 12 + 11 * letters));
+}
+
 /* ---- load over displacement -------------------------------------------------------------------------------------- */
 
 /* Columns of the components of a vector, for example NAME.force_x; n is 0 if the history has no such columns. since:
@@ -210,6 +218,7 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     curves_write_title(&g, title, "load and displacement");
     const struct curves_layout l = curves_layout_make(&g, 2 * r.n, longest, false);
     curves_write_margins(g.to, &l);
+    write_horizontal_tics(g.to, &l, 1.15 * r.displacement / metre.factor);
     curves_write_tics(g.to, "y", 0, r.force / newton.factor, curves_layout_inner_height(&l));
     fprintf(g.to, "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
             1.15 * r.displacement / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
@@ -298,6 +307,7 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
             "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack "
             "area [%s]'\n",
             1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
+    write_horizontal_tics(g.to, &l, 1.03 * grown / square.factor);
     curves_write_tics(g.to, "y", 0, top / joule.factor, curves_layout_inner_height(&l));
     release_plot(g.to, toughness, n, mean, joule);
     return gnuplot_close(&g);

@@ -142,7 +142,7 @@ function showOrigin() {
         page.kind === "run"            ? ". The result is the same to the last bit on any number of threads." :
             page.options === undefined ? ", with the options that it was given." :
             page.kind === "converge"   ? ". A machine of another speed may fit other runs into the budget." :
-                                         " (add the options --of of its picture)."));
+                                         "."));
 }
 
 // The command that repeats what the page shows.

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arrays.h"
 #include "base/memory.h"
 #include "base/memory_stream.h"
 #include "output/output_files.h"
@@ -146,6 +147,45 @@ void rigid_surface_free(struct rigid_surface *s)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Finds the point of the box low[dim] .. high[dim] [m] that is nearest to a region, among its corners, its centre and
+ * those of its edges and faces. Stores it in X[dim] [m] and returns the level set there [m]. */
+static real box_point_nearest(const struct region *shape, int dim, const real *low, const real *high, real *X)
+{
+    real least = INFINITY;
+    for (int k = 0; k < (dim == 2 ? 9 : 27); k++) {
+        real at[DIM_MAX];
+        int rest = k;
+        for (int d = 0; d < dim; d++, rest /= 3) at[d] = low[d] + 0.5 * (rest % 3) * (high[d] - low[d]);
+        const real value = region_level_set_value(shape, at, dim);
+        if (value >= least) continue;
+        least = value;
+        array_copy(X, at, dim, sizeof *X);
+    }
+    return least;
+}
+
+/* Extends the box low[dim] .. high[dim] [m] if a region lies outside it, so that the box holds the nearest part of the
+ * region, to a depth of some cells of the grid over the extended box: from the nearest point of the box along the
+ * gradient of the level set. longest: longest edge of the box [m]. */
+static void box_extend_to_region(const struct region *shape, int dim, real *low, real *high, real longest)
+{
+    real X[DIM_MAX] = {0}, gradient[DIM_MAX];
+    const real least = box_point_nearest(shape, dim, low, high, X), small = 1e-4 * longest;
+    const real layer = 4.0 / CELLS_SPACE * (least + longest);
+    if (!(least > 0) || !isfinite(least)) return;
+    for (int d = 0; d < dim; d++) {
+        real ahead[DIM_MAX], back[DIM_MAX];
+        array_copy(ahead, X, dim, sizeof *X), array_copy(back, X, dim, sizeof *X);
+        ahead[d] += small, back[d] -= small;
+        gradient[d] =
+            (region_level_set_value(shape, ahead, dim) - region_level_set_value(shape, back, dim)) / (2 * small);
+    }
+    for (int d = 0; d < dim; d++) {
+        const real reached = X[d] - (least + layer) * gradient[d];
+        low[d] = real_min(low[d], reached), high[d] = real_max(high[d], reached);
+    }
+}
+
 bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high)
 {
     real from[DIM_MAX], to[DIM_MAX], longest = 0;
@@ -155,6 +195,7 @@ bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high)
         low[d] = bounded ? from[d] : low[d] - RIGID_BESIDE * longest;
         high[d] = bounded ? to[d] : high[d] + RIGID_BESIDE * longest;
     }
+    if (!bounded) box_extend_to_region(shape, dim, low, high, longest);
     return bounded;
 }
 

@@ -124,6 +124,8 @@ refused "X:X,Y:Y" results/strip --crop 1mm:2mm
 refused "lower end" results/strip --crop 2mm:1mm,0:1mm
 refused "above 0" results/strip --magnify -3
 refused "WxH" results/strip --size 100
+refused "from 53mmx40mm" results/strip --size 52mmx60mm
+refused "from 53mmx40mm" results/strip --size 85mmx39mm
 refused "viridis" results/strip --colours rainbow
 refused "for films" results/strip --fps 10
 refused "magnified" --scene strip.yaml --magnify 3
@@ -314,6 +316,18 @@ holds "no axis for a share that stays the same" sh -c "! grep -a -q 'peridynamic
 sed -i 's/,0,1$/,0,0.5/' pressed/history.csv
 "$cleave" plot pressed -o shares/ >out 2>err
 holds "a share of all particles: its axis ends at 100 %" grep -a -q "set y2range \[0:104\]" all
+
+# Numbers of five digits below the axis of a column of a journal do not touch: tics every 5000 mm^2.
+mkdir grown
+cat >grown/history.csv <<'END'
+time [s],step,load_time [s],released [J],crack_area [m^2],release_rate [J/m^2]
+0,0,0,0,0,nan
+1,1,1,1,0.01,100
+2,2,2,2,0.019,110
+END
+: >all
+"$cleave" plot grown --size 85mmx70mm -o grown/ >out 2>err
+holds "tics of areas: $(cat err)" grep -a -q "^set xtics 5000$" all
 
 # The supports of a scene without probes bear the load; a run without supports has no such curve.
 "$cleave" run strip.yaml -q -o held2 -s 'boundary=[{name: grip, fixed: all, face: y-}, {name: jaw, velocity: [0, 1 m/s], face: y+}]' >out 2>err

@@ -186,6 +186,8 @@ END
 "$cleave" report asked -q
 whole asked/report.html
 repeated asked/report.html asked sweep
+holds "its options have the figures of the picture" grep -q '"options": ".*--of energy.kinetic --of crack.length_end' asked/report.html
+holds "and nothing else is to be added" sh -c "! grep -q 'add the options' asked/report.html"
 is "the columns of its table" "$(head -1 again/study/sweep.csv)" "$(head -1 asked/sweep.csv)"
 if command -v gnuplot >/dev/null; then
     holds "pictures of the same figures" cmp -s again/study/pictures/map.png asked/pictures/map.png

@@ -122,6 +122,29 @@ static void test_surface(void **state)
     }
 }
 
+/* A half-space beyond the box of the particles has a surface, on its face and as wide as the box; a box that it cuts
+ * stays as it is but for the margin of 0.08 of the longest edge, 5. */
+static void test_surface_of_a_plane_afar(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const real face = k == 0 ? -7.5 : -1.2;
+        struct solid below = {
+            .kind = SOLID_BOX, .from = {-INFINITY, -INFINITY, -INFINITY}, .to = {INFINITY, INFINITY, face}};
+        const struct region region = {.n = 1, .solid = &below};
+        real low[] = {-2, -2, -2}, high[] = {2, 3, 2};
+        struct rigid_surface s;
+        int on_face = 0;
+        assert_false(rigid_box_shown(&region, 3, low, high));
+        if (k > 0) assert_near(low[2], -2.4, 1e-12);
+        assert_near(high[1], 3.4, 1e-12);
+        rigid_surface_make(&s, &region, 3, low, high);
+        for (int64_t q = 0; q < s.points; q++) on_face += fabs(s.X[q * DIM_MAX + 2] - face) < 1e-3;
+        assert_true(on_face > 60); /* of at least 10 x 12 cells, without those at the rim */
+        rigid_surface_free(&s);
+    }
+}
+
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
 static const real rest[DIM_MAX] = {0, 0, 0};
@@ -344,10 +367,11 @@ static void test_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distance),    cmocka_unit_test(test_cavity),   cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_inertia),     cmocka_unit_test(test_tumbling), cmocka_unit_test(test_driven),
-        cmocka_unit_test(test_points_move), cmocka_unit_test(test_ramp),     cmocka_unit_test(test_kick),
-        cmocka_unit_test(test_record),      cmocka_unit_test(test_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_distance), cmocka_unit_test(test_cavity),
+                                       cmocka_unit_test(test_surface),  cmocka_unit_test(test_surface_of_a_plane_afar),
+                                       cmocka_unit_test(test_inertia),  cmocka_unit_test(test_tumbling),
+                                       cmocka_unit_test(test_driven),   cmocka_unit_test(test_points_move),
+                                       cmocka_unit_test(test_ramp),     cmocka_unit_test(test_kick),
+                                       cmocka_unit_test(test_record),   cmocka_unit_test(test_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
