@@ -130,8 +130,8 @@ static void parameter_add(struct keyword *k, char *field)
     word_plain(p->name, field);
 }
 
-/* Reads a keyword line into d->key and advances to the next line. The keyword continues on the next line after a
- * trailing comma. */
+/* Reads a keyword line into d->key and stops at its end, which messages name. The keyword continues on the next line
+ * after a trailing comma. */
 static void keyword_read(struct deck *d)
 {
     struct source *s = d->s;
@@ -144,9 +144,7 @@ static void keyword_read(struct deck *d)
         while (deck_field(s, field)) parameter_add(&d->key, field);
         int64_t last = s->at - 1;
         while (last > 0 && (s->text[last] == ' ' || s->text[last] == '\r')) last--;
-        more = s->at < s->length && last >= 0 && s->text[last] == ',';
-        source_next_line(s);
-        more = more && data_line(s);
+        more = s->at < s->length && last >= 0 && s->text[last] == ',' && data_line(s);
     } while (more);
 }
 
@@ -456,7 +454,9 @@ static status instance_read(struct deck *d)
         return source_report_fault(d->s, "an instance refers to part %.40s, which the file does not define",
                                    part ? part : "?");
     struct scope *p = &d->scope[scope];
-    if (p->placed) return source_report_fault(d->s, "part %.40s is in the assembly twice; once is expected", p->name);
+    if (p->placed)
+        return source_report_fault(d->s, "part %.40s is in the assembly twice; a part of its own for each is expected",
+                                   p->name);
     if (data_line(d->s)) {
         for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &shift[k]));
         source_next_line(d->s);
@@ -479,8 +479,8 @@ static status instance_read(struct deck *d)
  * invalid data, and for keywords that generate nodes or elements or include files. */
 static status keyword_follow(struct deck *d)
 {
-    static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "INCLUDE"};
-    const char *name = d->key.name;
+    static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"};
+    const char *name = d->key.name, *file = parameter(d, "INPUT");
     for (size_t k = 0; k < COUNT_OF(makers); k++)
         if (strcmp(name, makers[k]) == 0)
             return source_report_fault(
@@ -488,8 +488,9 @@ static status keyword_follow(struct deck *d)
                 name);
     const bool node = strcmp(name, "NODE") == 0, element = strcmp(name, "ELEMENT") == 0;
     const bool nset = strcmp(name, "NSET") == 0, elset = strcmp(name, "ELSET") == 0;
-    if ((node || element || nset || elset) && parameter(d, "INPUT"))
-        return source_report_fault(d->s, "keyword *%s includes another file; a single file is expected", name);
+    if (file && (node || element || nset || elset || strcmp(name, "INCLUDE") == 0))
+        return source_report_fault(d->s, "*%s reads %.60s; one file is expected: put the lines of %.60s here", name,
+                                   file, file);
     if (node) return nodes_read(d);
     if (element) return elements_read(d);
     if (nset || elset) return set_read(d, nset);

@@ -412,9 +412,11 @@ static void bad_abaqus(void **state)
                {" 3, 6, 5\n", "", "an element of a type with 4 nodes lists only 1"},
                {"CPS4R", "B31", "no elements that can fill a body, but others such as T3D2"},
                {"*NSET, NSET=left", "*NGEN", "*NGEN is not supported; a deck that lists all nodes"},
-               {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", "*NSET includes another file"},
+               {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x",
+                "*NSET reads x; one file is expected: put the lines of x here"},
+               {"*node, nset=all", "*Include, input=nodes.inc", ":4: *INCLUDE reads nodes.inc"},
                {"*NSET, NSET=left", "*NSET", "a set without a name"},
-               {"*node, nset=all", "*node, system=C", "coordinates in the system C"},
+               {"*node, nset=all", "*node, system=C", ":4: coordinates in the system C"},
                {"11, 11, 1\n", "1, 999999999, 1\n", "sets of more nodes or elements than the file holds"}};
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
         write_changed("bad.inp", flat, bad[k].from, bad[k].to);
