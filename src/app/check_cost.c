@@ -150,6 +150,7 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
             seconds = step.median * (double)e.clock.steps;
     }
     if (found) warnings_append_from(found, &e.warnings, 0);
+    memory_set_reuse(false);
     engine_free(&e);
     scene_free(&s);
     return seconds;
@@ -237,6 +238,7 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     if (make_other(&s, &e, &coarse, "method", "pd", false) == OK && time_steps(&e, &step) == OK)
         seconds = step.median / (double)e.part.n;
     memory_free(coarse.override);
+    memory_set_reuse(false);
     engine_free(&e);
     scene_free(&s);
     return seconds;

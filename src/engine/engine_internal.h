@@ -24,10 +24,6 @@ struct predecessor {
 status engine_make_from_predecessor(struct run *e, const struct scene *s, struct output *out,
                                     struct cells_without_particles hollow, struct predecessor *predecessor);
 
-/* Releases a run as engine_free does, but leaves its arrays in the store of released arrays (memory_set_reuse) if that
- * is in use. */
-void engine_free_keeping_memory(struct run *e);
-
 /* Replaces a run by one whose particles are those that the given refinement levels of mesh cells require, with the
  * state of the present run. level: refinement level of each mesh cell. Returns FAILED if this fails or a frame in
  * progress cannot be written. */

@@ -502,7 +502,7 @@ status engine_make(struct run *e, const struct scene *s, struct output *out)
     }
 }
 
-void engine_free_keeping_memory(struct run *e)
+void engine_free(struct run *e)
 {
     if (e->report && e->report->out)
         (void)output_wait_for_frame(e->report->out); /* the writer of frames still reads the particles */
@@ -515,10 +515,4 @@ void engine_free_keeping_memory(struct run *e)
     tables_free(&e->tables);
     warnings_free(&e->warnings);
     memset(e, 0, sizeof *e);
-}
-
-void engine_free(struct run *e)
-{
-    memory_set_reuse(false);
-    engine_free_keeping_memory(e);
 }

@@ -90,7 +90,7 @@ static status run_replace(struct run *e)
     }
     memory_archive_free(&parts);
     memory_free(before.now);
-    engine_free_keeping_memory(old);
+    engine_free(old);
     memory_free(old);
     return s;
 }
