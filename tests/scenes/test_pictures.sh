@@ -9,6 +9,7 @@ mkdir "$work/bin"
 printf '#!/bin/sh\nexec tee "%s/drawn" | "%s" "$@"\n' "$work" "$(command -v gnuplot)" >"$work/bin/gnuplot"
 chmod +x "$work/bin/gnuplot"
 PATH=$work/bin:$PATH
+small="--size 90mmx70mm"                  # a sixth of the usual pixels, where none is looked at
 cd "$work" || exit 1
 
 drawn() { holds "$1" grep -a -q -e "$2" drawn; }
@@ -134,14 +135,14 @@ refused "magnified" --scene strip.yaml --magnify 3
 "$cleave" plot results/strip -o default.png >out 2>err
 holds "where bonds break: damage" grep -q "damage of 5 frames" out
 "$cleave" run strip.yaml -q -o calm -s 'boundary=[{name: pull, traction: [0, 1 kPa], face: y+}]' >out 2>err
-"$cleave" plot calm >out 2>err
+"$cleave" plot calm $small >out 2>err
 made calm/pictures/damage.png
 made calm/pictures/field_von_mises.png
 "$cleave" plot calm -o default.png >out 2>err
 holds "where none breaks: the stress" grep -q "von_mises of 5 frames" out
 "$cleave" run strip.yaml -q -o bent -s method=mpm -s 'cracks=[]' -s 'bodies=[{name: plate, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}]' \
     -s 'materials=[{name: lead, young: 16 GPa, poisson: 0.4, density: 11000 kg/m^3, yield_stress: 5 MPa}]' >out 2>err
-"$cleave" plot bent --frames all >out 2>err
+"$cleave" plot bent --frames all $small >out 2>err
 made bent/pictures/field_plastic_strain.png
 made bent/pictures/last.png
 made bent/pictures/field_plastic_strain_000002.png
@@ -212,18 +213,18 @@ is "a picture of others" "$(cat photo.png)" mine
 is "nothing is drawn, and nothing removed" "$(cat photo.png)" mine
 for format in png svg pdf; do
     echo mine >"photo.$format"
-    "$cleave" plot results/strip --field speed -o "photo.$format" --overwrite >out 2>err
-    "$cleave" plot results/strip --field speed -o "photo.$format" >out 2>err
+    "$cleave" plot results/strip --field speed --times last -o "photo.$format" --overwrite >out 2>err
+    "$cleave" plot results/strip --field speed --times last -o "photo.$format" >out 2>err
     is "$format: a picture of cleave is replaced: $(cat err)" $? 0
 done
 "$cleave" plot --scene strip.yaml -o photo.svg >out 2>err
 is "by any picture of cleave" $? 0
 mkfifo pipe.png
 refused "no regular file" results/strip --field speed -o pipe.png
-"$cleave" plot results/strip --field speed -o full.png >out 2>err
+"$cleave" plot results/strip --field speed --times last -o full.png >out 2>err
 cp full.png before.png
 # A limit on the file length acts as a full disk: gnuplot's picture is truncated.
-(ulimit -f $(($(wc -c <full.png) / 1024)) && exec "$cleave" plot results/strip --field speed -o full.png) >out 2>err
+(ulimit -f $(($(wc -c <full.png) / 1024)) && exec "$cleave" plot results/strip --field speed --times last -o full.png) >out 2>err
 is "a picture that is cut short: exit status" $? 1
 is "a picture that is cut short: lines" "$(wc -l <err)" 1
 holds "a picture that is cut short: $(cat err)" grep -q "full.png" err
@@ -337,20 +338,20 @@ made held2/pictures/load_displacement.png
 holds "the support that moves" grep -a -q "title .jaw" all
 holds "not the one at rest" sh -c "! grep -a -q 'title .grip' all"
 "$cleave" run strip.yaml -q -o free -s 'boundary=[{traction: [0, 1 kPa], face: y+}]' >out 2>err
-"$cleave" plot free >out 2>err
+"$cleave" plot free $small >out 2>err
 holds "no support: no line" sh -c "! grep -q load_displacement out"
 
 # All pictures into a folder of -o, whether it is there or not; one picture into a file.
-"$cleave" plot held2 -o elsewhere >out 2>err
+"$cleave" plot held2 $small -o elsewhere >out 2>err
 is "plot -o FOLDER: $(cat err)" $? 0
 is "the pictures are those of DIR/pictures" "$(ls elsewhere)" "$(ls held2/pictures)"
-"$cleave" plot held2 -o else/where/ --format svg >out 2>err
+"$cleave" plot held2 $small -o else/where/ --format svg >out 2>err
 holds "in another format" test -s else/where/energy.svg
 holds "says where" grep -q "^pictures in else/where$" out
 echo mine >elsewhere/energy.png
 refused "energy.png" held2 -o elsewhere
 is "a picture of others" "$(cat elsewhere/energy.png)" mine
-"$cleave" plot held2 -o elsewhere --overwrite >out 2>err
+"$cleave" plot held2 $small -o elsewhere --overwrite >out 2>err
 is "plot -o FOLDER --overwrite: $(cat err)" $? 0
 holds "it is replaced" sh -c "head -c 4 elsewhere/energy.png | grep -q PNG"
 refused "a folder with / at its end" held2 -o a.folder
@@ -368,22 +369,22 @@ printf '\000\000\000\010free' >"$film"
 END
 chmod +x bin/ffmpeg
 mkdir 'a:%d'
-"$cleave" plot results/strip --field speed -o 'a:%d/film.mp4' >out 2>err
+"$cleave" plot results/strip --field speed $small -o 'a:%d/film.mp4' >out 2>err
 is "a film in a folder with a colon: $(cat err)" $? 0
 is "the film" "$(echo a:*/*)" "a:%d/film.mp4"
 is "it had all pictures" "$(grep -a -c IEND pictures)" 5
 holds "8 frames a second: $(cat words)" grep -q -e "-framerate 8 " words
-"$cleave" plot results/strip --field speed --fps 25 --frames 3 -o quick.mp4 >out 2>err
+"$cleave" plot results/strip --field speed --fps 25 --frames 3 $small -o quick.mp4 >out 2>err
 is "--fps: $(cat err)" $? 0
 holds "as many frames a second as asked for: $(cat words)" grep -q -e "-framerate 25 " words
 is "and as many frames" "$(grep -a -c IEND pictures)" 3
 refused "fps 0" results/strip --field speed --fps 0 -o none.mp4
-"$cleave" plot results/strip --field speed -o fail.mp4 >out 2>err
+"$cleave" plot results/strip --field speed --frames 2 $small -o fail.mp4 >out 2>err
 is "a film that fails: exit status" $? 1
 holds "and says why: $(cat err)" grep -q "^fail.mp4: ffmpeg made no film: broken: of the test$" err
 for signal in INT TERM HUP; do
     rm -f waits
-    env --default-signal=INT "$cleave" plot results/strip --field speed -o wait.mp4 >out 2>err &
+    env --default-signal=INT "$cleave" plot results/strip --field speed --frames 2 $small -o wait.mp4 >out 2>err &
     film=$!
     tries=0
     while [ ! -e waits ] && [ $tries -lt 200 ]; do sleep 0.02; tries=$((tries + 1)); done
