@@ -1,6 +1,7 @@
 #!/bin/sh
 # `method: auto`: pilot runs choose, within their budget, a method and spacing that reach the requested accuracy; the choice is stored, and
-# the scene as run states it without auto; impossible requests are reported.
+# the scene as run states it without auto; impossible requests are reported. Takes 25 s: each choice is made by runs of a scene with several
+# methods and spacings.
 test_name=test_pilot
 . tests/support/summary.sh
 case $cleave in /*) ;; *) cleave=$(pwd)/$cleave ;; esac

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Bonds that soften, from the command line: the strength of a strip of glass in tension, energy, equal bits on any number of threads and
 # after a checkpoint, a strip in compression, an adaptive run, scatter, what check prints, refusals.
+# Takes 30 s: a strip runs until it breaks in each of these cases.
 test_name=test_softening
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,6 +1,6 @@
 #!/bin/sh
 # A strength that grows with the strain rate, from the command line: a strip of glass pulled at three rates, energy, equal bits after the
-# echo and a checkpoint, what check prints, refusals.
+# echo and a checkpoint, what check prints, refusals. Takes 25 s: a strip runs until it breaks in each of these cases.
 test_name=test_softening_rate
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Bonds of ospd and mospd that soften, from the command line: strength of a strip, energy, equal bits on any number of threads and after a
 # checkpoint, what a crack dissipates, compression, a strip in plane strain, what check prints, refusals.
+# Takes 25 s: a strip runs until it breaks in each of these cases.
 test_name=test_softening_states
 . tests/support/summary.sh
 . tests/support/scenes.sh
