@@ -14,14 +14,16 @@ struct point_pair {
 /* Neighbouring material points of the grid that can come apart, found when they are first compared. */
 struct point_pairs {
     bool made;
+    bool pulled; /* the warning that pulled points bear too little has been printed */
     int64_t n;
     struct point_pair *pair; /* [n] owned */
 };
 
 /* Warns of neighbouring material points of metal, on the grid of the current frame, between which the cells are empty:
- * they share no nodes, and nothing holds them together; with linear shapes of those that are pulled apart. Does nothing
- * if the scene accepts large strains, and before the plastic strain of a point exceeds 0.02. cells: of the particles p;
- * t: present time [s]. Returns true if the warning has been printed. */
+ * they share no nodes, and nothing holds them together; with linear shapes and gimp of those that are pulled so far
+ * that they bear too little. Does nothing if the scene accepts large strains, and before the plastic strain of a point
+ * exceeds 0.02. cells: of the particles p; t: present time [s]. Returns true if the warning that points have come apart
+ * has been printed. */
 bool parted_points_say(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
                        const struct scene *s, real t, struct warnings *to);
 

@@ -302,20 +302,24 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
 }
 
 /* Stretches of metal bars in the current frame. Measured (inputs/choosing.md, Yielding): with linear shapes they bear
- * 12 to 45 % too little from 1.02 on; points come apart beside driven ones from 1.3 on. */
+ * 12 to 45 % too little from 1.02 on, with gimp 6 to 10 % from 1.4 on; points come apart beside driven ones from 1.3
+ * on.
+ */
 #define WEAK_LINEAR 1.02
+#define WEAK_GIMP 1.4
 #define PARTS_AT_GRIP 1.3
 
 /* Writes a remark if supports pull metal to `stretch` times its length [1], so far that the shapes of scene s make it
  * too weak, or part it. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
-    if (s->shape == SHAPE_LINEAR && stretch > WEAK_LINEAR)
+    const bool linear = s->shape == SHAPE_LINEAR, gimp = s->shape == SHAPE_GIMP;
+    if ((linear && stretch > WEAK_LINEAR) || (gimp && stretch > WEAK_GIMP))
         fprintf(
             out,
-            "accuracy       metal is pulled to %.3g times its length: with mpm.shape: linear it bears 12 to 45 %% too "
-            "little: use mpm.shape: cpgimp\n",
-            stretch);
+            "accuracy       metal is pulled to %.3g times its length: with mpm.shape: %s it bears %s %% too little: "
+            "use mpm.shape: cpgimp\n",
+            stretch, linear ? "linear" : "gimp", linear ? "12 to 45" : "6 to 10");
     if (stretch > PARTS_AT_GRIP)
         fprintf(
             out,

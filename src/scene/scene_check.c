@@ -183,7 +183,9 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
 
 /* Sets the default of time.safety, the ratio of the time step to the critical one: 0.5 if bonds can break, else 0.8.
  * Crack lengths and most crack angles are equal at both; in a scene close to two crack paths the path can change above
- * 0.3 to 0.5. root: tree of the scene, to see whether the key is given. */
+ * 0.3 to 0.5. Metals keep 0.8: at 0.5 they need 1.6 times the steps, and of the energy of taylor_bar 0.09 % are lost
+ * in place of 0.04 %; only bars shorter than two diameters gain (say_flow_error), and are told. root: tree of the
+ * scene, to see whether the key is given. */
 void resolve_safety_factor(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;

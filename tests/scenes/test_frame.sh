@@ -60,11 +60,19 @@ sed '/add:/d; s/to: \[20 mm, 6 mm\]/to: [32 mm, 6 mm]/; s/shape: cpgimp/shape: g
 is "metal: nothing is said" "$(cat "$work/whole.err")" ""
 "$cleave" run $metal -q -o "$work/weak" -s mpm.shape=linear 2>"$work/weak.err"
 holds "metal: linear shapes are said to be weak" grep -q 'metal pulled with mpm.shape: linear is too weak at t = .* pairs' "$work/weak.err"
+"$cleave" run $metal -q -o "$work/short" -s mpm.shape=gimp 2>"$work/short.err"
+holds "metal: gimp is said to be weak" grep -q 'metal pulled with mpm.shape: gimp is too weak at t = .* pairs .*1.4 times .*6 to 10 %.*cpgimp' "$work/short.err"
+"$cleave" run $metal -q -o "$work/little" -s mpm.shape=gimp -s duration=0.5ms 2>"$work/little.err" # a stretch of 1.25
+is "metal: of little stretch nothing is said" "$(cat "$work/little.err")" ""
+calm "$work/foot" tests/scenes/claims/short_bar.yaml -s time.safety=0.5 -s output.samples=400 # the foot of a bar spreads, and is not pulled
 "$cleave" run "$work/bar.yaml" -q -o "$work/apart" 2>"$work/apart.err"
 holds "metal: that it has come apart is said" grep -q 'metal has come apart without fracture at t = .* pairs .*use mpm.shape: cpgimp' "$work/apart.err"
 is "metal: said once" "$(grep -c 'come apart' "$work/apart.err")" 1
 "$cleave" run "$work/bar.yaml" -q -o "$work/meant" -s accept=[strain] 2>"$work/meant.err"
 is "metal: accepted" "$(cat "$work/meant.err")" ""
+holds "metal: check says that gimp is weak" grep -q 'accuracy .*metal is pulled to 1.6.* times its length: with mpm.shape: gimp .*cpgimp' <<END
+$("$cleave" check --no-trial "$work/bar.yaml")
+END
 holds "metal: check says it" grep -q 'accuracy .*metal is pulled to 1.6.* times its length' <<END
 $("$cleave" check --no-trial "$work/bar.yaml")
 END
