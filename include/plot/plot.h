@@ -355,6 +355,10 @@ struct colour rigid_colour(void);
 /* Extends the view v towards the rigid bodies of c. */
 void view_show_rigids(struct view *v, const struct plotted_particles *c);
 
+/* Returns true if a rigid body of c is in a picture of the rectangle of v: in outside views always, else if the body
+ * reaches into the plane of the picture, by 300 x 300 samples. */
+bool rigids_are_visible(const struct view *v, const struct plotted_particles *c);
+
 /* Paints the rigid bodies of c, seen in the rectangle of v, into pixel[height][width] of a flat map: of a plane body
  * behind the particles, of a slice in front of them. */
 void rigids_paint_flat(struct colour *pixel, int width, int height, const struct view *v,

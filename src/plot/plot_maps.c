@@ -378,7 +378,9 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
     draw_title(&g, &l, title, view->outside);
     if (map == MAP_KIND || map == MAP_FRAGMENT) draw_key(g.to, &l, map);
     if (map == MAP_CATEGORY) draw_categories(g.to, &l, view->categories);
-    if (cloud[0].rigids > 0) draw_rigid_key(g.to, &l, view, map);
+    bool rigid = false;
+    for (int k = 0; k < clouds; k++) rigid = rigid || rigids_are_visible(view, &cloud[k]);
+    if (rigid) draw_rigid_key(g.to, &l, view, map);
     struct unit second = unit_for_largest_value(cloud[clouds - 1].t, "s");
     for (int k = 0; k < clouds; k++) {
         plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);

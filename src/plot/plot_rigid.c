@@ -91,6 +91,21 @@ static void pixel_position(const struct plotted_particles *c, const struct view 
     for (int d = 0; d < 3; d++) x[d] = a * c->camera.right[d] + b * c->camera.up[d] + depth * c->camera.towards[d];
 }
 
+bool rigids_are_visible(const struct view *v, const struct plotted_particles *c)
+{
+    enum { SAMPLES = 300 };
+    const int size[2] = {SAMPLES, SAMPLES};
+    const double depth = c->normal < 0 ? 0 : c->layer * c->camera.towards[c->normal];
+    bool visible = c->rigids > 0 && c->position[2];
+    for (int b = 0; b < c->rigids && !visible; b++)
+        for (int64_t q = 0; q < (int64_t)SAMPLES * SAMPLES && !visible; q++) {
+            double x[3];
+            pixel_position(c, v, size, q, depth, x);
+            visible = level_at(&c->rigid[b], c->dim, x, false) <= 0;
+        }
+    return visible;
+}
+
 void rigids_paint_flat(struct colour *pixel, int width, int height, const struct view *v,
                        const struct plotted_particles *c)
 {

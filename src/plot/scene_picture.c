@@ -20,7 +20,7 @@
 enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
 enum { LEFT_NARROW = 74, RIGHT_NARROW = 18, ABOVE_NARROW = 44, BELOW_NARROW = 82, KEY_LINE_NARROW = 18 };
 enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90 };
-enum { RIGID_POINTS = 60000, RIGID_ACROSS = 12, TEXT_ROOM = 200 };
+enum { RIGID_POINTS = 60000, RIGID_ACROSS = 40, TEXT_ROOM = 200 };
 
 /* Brightness of peridynamic particles relative to material points of the same body; colour of rigid bodies. */
 static const double PERIDYNAMIC = 0.72;
@@ -357,7 +357,7 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     TRY(engine_make(e, s, NULL));
     TRY(scene_sheet(&path, s, r));
     scene_cloud(&c, e, &r->projection.camera);
-    const int64_t drawn = c.n;
+    const int64_t drawn = e->part.n;
     const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c);
     plotted_particles_free(&c);
     TRY(drew);

@@ -35,7 +35,8 @@ static real cut_level_set(const struct region *shape, const real *X, int dim, co
 }
 
 /* Makes a grid of nodes over the box low[dim] .. high[dim] [m] and computes the level set of the region `shape`, cut to
- * this box, at its nodes. The caller frees g->value and g->point. */
+ * this box, at its nodes. Half a cell more along an edge than a whole number keeps nodes off the faces of the box,
+ * where round-off would decide which side they are on. The caller frees g->value and g->point. */
 static void net_make(struct net *g, const struct region *shape, int dim, const real *low, const real *high)
 {
     real thinnest = INFINITY, longest = 0, nodes;
@@ -44,7 +45,7 @@ static void net_make(struct net *g, const struct region *shape, int dim, const r
         thinnest = real_min(thinnest, high[d] - low[d]);
         longest = real_max(longest, high[d] - low[d]);
     }
-    g->step = real_min(longest / (dim == 2 ? CELLS_PLANE : CELLS_SPACE), thinnest / THICKNESS_CELLS);
+    g->step = real_min(longest / (0.5 + (dim == 2 ? CELLS_PLANE : CELLS_SPACE)), thinnest / (0.5 + THICKNESS_CELLS));
     for (;; g->step *= 1.2) {
         nodes = 1;
         for (int d = 0; d < dim; d++) nodes *= ceil((high[d] - low[d]) / g->step) + 3;

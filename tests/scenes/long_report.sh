@@ -1,6 +1,6 @@
 #!/bin/sh
 # Pages of cleave report in a browser without network: Chromium opens them, moves the slider, changes fields; a screenshot shows the crack
-# where it is.
+# where it is, also that of Firefox where it is there.
 test_name=long_report
 . tests/support/summary.sh
 browser=
@@ -112,5 +112,21 @@ done
 between "screenshot: the crack begins at the edge" "$(cut -d' ' -f1 "$work/red0")" 0 0.02
 between "screenshot: and ends at its tip" "$(cut -d' ' -f2 "$work/red0")" 0.36 0.41
 between "screenshot: at the end it has grown" "$(cut -d' ' -f2 "$work/red8")" 0.6 1
+
+# Firefox, where it is there, shows the same crack.
+browser=
+for name in firefox-esr firefox; do [ -n "$browser" ] || browser=$(command -v $name || true); done
+for frame in 0 8; do
+    [ -n "$browser" ] || break
+    mkdir -p "$work/fox"
+    HOME=$work/fox timeout 300 "$browser" --headless --no-remote --profile "$work/fox" --window-size=1200,1500 --screenshot "$work/fox$frame.png" \
+        "file://$work/plate/report.html#frame=$frame" >/dev/null 2>&1
+    python3 "$work/pixels.py" "$work/fox$frame.png" >"$work/fox$frame" 2>&1
+done
+if [ -n "$browser" ]; then
+    between "Firefox: the crack begins at the edge" "$(cut -d' ' -f1 "$work/fox0")" 0 0.02
+    between "Firefox: and ends at its tip" "$(cut -d' ' -f2 "$work/fox0")" 0.36 0.41
+    between "Firefox: at the end it has grown" "$(cut -d' ' -f2 "$work/fox8")" 0.6 1
+fi
 
 finish

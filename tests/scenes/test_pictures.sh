@@ -111,6 +111,7 @@ if command -v xmllint >/dev/null; then holds "their file is XML" xmllint --noout
 is "plot with options: $(cat err)" $? 0
 holds "the range is that of the option" grep -q "colours from -1e+06 to 3e+06 Pa, some values beyond" out
 drawn "a size of a journal at twice the resolution" "pngcairo size 1020,792 .*fontscale 1.6 linewidth 2 pointscale 2"
+holds "no entry of a rigid body that is not in the picture" sh -c "! grep -a -q \"set label 'rigid'\" drawn"
 drawn "the rectangle" "set xrange \[4:12\]"
 drawn "and its height" "set yrange \[2:8\]"
 drawn "the ends of the colours" "set yrange \[-1:3\]"

@@ -43,7 +43,8 @@ def _values_of(frame: Any, name: str) -> Tuple[np.ndarray, str, str]:
 
 
 def _limits(values: np.ndarray, given: Any) -> Tuple[float, float]:
-    """Returns the ends of the colour bar: those given, else all values but the extremes, symmetric about 0 where both signs matter."""
+    """Returns the ends of the colour bar: those given, else all values but the extremes, from 0 where none is negative, symmetric
+    about 0 where both signs matter."""
     if given is not None:
         return float(given[0]), float(given[1])
     finite = values[np.isfinite(values)]
@@ -54,6 +55,8 @@ def _limits(values: np.ndarray, given: Any) -> Tuple[float, float]:
         low, high = finite.min(), finite.max()
     if low < 0 < high and min(-low, high) > 0.2 * max(-low, high):
         low, high = -max(-low, high), max(-low, high)
+    elif 0 <= finite.min() and low < 0.5 * high:
+        low = 0.0
     return float(low), float(high if high > low else low + 1.0)
 
 
