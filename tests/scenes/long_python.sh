@@ -43,7 +43,22 @@ particles: {spacing: 1 mm}
 initial: [{velocity_gradient: [1e4, 0, 0, 0, 0, 0, 0, 0, 0]}]
 output: {frames: 1, samples: 4}
 END
-for scene in plate bar block; do "$cleave" run "$work/$scene.yaml" -q -o "$work/$scene" || fail "the run of $scene"; done
+cat >"$work/pull.yaml" <<'END'
+space: plane stress
+thickness: 3 mm
+duration: 2 s
+method: pd
+solver: static
+steps: {number: 2}
+material: {young: 70 GPa, density: 2700}
+body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: wall, fixed: all, face: x-}
+  - {name: grip, displacement: [0.01 mm, free], time: {ramp: {until: 2 s}}, face: x+}
+output: {frames: 2}
+END
+for scene in plate bar block pull; do "$cleave" run "$work/$scene.yaml" -q -o "$work/$scene" || fail "the run of $scene"; done
 
 # ---- matplotlib --------------------------------------------------------------------------------------------------------
 
@@ -88,6 +103,11 @@ for field in ("displacement", "speed", "pressure", "principal_stress_1", "kind")
     plate.plot(field)
 _, panel = plt.subplots()
 assert plate.plot(ax=panel) is panel and frame.slice(y=0.5e-3).plot("damage", colour_bar=False) is not panel
+
+pull = cleave.open(sys.argv[1] + "/pull")
+assert pull.plot(magnify=10).get_title() == "load step 2, displacements times 10" and pull.probes["grip"]["force_x"][-1] > 0, "load steps"
+low, high = plate.plot("damage").collections[0].get_clim()
+assert low == 0 < high, "colours from 0: %g, %g" % (low, high)
 
 curve, = bar.plot("velocity_x", 0.0).lines
 assert curve.get_xdata().max() < 20.001 and set(np.round(curve.get_ydata(), 6)) == {0.0, 1.0}, "a bar, in mm"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
@@ -92,14 +93,21 @@ def _draw_line(frame: Any, name: str, ax: Any, magnify: float) -> Any:
     return ax
 
 
+def _when(frame: Any) -> str:
+    """Returns the time of a frame in words, or its load step: time means nothing there."""
+    if re.search(r"^solver: *static$", frame.scene, re.MULTILINE):
+        return "load step %d" % frame.step
+    factor, seconds = scale_of(frame.time, "s")
+    return "%.4g %s" % (frame.time * factor, seconds if frame.time > 0 else "s")
+
+
 def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: float = 1.0, limits: Any = None, colours: Optional[str] = None,
                colour_bar: bool = True, slice: Optional[Dict[str, float]] = None) -> Any:
     """Draws a field of a frame and returns the axes. Arguments: Run.plot."""
     need("matplotlib.pyplot", "plot")
     from matplotlib.collections import PolyCollection
     name, words, axes = _name_of(frame, field), [], (0, 1)
-    tau, seconds = scale_of(frame.time, "s")
-    words.append("%.4g %s" % (frame.time * tau, seconds if frame.time > 0 else "s"))
+    words.append(_when(frame))
     if slice is not None and frame.dimension < 3:
         raise ValueError("slice is for solids; this frame has %d dimension%s" % (frame.dimension, "s" * (frame.dimension > 1)))
     if frame.dimension == 1:
