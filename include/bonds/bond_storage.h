@@ -145,10 +145,10 @@ struct bond_column {
     real w;                /* weight of the intact bonds, if `alike` [1] */
     int32_t first;         /* copy of bonds.first */
     uint8_t intact;        /* bit l: the bond of lane l is intact */
-    uint8_t shell;  /* k: consecutive neighbours, with the lengths of shell_length[k] up to the round-off of positions;
-                       0: other lengths, or not consecutive */
-    uint8_t alike;  /* true: shell > 0, and intact bonds have one weight */
-    uint8_t unused; /* makes the size half a cache line */
+    uint8_t shell; /* k: consecutive neighbours, with the lengths of shell_length[k] up to the round-off of positions;
+                      0: other lengths, or not consecutive */
+    uint8_t alike; /* true: shell > 0, and intact bonds have one weight */
+    uint8_t begun; /* bit l: the bond of lane l has begun to soften; valid if the row block has (softened.begun) */
 };
 
 /* One column, common to all row blocks that follow a stencil. */
@@ -259,14 +259,17 @@ static inline struct bond_softness bond_softness_load(const struct softened *sof
 }
 
 /* Stores the state of the bond with index `bond`. */
-static inline void bond_softness_store(struct softened *softened, int64_t bond, struct bond_softness state)
+static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bond_softness state)
 {
-    softened->most[bond] = state.most, softened->onset[bond] = state.onset, softened->end[bond] = state.end;
-    if (softened->whole) softened->whole[bond] = state.whole;
+    struct bond_column *column = &b->common[bond / LANES];
+    const unsigned lane = 1U << bond % LANES;
+    b->soft.most[bond] = state.most, b->soft.onset[bond] = state.onset, b->soft.end[bond] = state.end;
+    if (b->soft.whole) b->soft.whole[bond] = state.whole;
+    column->begun = (uint8_t)(state.onset < SOFTENING_NEVER ? column->begun | lane : column->begun & ~lane);
 }
 
 /* State of an entry without a bond. */
-static const struct bond_softness bond_softness_none = {1, 1, 2, 0};
+static const struct bond_softness bond_softness_none = {SOFTENING_NEVER, SOFTENING_NEVER, 2, 0};
 
 /* Returns true if a bond of row block `row_block` (the bonds of eight particles) has begun to soften. */
 static inline bool row_block_has_softening(const struct bonds *b, int64_t row_block)

@@ -214,7 +214,7 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
     const struct softening_range range = {(float)c->range.onset, (float)c->range.end};
     const real stretch = bond_stretch_at_earlier_time(p, b->inverse_length[q], c->i, c->j, 0.5 * dt);
     bond_softness_store(
-        &b->soft, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end, (float)b->w[q]});
+        b, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end, (float)b->w[q]});
     if (!(stretch > range.onset) || b->soft.settled || b->soft.whole) return;
     const real kept = bond_remaining_stiffness_fraction(b, row / LANES, q, stretch);
     const real lost = 0.5 * square(stretch) * (1 - kept) -

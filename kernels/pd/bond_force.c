@@ -21,9 +21,9 @@
 
 /* Sums over the columns of a row block: positions x0, x1, x2 of its eight particles [m], forces on them over the
  * stiffness f0, f1, f2, and the largest (stretch) and smallest (press) stretch of their bonds [1]; where bonds soften,
- * the largest stretch less the end of the bond. */
+ * the largest stretch less the end of the bond, of bonds beyond the least limit of their row (trigger). */
 struct bond_sums {
-    lanes x0, x1, x2, f0, f1, f2, stretch, press;
+    lanes x0, x1, x2, f0, f1, f2, stretch, press, trigger;
 };
 
 /* Adds the forces of the eight bonds of column s to the sums of a row block, and updates largest and smallest stretch.
@@ -41,9 +41,11 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     const lanes inverse = lanes_inverse_square_root(distance2), w = column_weight(s);
     const lanes stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
     const lanes force = bonds_normalised_force(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
-    const lanes beyond =
-        model == PD_BOND_SOFT ? stretch - lanes_load_floats(s.b->soft.end + s.number * LANES) : stretch;
-    sum.stretch = column_max_of_intact_bonds(s, sum.stretch, beyond);
+    if (model != PD_BOND_SOFT)
+        sum.stretch = column_max_of_intact_bonds(s, sum.stretch, stretch);
+    else if (lanes_any_less(sum.trigger, stretch))
+        sum.stretch =
+            column_max_of_intact_bonds(s, sum.stretch, stretch - lanes_load_floats(s.b->soft.end + s.number * LANES));
     sum.press = column_min_of_intact_bonds(s, sum.press, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
@@ -69,7 +71,8 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
                             zero,
                             zero,
                             lanes_broadcast(-1),
-                            zero};
+                            zero,
+                            lanes_load(b->trigger + g * LANES)};
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
@@ -78,7 +81,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     if (dim > 2) row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
     *pressed = lanes_mask_any(sum.press < CORE_FROM - 1);
     if (b->soft.near && model != PD_BOND_SOFT && lanes_mask_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
-    return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : lanes_load(b->trigger + g * LANES)));
+    return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));
 }
 
 /* Computes the forces on the particles of row block g, repulsive cores included, and breaks its bonds beyond their

@@ -42,20 +42,24 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
 {
     const struct softening_curve *c = b->soft.curve;
     const lanes onset = lanes_load_floats(b->soft.onset + first_bond);
-    const lanes x = (largest_stretch - onset) / (lanes_load_floats(b->soft.end + first_bond) - onset);
+    const lanes span = lanes_load_floats(b->soft.end + first_bond) - onset, x = largest_stretch - onset;
+    const lanes scale = onset / (span * largest_stretch);
     lanes level = lanes_broadcast(0);
-    for (int k = 0; k < c->pieces; k++) level = lanes_max(level, c->level[k] - c->slope[k] * x);
-    return lanes_choose(stretch > 0.0, stretch * (onset * level / largest_stretch), stretch);
+    for (int k = 0; k < c->pieces; k++) level = lanes_max(level, c->level[k] * span - c->slope[k] * x);
+    return lanes_choose((stretch > 0.0) & (span > 0.0), stretch * (scale * level), stretch);
 }
 
 /* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices
  * `first_bond` to `first_bond` + 7 as their largest ones where they exceed these; in load steps the stored ones stay.
- */
+ * Does nothing if none of the eight has begun to soften. */
 static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch)
 {
-    const lanes before = lanes_load_floats(b->soft.most + first_bond), most = lanes_max(before, stretch);
-    if (b->soft.settled) return bonds_softened_stretch(b, first_bond, stretch, before);
-    if (lanes_mask_any(stretch > before)) lanes_store_floats(b->soft.most + first_bond, most);
+    lanes most = lanes_load_floats(b->soft.most + first_bond);
+    if (!b->common[first_bond / LANES].begun) return stretch;
+    if (!b->soft.settled && lanes_any_less(most, stretch)) {
+        most = lanes_max(most, stretch);
+        lanes_store_floats(b->soft.most + first_bond, most);
+    }
     return bonds_softened_stretch(b, first_bond, stretch, most);
 }
 
@@ -79,6 +83,7 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
 {
     if (model == PD_BOND_SOFT) {
         const lanes most = lanes_load_floats(b->soft.most + first_bond);
+        if (!b->common[first_bond / LANES].begun) return stretch;
         return bonds_softened_stretch(b, first_bond, stretch, b->soft.settled ? most : lanes_max(most, stretch));
     }
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + first_bond) : stretch;

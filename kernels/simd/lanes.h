@@ -28,7 +28,11 @@ static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to
 /* Returns the eight floats from address `from` on, which need not be aligned. */
 static ALWAYS_INLINE lanes lanes_load_floats(const float *from)
 {
+#ifdef __AVX512F__
+    return (lanes)_mm512_cvtps_pd(_mm256_loadu_ps(from));
+#else
     return __builtin_convertvector(*(const lanes_floats *)from, lanes);
+#endif
 }
 
 /* Stores the eight entries of a, rounded to floats, from address `to` on, which need not be aligned. */
@@ -197,6 +201,16 @@ static ALWAYS_INLINE bool lanes_mask_any(lanes_mask mask)
     int64_t any = 0;
     for (int l = 0; l < LANES; l++) any |= mask[l];
     return any != 0;
+#endif
+}
+
+/* Returns true if a < b in any lane. */
+static ALWAYS_INLINE bool lanes_any_less(lanes a, lanes b)
+{
+#ifdef __AVX512F__
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ) != 0;
+#else
+    return lanes_mask_any(lanes_less(a, b));
 #endif
 }
 

@@ -97,7 +97,7 @@ static void row_block_fill_softness(struct bonds *b, const struct row_block_buff
     b->soft.begun[g] = begun;
     for (int k = 0; k < b->column_count[g] && begun; k++)
         for (int l = 0; l < LANES; l++)
-            bond_softness_store(&b->soft, (b->column[g] + k) * LANES + l,
+            bond_softness_store(b, (b->column[g] + k) * LANES + l,
                                 buffer->column[k].inverse_length[l] == 0 ? bond_softness_none
                                                                          : buffer->row[l].soft[used[l]++]);
 }

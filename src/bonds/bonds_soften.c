@@ -68,7 +68,7 @@ void row_block_initialise_softening(struct bonds *b, const struct particles *p, 
     const int64_t first = bond_writable_index(b, g, 0, 0);
     for (int64_t q = first; q < first + b->column_count[g] * LANES; q++) {
         const int32_t i = b->particle[g * LANES + (q - first) % LANES];
-        bond_softness_store(&b->soft, q,
+        bond_softness_store(b, q,
                             b->inverse_length[q] == 0
                                 ? bond_softness_none
                                 : bond_softness_initial(bond_softening_range(p, limit, i, b->nbr[q])));
@@ -101,7 +101,7 @@ static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struc
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
-        bond_softness_store(&b->soft, bond.entry, bond_softness_load(&old->soft, q));
+        bond_softness_store(b, bond.entry, bond_softness_load(&old->soft, q));
         if (!b->soft.whole || !(b->soft.whole[bond.entry] > 0) || old->w[q] == 0) continue;
         b->w[bond.entry] = old->w[q];
         bond_changed_update_column(b, row, bond.entry);
@@ -127,7 +127,7 @@ static void pack_softness(struct bonds *b, struct bond_softness *packed, bool sa
             if (saving)
                 *packed = bond_softness_load(&b->soft, q);
             else
-                bond_softness_store(&b->soft, q, *packed);
+                bond_softness_store(b, q, *packed);
         }
 }
 

@@ -394,7 +394,7 @@ static void row_block_start(const struct evaluation *e, struct bonds *b, struct 
             const real least = real_min(own, start_of(e, bond.nbr));
             if (isinf(least) || isinf(bond_breaking_stretch(p, &e->source->limit, i, bond.nbr))) continue;
             if (!b->soft.begun[g]) row_block_initialise_softening(b, p, &e->source->limit, g);
-            bond_softness_store(&b->soft, bond.entry, bond_started(e, &bond, i, least));
+            bond_softness_store(b, bond.entry, bond_started(e, &bond, i, least));
             softness_mark_point(b, p, i);
         }
     }

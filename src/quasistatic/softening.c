@@ -94,8 +94,7 @@ static void settle_bond(struct bonds *b, const struct particles *p, const struct
         return;
     }
     b->soft.settled[q] = 0;
-    bond_softness_store(&b->soft, q,
-                        bond_softness_initial(bond_softening_range(p, limit, b->particle[row], bond->nbr)));
+    bond_softness_store(b, q, bond_softness_initial(bond_softening_range(p, limit, b->particle[row], bond->nbr)));
 }
 
 void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit)
