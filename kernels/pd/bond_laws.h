@@ -46,7 +46,7 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
     const lanes scale = onset / (span * largest_stretch);
     lanes level = lanes_broadcast(0);
     for (int k = 0; k < c->pieces; k++) level = lanes_max(level, c->level[k] * span - c->slope[k] * x);
-    return lanes_choose((stretch > 0.0) & (span > 0.0), stretch * (scale * level), stretch);
+    return lanes_choose((stretch > 0.0) & (onset < SOFTENING_NEVER), stretch * (scale * level), stretch);
 }
 
 /* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices
