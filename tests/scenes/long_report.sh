@@ -3,8 +3,7 @@
 # where it is, also that of Firefox where it is there.
 test_name=long_report
 . tests/support/summary.sh
-browser=
-for name in chromium chromium-browser google-chrome; do [ -n "$browser" ] || browser=$(command -v $name || true); done
+. tests/support/browser.sh
 [ -n "$browser" ] || { echo "no Chromium is there: pages are not opened"; exit 77; }
 command -v python3 >/dev/null || { echo "python3 is missing: pages not tested"; exit 77; }
 
@@ -26,23 +25,6 @@ END
 "$cleave" run inputs/bar_pulse.yaml -o "$work/bar" -q --report 2>/dev/null
 "$cleave" sweep "$work/plate.yaml" -s particles.spacing=2mm,1mm -s thickness=1mm,2mm -o "$work/sweep" -q 2>/dev/null
 "$cleave" report "$work/sweep" -q
-
-# chrome ARGUMENTS: Chromium without window and network.
-chrome()
-{
-    timeout 300 "$browser" --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$work/profile" --proxy-server=127.0.0.1:9 \
-        --window-size=1200,1500 --virtual-time-budget=30000 "$@" 2>"$work/console"
-}
-
-# seen NAME: what report_probe.js saw on the page of this run, in the file NAME.json.
-seen()
-{
-    { sed 's|<head>|&<script>const problems = []; for (const e of ["error", "securitypolicyviolation"]) addEventListener(e, (what) => problems.push(e + ": " + (what.message \|\| what.violatedDirective)), true); console.error = (what) => problems.push(String(what));</script>|' \
-        "$work/$1/report.html"; echo "<script>"; cat tests/scenes/report_probe.js; echo "</script>"; } >"$work/$1/probe.html"
-    chrome --dump-dom "file://$work/$1/probe.html" | tr -d '\n' | sed 's/.*SEEN \(.*\) END.*/\1/; s/&lt;/</g; s/&gt;/>/g; s/&amp;/\&/g' >"$work/$1.json"
-}
-# says NAME EXPRESSION: checks a condition on what was seen, s.
-says() { python3 -c "import json, sys; s = json.load(open('$work/$1.json')); sys.exit(0 if $2 else 1)" 2>/dev/null && pass || fail "$1: not $2: $(cut -c1-1500 "$work/$1.json")"; }
 
 for name in plate solid bar sweep; do
     seen $name

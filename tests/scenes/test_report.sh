@@ -48,6 +48,18 @@ is "report -o FOLDER/: exit status" $? 0
 holds "says the page" grep -q '^here/report.html: .* MB' out
 if command -v gnuplot >/dev/null; then holds "has the scene's picture" grep -q '"picture": {' here/report.html; fi
 
+# A browser, where one is there (more in long_report.sh): no error on its console, the slider moves, the crack shows damage, and not its stress.
+. "$root/tests/support/browser.sh"
+if [ -n "$browser" ]; then
+    mkdir profile
+    cp -r results/plate opened
+    seen opened
+    says opened "s['problems'] == [] and s['frames'] == 6 and s['shown_at_first'] == 5 and s['played_to'] == 5"
+    says opened "'frame 0' in s['when_first'] and s['column_added']"
+    says opened "s['crack_last'][0] - s['crack_last'][1] > 60 and s['whole_last'] == [226, 228, 231]"
+    says opened "s['field'] == 'von_mises' and max(s['crack_von_mises']) < 100 and s['whole_von_mises'] != [226, 228, 231]"
+fi
+
 # A folder whose name would end the script and begin another: no text of the page is markup.
 named="a</script><b>&\"'"
 mkdir 'a<'
