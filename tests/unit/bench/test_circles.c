@@ -54,33 +54,43 @@ static void each_circle_has_runs_or_a_reason(void **state)
     for (int k = 1; k <= 9; k++) assert_true(seen[k]);
 }
 
-/* A turned body is a square lattice of the spacing at 45 degrees, without particles on y = 0, and has the volume of the
- * body within a spacing round its edge. */
+/* Writes a specimen as a list of particles on a lattice of the spacing [m] that is turned by `degrees`, checks that the
+ * particles lie on the lattice and that none is on y = 0, and returns the sum of their volumes [m^3]. */
+static double volume_of_list(const struct circle_specimen *specimen, double spacing, int degrees)
+{
+    const double c = cos(degrees * M_PI / 180), s = sin(degrees * M_PI / 180);
+    char path[] = "/tmp/test_circles_XXXXXX", line[128];
+    const int file = mkstemp(path);
+    assert_true(file >= 0 && close(file) == 0);
+    assert_int_equal(circle_list_write(path, specimen, spacing, degrees), OK);
+    FILE *from = fopen(path, "r");
+    double x, y, volume, sum = 0;
+    assert_non_null(fgets(line, sizeof line, from));
+    assert_string_equal(line, "x,y,volume\n");
+    while (fscanf(from, "%lf,%lf,%lf", &x, &y, &volume) == 3) {
+        const double along = (c * x + s * y) / spacing, across = (c * y - s * x) / spacing;
+        assert_true(fabs(along - floor(along) - 0.5) < 1e-9);
+        assert_true(fabs(across - round(across)) < 1e-9);
+        assert_true(fabs(y) > (degrees == 45 ? 0.3 : 1e-4) * spacing);
+        sum += volume;
+    }
+    fclose(from), remove(path);
+    return sum;
+}
+
+/* A turned body has the volume of the body within a spacing round its edge. */
 static void turned_bodies_have_their_volume(void **state)
 {
     (void)state;
     const double spacing = 0.1e-3, thickness = 1e-3;
+    const int degrees[] = {20, 45};
     const enum circle_specimens specimen[] = {CIRCLE_STRIP, CIRCLE_DISC};
     const double area[] = {5e-3 * 12e-3, M_PI * 2.5e-3 * 2.5e-3};
-    for (int k = 0; k < 2; k++) {
-        char path[] = "/tmp/test_circles_XXXXXX", line[128];
-        const int file = mkstemp(path);
-        assert_true(file >= 0 && close(file) == 0);
-        assert_int_equal(circle_list_write(path, &circle_specimen[specimen[k]], spacing), OK);
-        FILE *from = fopen(path, "r");
-        double x, y, volume, sum = 0;
-        assert_non_null(fgets(line, sizeof line, from));
-        assert_string_equal(line, "x,y,volume\n");
-        while (fscanf(from, "%lf,%lf,%lf", &x, &y, &volume) == 3) {
-            const double across = (x - y) / sqrt(2) / spacing, along = (x + y) / sqrt(2) / spacing;
-            assert_true(fabs(across - round(across)) < 1e-9);
-            assert_true(fabs(along - floor(along) - 0.5) < 1e-9);
-            assert_true(fabs(y) > 0.3 * spacing);
-            sum += volume;
+    for (int k = 0; k < 2; k++)
+        for (int j = 0; j < 2; j++) {
+            const double volume = volume_of_list(&circle_specimen[specimen[k]], spacing, degrees[j]);
+            assert_true(fabs(volume / (area[k] * thickness) - 1) < 0.01);
         }
-        fclose(from), remove(path);
-        assert_true(fabs(sum / (area[k] * thickness) - 1) < 0.01);
-    }
 }
 
 int main(void)
