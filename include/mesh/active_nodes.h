@@ -6,17 +6,18 @@
 #include "data/mesh.h"
 #include "loads/loads.h"
 
-/* Updates the list of active blocks of nodes (those that computations include, as all others are at rest), after a
- * step: adds the neighbours of blocks whose nodes have moved. After active_nodes_activate_all the list is found anew,
- * from all blocks that move, have moving boundary conditions `l`, or have exposed points. */
+/* Updates the list of active blocks of nodes after a step. Computations include active blocks only, since the nodes of
+ * all others are at rest. Normally adds the neighbours of blocks whose nodes have moved. If active_nodes_activate_all
+ * was called before, finds the list anew: blocks that move, on which boundary conditions `loads` act, or that have
+ * exposed points (material points to which bonds or loads attach). */
 void active_nodes_update(struct mesh *mesh, const struct loads *loads);
 
 /* Adds the blocks of nodes around exposed points (material points to which bonds or loads attach) to those that
  * computations include, after new points have become exposed. */
 void active_nodes_add_exposed_points(struct mesh *mesh);
 
-/* Makes all blocks of nodes active, i.e. included in computations, until the next active_nodes_update; for use after
- * boundary conditions or cells have changed. */
+/* Makes all blocks of nodes active, i.e. included in computations, until the next active_nodes_update. To be called
+ * after boundary conditions or cells of the mesh have changed. */
 void active_nodes_activate_all(struct mesh *mesh);
 
 #endif

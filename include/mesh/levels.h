@@ -7,9 +7,10 @@
  *
  * Where levels L and L - 1 meet, the finer mesh has the unknowns:
  *
- *     ghost    node of the coarser mesh at the position of a node of the finer mesh: receives its motion and transfers
- * its own mass and forces to it hanging  node of the finer mesh in the middle of an edge or a face of a coarser cell:
- * moves with the mean of the 2 or 4 nodes (masters) at the corners and transfers its mass and forces to them
+ *     ghost    node of the coarser mesh at the position of a node of the finer mesh: receives the motion of the finer
+ *              node and transfers its own mass and forces to it
+ *     hanging  node of the finer mesh in the middle of an edge or a face of a coarser cell: moves with the mean of the
+ *              2 or 4 nodes (masters) at the corners and transfers its mass and forces to them
  *
  * so that momentum is exact and the operator symmetric. Forces of level L act every 2^L steps, as impulses 2^L times as
  * large (Verlet-I/r-RESPA: Grubmueller et al. 1991; Tuckerman, Berne & Martyna 1992); nodes that are no ghosts then
@@ -23,9 +24,9 @@
 
 enum { LEVELS_MAX = 4, MASTERS_MAX = 4 };
 
-/* Largest time step with coarse cells over the critical step. In a bar with three levels the amplitude grows from 1.48
- * spacings over wave speed on (by eigenvalues), against 2.00 without levels: impulses then have half the period of the
- * finest cells. */
+/* Largest ratio of the time step to the critical time step in a mesh with coarse cells [1]. The eigenvalues of a bar
+ * with three levels show that motion is unstable from a time step of 1.48 (spacing / wave speed) on, against 2.00
+ * without coarse cells: impulses of the coarser levels then have half the period of the finest cells, and resonate. */
 #define LEVELS_STEP_MOST 0.7
 
 struct mesh_ghost {
@@ -35,10 +36,12 @@ struct mesh_hanging {
     int32_t node, masters, master[MASTERS_MAX];
 };
 
-/* Level L > 0, and its interface with level L - 1. */
+/* Mesh of refinement level L > 0 (coarse cells without material points), and its interface with the next finer level L
+ * - 1. Ghosts are nodes of level L at positions of nodes of level L - 1, which determine their motion. Hanging nodes
+ * are nodes of level L - 1 in the middle of an edge or a face of a coarse cell, which determines their motion. */
 struct mesh_level {
     struct mesh mesh;
-    struct constrained_set held; /* its nodes on mirrors and in driven regions */
+    struct constrained_set held; /* nodes on mirrors and with prescribed motion */
     int64_t ghosts;
     struct mesh_ghost *ghost;
     int64_t hangings;
@@ -63,15 +66,16 @@ struct mesh_levels {
     struct mesh_level at[LEVELS_MAX + 1];
 };
 
-/* Why finer cells are required: not at all; a point may convert; a point has lost a bond and its conversion is
- * postponed. */
+/* Why a cell requires that the cells around it are of the finest level at the next change: it does not; a material
+ * point may soon convert to a peridynamic particle; a point has lost a bond and its conversion is postponed. */
 enum levels_wanted { WANTED_NOT, WANTED_STRESS, WANTED_LOST_BOND };
 
-/* Distance of a cell from coarse cells: less than safe_cells, less than roomy_cells, or more. */
+/* Class of the distance of a cell of the finest level from coarse cells: less than safe_cells, less than roomy_cells,
+ * or more (members of struct mesh_levels, in cells of the finest level). */
 enum levels_distance { DISTANCE_UNSAFE, DISTANCE_SAFE, DISTANCE_ROOMY };
 
-/* Returns the number of cells of a refinement level that compute forces. Level 0, the finest: cells that hold material
- * points and belong to no coarse cell. */
+/* Returns the number of cells of refinement level `level` that compute forces. On level 0, the finest, these are the
+ * cells that contain material points and belong to no coarse cell. */
 int64_t levels_count_cells(const struct mesh_levels *l, int level);
 
 /* Returns the mesh of a refinement level: level 0 the mesh with material points, higher levels coarse cells. The mesh
@@ -102,9 +106,10 @@ status levels_make(struct mesh_levels *l, int coarse_levels, struct mesh *fine, 
 /* Frees the arrays of l; the finest mesh stays with the caller. */
 void levels_free(struct mesh_levels *l);
 
-/* Sets two distances between a material point that converts and a coarse cell, in cells of level 0 (the finest):
- * `postpone_distance`, below which conversion is postponed, as forces of the point would reach the coarse cell;
- * `refine_distance`, below which finer cells are requested, as points near breaking bonds convert next. */
+/* Sets two distances between a coarse cell and a material point that shall become peridynamic, both in cells of level 0
+ * (the finest). postpone_distance: below it the conversion of the point is postponed, since its forces would reach the
+ * coarse cell; refine_distance: below it the coarse cell shall be split, since points near breaking bonds convert
+ * next. */
 void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
 
 /* Sets the inertia of coarse cells, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that waves
@@ -123,15 +128,15 @@ void levels_compute_coarsest_admissible(const struct mesh_levels *l, const struc
 
 /* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
  * present, the motion of the nodes inside is compared with the interpolation from its corners; if the energy of the
- * difference exceeds `max_energy` [J/kg], `highest_level` is set to one level less there. level, highest_level: a byte
- * for each cell of level 0, the finest. The motion of the nodes of level 0 must be up to date
- * (levels_prolong_motion_to_fine_nodes). Returns true if a limit was lowered. */
+ * difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` is set to one level less there.
+ * level, highest_level: a byte for each cell of level 0, the finest. The motion of the nodes of level 0 must be up to
+ * date (levels_prolong_motion_to_fine_nodes). Returns true if a limit was lowered. */
 bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *level, real max_energy,
                                     uint8_t *highest_level);
 
 /* Extends marks to complete coarse cells: if one cell of level 0 (the finest) in a coarse cell is marked, all cells of
- * level 0 in it become marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each
- * cell of level 0. */
+ * level 0 in it are marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each cell
+ * of level 0. */
 void levels_extend_marks_to_coarse_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
 
 /* Marks all cells of level 0 (the finest) within `reach` cells of a marked one, in all directions including diagonals.
@@ -146,15 +151,15 @@ void levels_dilate_marks(const struct mesh_levels *l, uint8_t *mark, int reach);
 void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                               const uint8_t *level);
 
-/* Changes the velocities of all nodes by the forces of half a step, to bring velocities and displacements of all levels
- * to the same time (dt > 0) or back again (dt < 0): velocities of level L are half a step of 2^L dt behind. elastic:
- * array of the elastic constants of all materials; finite: true if strains are finite, false if small; dt: time step of
- * level 0 [s]. */
+/* Changes the velocities of all nodes by the nodal forces of half a time step. Velocities of level L are half of its
+ * step 2^L dt behind its displacements: dt > 0 brings them to the same time, dt < 0 reverts this. elastic: array of the
+ * elastic constants of all materials; finite: true if strains are finite, false if small; dt: time step of level 0
+ * [s]. */
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
                                        bool finite, real dt);
 
-/* Copies displacement and velocity of finer nodes to all ghosts, the nodes of a coarser mesh at their positions. (A
- * time step does so only for the levels that it moves.) */
+/* Copies displacement and velocity to all ghosts (nodes of a coarser mesh at the position of a node of the next finer
+ * mesh) from these finer nodes. levels_move_nodes does so only for the levels that it moves. */
 void levels_copy_motion_to_ghosts(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
@@ -174,9 +179,9 @@ void levels_compute_forces(struct mesh_levels *l, const struct particles *p, con
                            int highest_level);
 
 /* Integrates the motion of the nodes of levels 0 (the finest) to `highest_level`, level L over 2^L steps. dt: time step
- * of level 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]; impulse, work: impulse [N s]
- * and work [J] of nodes with prescribed velocity, whose velocities must be set before, are added to these. Returns the
- * largest component of a nodal velocity [m/s]. */
+ * of level 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]. The velocities of nodes with
+ * prescribed velocity must be set before; the impulse [N s] and the work [J] at these nodes are added to `impulse` and
+ * *work. Returns the largest component of a nodal velocity [m/s]. */
 real levels_move_nodes(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX],
                        real *work);
 
@@ -187,25 +192,27 @@ real levels_kinetic_energy(const struct mesh_levels *l);
  * elastic constants of all materials; finite: true if strains are finite, false if small. */
 real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic, bool finite);
 
-/* Returns the difference between two kinetic energies of the nodes of all coarse levels in a leap-frog velocity update
- * [J]: the mean of 1/2 m v^2 before and after it, minus 1/2 m v_old . v_new, which leap-frog conserves. dt: time step
- * of level 0 [s]. */
+/* Returns by how much the mean kinetic energy of the nodes of all coarse levels exceeds the one that leap-frog
+ * conserves [J]: sum of m (v_old^2 + v_new^2)/4 - m v_old . v_new/2, with the velocities before and after the last
+ * update. dt: time step of level 0 [s]. */
 real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt);
 
-/* Returns the power of the forces on the nodes of all coarse levels, the sum of v . f times 2^L, the number of steps
- * for which forces of level L act [W]. */
+/* Returns the power of the forces on the nodes of all coarse levels [W]: the sum of 2^L v . f, with the level L of the
+ * node, its velocity v and its force f. Forces of level L act for 2^L steps at once. */
 real levels_power_of_forces(const struct mesh_levels *l);
 
-/* Lists the coarse cells of a level that contain cells without particles (particles that were never made, as they are
- * not needed). cell: receives the indices of the cells, NULL to count only. Returns their number. */
+/* Lists the coarse cells of level `level` (> 0) in which particles were never made, since coarse cells do not need
+ * them. cell: receives the indices of these coarse cells in ascending order, NULL to count only. Returns their
+ * number. */
 int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell);
 
-/* Returns true if the deformation has turned a coarse cell inside out; X then receives the reference position of its
- * first quarter point, dim components [m]. */
+/* Returns true if the deformation has turned a coarse cell inside out: the determinant of the deformation gradient is 0
+ * or negative at a point a quarter of the edge from its faces. X then receives the reference position of the first such
+ * point of the cell, dim components [m]. */
 bool levels_find_inverted_cell(const struct mesh_levels *l, real *X);
 
-/* Connects the levels to a finest mesh that has been rebuilt with other particles; coarse cells, their motion and
- * their levels are kept. source: material constants. */
+/* Connects the coarse levels to the finest mesh (l->fine) after it has been rebuilt with other particles p. Coarse
+ * cells, their motion and their levels are kept. source: material constants. */
 void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
 
 /* Saves the refinement levels, the motion of their nodes and the data for the next change of levels to the archive if

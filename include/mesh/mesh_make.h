@@ -13,13 +13,13 @@
 #include "data/mesh.h"
 #include "data/particles.h"
 
-/* Data from which cells are made. */
+/* Data from which the cells of a mesh are made, apart from the particles. */
 struct mesh_source {
     const struct elastic *elastic;   /* [materials] constants of the cells */
     const struct elastic *isotropic; /* [materials] constants by which partial stresses were made */
     int materials;
     const struct partial_stress *partial; /* partial stresses of the points; NULL: none */
-    bool still;                           /* the caller sets the motion of the nodes */
+    bool still;                           /* true: the caller sets the motion of the nodes */
     const struct cells_without_particles
         *hollow;              /* cells whose particles are not made; kept by reference, NULL: none */
     const struct crack *slit; /* [slits] free surfaces between cells; kept by reference */
@@ -32,8 +32,8 @@ struct mesh_source {
 /* Makes a mesh of all particles with FLAG_MESHED. node_grid: grid whose anchor and cell size define the nodes; source:
  * material constants, partial stresses, slits and voids. Unless source->still, displacement and velocity of the nodes
  * are fitted to those of the particles by least squares. Returns REFUSED, with a message, if the particles are not two
- * per cell and direction, all of one volume, or if two bodies share a node and would move as one; FAILED if there are
- * too many nodes. Release with mesh_free. */
+ * per cell and direction, if their volumes differ, or if two bodies share a node and would move as one. Returns FAILED,
+ * with a message, if there are too many nodes. Release with mesh_free. */
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node_grid,
                  const struct mesh_source *source);
 
@@ -41,22 +41,22 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node
 void mesh_free(struct mesh *mesh);
 
 /* Returns the number of parts of a mesh of all particles that share no node with each other. node_grid: grid whose
- * anchor and cell size define the nodes; hollow: cells whose particles are not made. Returns 0 if the particles are not
- * two per cell and direction, so that no mesh is possible. */
+ * anchor and cell size define the nodes; hollow: cells of the body whose particles were left out; they count as filled.
+ * Returns 0 if the particles are not two per cell and direction, so that no mesh is possible. */
 int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
                                    const struct cells_without_particles *hollow);
 
 /* Updates the mesh after n particles `changed` (NULL: unknown ones) have become peridynamic or have changed their
- * partial stress: removes peridynamic particles from their cells and recomputes the cells. Nodal velocities are kept;
- * each particle removes its share of mass and momentum. Returns the kinetic energy of motion relative to the nodes
- * that is lost [J]. */
+ * partial stress: removes peridynamic particles from their cells and recomputes the cells. Each peridynamic particle
+ * takes its share of mass and momentum from the nodes of its cell, so that nodal velocities are kept. Returns the
+ * kinetic energy that is lost by this [J]. */
 real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
                            const int32_t *changed, int64_t n);
 
 /* Recomputes the stiffness of the cells of n points `changed` after only their partial stresses have changed; all
- * points remain in the mesh. Possible only for partial cells (cells with a stiffness of their own, because points are
- * missing or leave a part of their stress to bonds): returns false, without any change, if one of the cells was not or
- * would no longer be partial; call mesh_remove_converted then. */
+ * points remain in the mesh. Possible only for partial cells, which store a stiffness matrix because points are missing
+ * or leave a part of their stress to bonds. Returns false, without any change, if one of the cells was not partial
+ * before or would not be afterwards; call mesh_remove_converted then. */
 bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                    const int32_t *changed, int64_t n);
 
@@ -70,14 +70,15 @@ real mesh_insert_points(struct mesh *mesh, struct particles *p, const int32_t *l
 /* Returns true if the cell of the mesh contains a part of the body. */
 bool mesh_cell_has_body(const struct mesh *mesh, int64_t cell);
 
-/* Lists the exposed points of the mesh, material points with bonds, loads or mirror images: other parts of a run need
- * their positions and velocities in every step. loads: boundary conditions. */
+/* Lists the exposed points of the mesh: material points with bonds, boundary conditions `loads` or mirror images. Their
+ * positions and velocities are updated in every step, since bonds and loads read them. */
 void mesh_find_exposed_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
                               const struct loads *loads);
 
-/* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega of the largest frequency of
- * one cell, a lower bound for the mesh. after_any_conversion: true to include cells that have lost any subset of their
- * points by conversion, false for the present cells. density: mass density of each material [kg/m^3]. */
+/* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega over all cells, with the
+ * largest angular frequency omega of a cell on its own. The critical step of the whole mesh is not smaller.
+ * after_any_conversion: true to include cells that have lost any subset of their points by conversion, false for the
+ * present cells. density: mass density of each material [kg/m^3]. */
 real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
                              bool after_any_conversion);
 
@@ -105,8 +106,8 @@ int mesh_compute_level_limits(const struct mesh *mesh, const struct mirror_plane
  * bytes, not 0 if marked. */
 void grid_dilate_marks(const struct grid *g, uint8_t *mark, int reach);
 
-/* Saves displacement and velocity of the nodes of a mesh to the archive if a->saving, else restores them. Returns
- * FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves displacement and velocity of the nodes of a mesh to the archive `a` if a->saving, else restores them from it.
+ * Returns FAILED, with a message, if the archive cannot be read or written or a stored size differs. */
 status mesh_save_or_load(struct mesh *mesh, struct archive *a);
 
 #endif

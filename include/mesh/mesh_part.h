@@ -7,18 +7,20 @@
 #include "mesh/mesh_make.h"
 #include "run/run.h"
 
-/* Frame of a body, and the reason unless the scene chooses the current frame. */
+/* Frame in which the material points of a body move: reference frame (a mesh fixed to the material) if `reference` is
+ * true, else current frame (background grid). reason: why, in words; NULL if the scene chooses the current frame. */
 struct frame_choice {
     bool reference;
     const char *reason;
 };
 
-/* A disc in which cells stay the smallest, the ring of a sif probe [m]. */
+/* A disc in which cells stay the smallest: the domain of a probe of stress-intensity factors. place: its centre [m];
+ * radius [m]. */
 struct frame_ring {
     real place[2], radius;
 };
 
-/* Points in coarse cells without particles, for the last frame. */
+/* Material points in coarse cells without particles, made for the last frame of output only. */
 struct coarse_cell_points {
     struct particles part;
     real *spacing;                     /* spacing of the points [m] */
@@ -90,8 +92,9 @@ void frame_update_exposed_points(struct reference_frame *r, struct particles *p)
 void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
 /* Integrates the motion of the nodes under the forces of frame_compute_forces, then updates the points of the mesh that
- * have bonds, loads or mirror images. loads: prescribed velocities, whose work and reactions are added up there;
- * t_middle: time in the middle of the step [s]; dt_velocity: interval over which velocities are advanced [s]. */
+ * have bonds, loads or mirror images. loads: prescribed velocities; their work and reactions are added to its sums;
+ * clock: step number and time step; t_middle: time in the middle of the step [s]; dt_velocity: interval over which
+ * velocities are advanced [s]. */
 void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
                       const struct run_clock *clock, real t_middle, real dt_velocity);
 
@@ -109,8 +112,8 @@ void frame_update_listed_points(struct reference_frame *r, struct particles *p, 
                                 const int32_t *list, int64_t n);
 
 /* Updates the mesh after `converted` particles have become peridynamic and the partial stresses of the points
- * partial->touched have changed. Adds the energy lost to *energy_lost [J]. Returns false if only the stiffness of cells
- * has changed, true if points have left the mesh; call frame_find_exposed_points then. */
+ * partial->touched have changed. Adds the energy lost to *energy_lost [J]. Returns true if points have left the mesh,
+ * and the caller must call frame_find_exposed_points; false if only the stiffness of cells has changed. */
 bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
                                    const struct partial_stress *partial, real *energy_lost);
 
@@ -125,10 +128,11 @@ real frame_kinetic_energy(const struct reference_frame *reference);
 /* Returns the strain energy of all cells of the reference frame, of all refinement levels [J]. */
 real frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
-/* Kind of the load that requires the smallest cells. */
+/* Kind of the load with the shortest rise time, which requires the smallest cells: none, a boundary condition, initial
+ * values of particles, a moving or rigid body. */
 enum rise_kind { RISE_NONE, RISE_BOUNDARY, RISE_INITIAL, RISE_BODY };
 
-/* A load and its rise time. */
+/* A load and its rise time, the time within which it grows from 0 to its largest value. */
 struct load_rise {
     enum rise_kind kind;
     int number;          /* its number in the scene */
@@ -136,7 +140,7 @@ struct load_rise {
     real seconds, waves; /* rise time [s]; distance that waves travel in it [spacings] */
 };
 
-/* Reason for the number of levels by `mpm.levels: auto`. */
+/* Reason for the number of refinement levels that `mpm.levels: auto` chooses. */
 enum levels_why {
     LEVELS_BY_LOADS,
     LEVELS_AT_REST,
@@ -147,7 +151,7 @@ enum levels_why {
     LEVELS_THIN
 };
 
-/* Number of levels of coarse cells, with reasons. */
+/* Number of levels of coarse cells that a run uses, and why. */
 struct levels_choice {
     int levels, automatic; /* levels of this run; levels by auto */
     bool given;            /* the scene gives the levels */
