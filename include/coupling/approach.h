@@ -5,14 +5,15 @@
 #include "data/particles.h"
 #include "rigid/rigid.h"
 
-/* Steps between two searches, and range of the search [spacings]: contact begins at one spacing, and faces that
- * approach at a tenth of the wave speed come closer by a quarter of a spacing in five steps. */
+/* APPROACH_STEPS: steps between two searches for material points near other bodies; APPROACH_REACH: distance within
+ * which points are found [spacings]. Contact begins at one spacing. Faces that approach at a tenth of the wave speed
+ * come closer by a quarter of a spacing in five steps, so that no contact is missed. */
 enum { APPROACH_STEPS = 5 };
 #define APPROACH_REACH 3.0
 
 /* Finds the particles within `reach` [m] of a particle of another body or of a rigid body. Material points among them
  * get FLAG_NEAR, by which they convert; for peridynamic ones the time since which their stress is low is reset, so that
- * they do not revert (reversion.h). bodies: number of bodies that consist of particles; rigid: `rigids` rigid
+ * they do not become material points again. bodies: number of bodies that consist of particles; rigid: `rigids` rigid
  * bodies. */
 void flag_points_near_bodies(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach);
 

@@ -37,7 +37,8 @@ struct conversion_sync {
  * body (FLAG_LOST_BOND, FLAG_NEAR), with the stress criterion of rule->criteria also those with FLAG_STRESSED and, with
  * rule->block, the neighbours of each within the horizon. Clears these flags, rebuilds the bonds b if a particle
  * converts, and updates the partial stresses (`partial`, NULL: none) near converted particles and broken bonds. sync:
- * NULL if no particle is in a mesh; t: time [s]. Returns the number of particles converted. */
+ * functions to call before and after bonds are made, NULL if no particle is in a mesh; t: time [s]. Returns the number
+ * of particles converted. */
 int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t);
@@ -66,10 +67,10 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 void bonded_points_strain_from_stress(const struct partial_stress *partial, struct particles *p,
                                       const struct material *material);
 
-/* Releases all arrays. */
+/* Releases all arrays of `partial`. */
 void partial_stress_free(struct partial_stress *partial);
 
-/* Saves the results of conversion and reversion so far to the archive if a->saving, else restores them. Returns FAILED
+/* Saves the counts, times and energy of c to the archive `a` if a->saving, else restores them from it. Returns FAILED
  * if the archive cannot be read or written or a stored size differs. */
 status conversion_save_or_load(struct conversion *c, struct archive *a);
 

@@ -8,12 +8,13 @@
 #include "coupling/notch.h"
 #include "run/run.h"
 
-/* State of the coupling. */
+/* State of the coupling of peridynamic particles and material points in a run. PD-MPM bonds are bonds between a
+ * peridynamic particle and a material point. */
 struct coupling_state {
     bool approaches; /* bodies may be in contact: material points near another body convert */
     struct partial_stress partial;
-    bool flip;                  /* the transfer of the grid is FLIP */
-    bool uses_partial;          /* partial stresses, or entries of state-based PD-MPM bonds, are made */
+    bool flip;                  /* velocities are transferred from the grid by FLIP */
+    bool uses_partial;          /* `partial` is filled: partial stresses, or data of state-based PD-MPM bonds */
     uint8_t *bonded;            /* [n] 1: material point with PD-MPM bonds (FLIP); NULL: none */
     struct interface_zone zone; /* damped zone beside peridynamic particles (FLIP, partial stress) */
     real damping_share;         /* strength of the damping of the zone in a step [1]; 0: none */
@@ -32,14 +33,16 @@ void coupling_compute_partial_stress(struct run *e);
  * Returns REFUSED or FAILED, with a message, as reference_frame_make does. */
 status coupling_make_mesh(struct run *e, bool motion_set_later);
 
-/* Rebuilds, after the bonds b have changed, the marks of material points with PD-MPM bonds (c->bonded, only for FLIP)
- * and the interface zone, in which motion is damped (c->zone, only for FLIP with partial stress). */
+/* Rebuilds data that depend on the bonds, after the bonds b have changed: the marks of material points with bonds to
+ * peridynamic particles (c->bonded, only for the FLIP transfer) and the interface zone, in which motion is damped
+ * (c->zone, only for FLIP with partial stress). */
 void interface_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p, const struct bonds *b,
                                          const struct bond_source *source);
 
-/* Updates p->end_strain, the contribution of a material point to the mean strain of its family, of all points with
- * state-based PD-MPM bonds: in a mesh from the strain of the cell, on the background grid from the stress of the point.
- * Does nothing in bond-based models. material: array of the materials. */
+/* Updates p->end_strain, the contribution of a material point to the mean strain of the family of its peridynamic
+ * neighbours, of all material points with state-based bonds to peridynamic particles: in a mesh from the strain of the
+ * cell, on the background grid from the stress of the point. Does nothing in bond-based models. material: array of the
+ * materials. */
 void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
                                  struct particles *p, const struct material *material);
 
@@ -60,8 +63,8 @@ void notch_describe_representation(const struct notches *n, int crack, real spac
 bool flag_points_at_closing_slits(struct run *e);
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
- * sides. Particles of a mesh are included only if `include_meshed` is true: otherwise the mesh has free surfaces at
- * voids. v: voids, NULL: none; include_meshed: result of mesh_ignores_voids. */
+ * sides. v: voids; NULL: nothing is done. include_meshed: true to include particles of the mesh of the reference frame,
+ * needed if this mesh has no free surfaces at voids (mesh_ignores_voids). */
 void convert_particles_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
 
 /* Returns true if a mesh with the nodes of grid g has no free surfaces at voids: in 1D, and if a mirror plane of scene
@@ -82,15 +85,15 @@ void warn_of_joined_bodies(const struct run *e, struct warnings *to);
  * were examined in this step, so that points beside them may be marked. */
 bool conversion_flag_points(struct run *e);
 
-/* Converts the marked material points to peridynamic particles (convert) and updates all that depends on it: bonds,
- * contact, partial stresses, interface zone and mesh. broken_bonds: number of directed bonds broken in this step;
- * faces_examined: result of conversion_flag_points; bonds_fade: true if bonds of growing cracks lose strength
+/* Converts the marked material points to peridynamic particles (convert_flagged_points) and updates all that depends on
+ * it: bonds, contact, partial stresses, interface zone and mesh. broken_bonds: number of directed bonds broken in this
+ * step; faces_examined: result of conversion_flag_points; bonds_fade: true if bonds of growing cracks lose strength
  * gradually. Returns the number of particles converted. */
 int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade);
 
-/* Updates the mesh, and the material points with state-based PD-MPM bonds, after `converted` particles have become
- * peridynamic (0: only partial stresses have changed). Energy lost by removing points from the mesh is added to
- * e->damped. */
+/* Updates the mesh, and the material points with state-based bonds to peridynamic particles, after `converted`
+ * particles have become peridynamic (0: only partial stresses have changed). Energy lost by removing points from the
+ * mesh is added to e->damped. */
 void conversion_update_mesh(struct run *e, int64_t converted);
 
 /* Checks that the other settings of a scene allow reversion (`conversion.reversion: true`). Returns REFUSED, with a

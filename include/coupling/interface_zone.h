@@ -19,7 +19,7 @@
 #include "data/particles.h"
 
 struct interface_zone {
-    int64_t n, points;  /* points of the zone and their neighbours, the points first; number of points */
+    int64_t n, points;  /* members (points of the zone, then their other neighbours); points of the zone */
     int32_t *particle;  /* [n] particle of each member */
     int64_t *start;     /* [n + 1] neighbours of member k: neighbour[start[k] .. start[k+1]-1] */
     int32_t *neighbour; /* members, as indices in `particle` */
@@ -34,7 +34,7 @@ struct interface_zone {
  * zone. Release with interface_zone_free. */
 void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source);
 
-/* Releases all arrays. */
+/* Releases all arrays of the interface zone r. */
 void interface_zone_free(struct interface_zone *r);
 
 /* Damps the motion in the interface zone before the forces of a step are computed: changes the velocities of its

@@ -5,7 +5,8 @@
 
 #include "bonds/bonds.h"
 
-/* decrease of the distance of the faces of a slit at which they become peridynamic [spacings] */
+/* Decrease of the distance between the two faces of a slit at which the particles beside it become peridynamic
+ * [spacings]. */
 #define NOTCH_GAP 1e-4
 
 struct notch {
@@ -39,13 +40,13 @@ void notches_make(struct notches *n, const struct particles *p, const struct bon
  * divides. */
 void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source);
 
-/* Releases all arrays. */
+/* Releases all arrays of n; cracks and voids stay with their owners. */
 void notches_free(struct notches *n);
 
 /* Sets FLAG_NEAR of material points beside slits and narrow voids whose opposite faces are about to touch. Tests the
  * distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from present positions and
- * velocities, which must be up to date. At a slit it must be smaller than one spacing by NOTCH_GAP spacings or, for a
- * notch of some width, by that width less NOTCH_GAP spacings; at a void, so small that the faces are close to contact.
+ * velocities, which must be up to date. Points are marked if this distance is less than spacing (1 - NOTCH_GAP) at a
+ * slit, spacing (1 + NOTCH_GAP) - width at a notch of width `width`; at a void, if the faces are close to contact.
  * spacing: of the particles [m]. */
 void notches_flag_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
 

@@ -4,7 +4,7 @@
 
 #include "conversion.h"
 
-/* Conditions of reversion. */
+/* Conditions under which peridynamic particles become material points again. */
 struct reversion_rule {
     const struct bond_source *source;
     const struct elastic *elastic; /* [materials] with the stress at which points convert */
