@@ -42,24 +42,27 @@
 /* Largest stiffness of the repulsive cores (kernels/pd/bond_core.h) over that of the bonds [1]. */
 #define CORE_STIFFNESS 3.0
 
-/* Plastic state of a bond: stretch without force, and accumulated plastic stretch [1]. */
+/* Plastic state of a bond: `stretch` at which its force is 0, and `path`, the accumulated plastic stretch [1]. */
 struct bond_plasticity {
     real stretch, path;
 };
 
-/* Bonds that soften (data/softening.h). A row block stores the arrays [columns 8] once one of its bonds has begun.
- * A bond that may not soften yet, or is brittle, has onset = most = SOFTENING_NEVER, and `end` is the stretch above
- * which it is examined. Bonds begin between two sweeps, by row blocks that a sweep has marked as due. */
+/* Value of `onset` and `most` (struct softened) of a bond that may not soften yet, or is brittle; `end` is then the
+ * stretch above which the bond is examined. */
 #define SOFTENING_NEVER 1e30f
+/* Whether a row block is due, i.e. one of its bonds may begin to soften before the next sweep over the bonds: no; yes;
+ * examined before without success; bit for use during the examination. */
 enum softening_due {
     DUE_NOT,
     DUE_NEW,
-    DUE_AGAIN,     /* the stress forbade a bond to begin; examined again when limit.retries */
+    DUE_AGAIN,     /* the stress forbade a bond to soften; examined again if limit.retries */
     DUE_DENIED = 4 /* bit that is set while row blocks are examined: becomes AGAIN */
 };
+/* Softening of bonds (data/softening.h). A row block stores the arrays [columns 8] once one of its bonds has begun to
+ * soften. */
 struct softened {
     const struct softening_curve *curve; /* NULL: no bond softens */
-    float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of a bond [1] */
+    float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of each bond [1] */
     /* [columns 8] weight of a bond that has begun, before it softened [1]; only in state-based models, where the weight
      * in bonds.w is this times 1 - d (kernels/pd/state_soften.c). NULL: bond-based model */
     float *whole;
@@ -69,15 +72,15 @@ struct softened {
     uint8_t *begun;   /* [row blocks] 1: the arrays are valid */
     uint8_t *due;     /* [row blocks] enum softening_due */
     bool any_due;     /* an entry of `due` is not DUE_NOT */
-    bool at_points;   /* bonds of material points have begun since this was cleared */
+    bool at_points;   /* true: bonds of material points have begun to soften */
     uint8_t *needed;  /* [row blocks 8] working memory: the dilatation of the row is needed */
     real *dilatation; /* [row blocks 8] working memory: trace of the strain of the family [1] */
     /* [row blocks 8] mean strain rate of a row on its way from half its onset to the onset, 0 or less: not there [1/s];
      * time for which it has been beyond half the onset [s]. NULL: no strength depends on the rate */
     real *rate, *beyond;
-    bool rates_kept;           /* rates are to be measured in the next step */
+    bool rates_kept;           /* true: rates are to be measured in the next step */
     const struct image *image; /* [images] borrowed */
-    real least_ratio;          /* no bond ends below the trigger of its row times this [1] */
+    real least_ratio;          /* s_f of a bond is at least the trigger of its row times this [1] */
     uint8_t *near; /* [row blocks] 1: a bond has been beyond `gate` since the last look at the strength surface
                       (bonds_strength.c); NULL: no material has one */
     real gate;     /* stretch from which on the strength surface may be near [1] */
@@ -89,15 +92,17 @@ struct state_image {
     int axis;
 };
 
-/* Share of a bond's reaction that acts on one particle: index of the bond, and a sign for each component. */
+/* One reaction that a particle receives from a bond to its image in a clamped plane. bond: index in struct clamped;
+ * sign: factor +-1 on each component of the reaction. */
 struct clamp_end {
     int32_t bond;
     int8_t sign[DIM_MAX];
 };
 
-/* Bonds from rows to images in clamped planes (images of images included). The displacement of such an image is P u,
- * that of its source reversed, while its position is reflected: symmetry does not give the force on the image, so the
- * reaction is added to the source (kernels/pd/clamp_force.c). */
+/* Bonds from particles to their mirror images in clamped planes (images of images included). The displacement of such
+ * an image is that of its source with reversed signs, while its reference position is reflected. The force on the image
+ * therefore does not follow from symmetry, and its reaction is added to the source particle
+ * (kernels/pd/clamp_force.c). */
 struct clamped {
     int64_t n;                /* number of bonds; arrays have LANES more entries, of weight 0 */
     int64_t *entry;           /* [n] entry of the bond in the bond arrays */
@@ -131,7 +136,7 @@ struct state {
     struct state_image *image;   /* [n_all - n] origins of the mirror images */
 };
 
-/* Bond lengths of a lattice: shell k has the length spacing sqrt(k). */
+/* Number of bond lengths of a lattice that are tabulated: shell k < BOND_SHELLS has the length spacing sqrt(k). */
 enum { BOND_SHELLS = 256 };
 struct bond_length {
     real inverse, length, square; /* 1/r [1/m], r [m], r^2 [m^2] */
@@ -176,13 +181,13 @@ struct stencil {
 struct stencils; /* all stencils (bonds_stencils.c) */
 struct site_map; /* particle at each site of a lattice (bonds_site_map.c) */
 
-/* Columns of a removed row block, free for others when rows are rebuilt. */
+/* Columns of a removed row block, free for others when rows are rebuilt: `columns` columns from `column` on. */
 struct bond_hole {
     int64_t column;
     int32_t columns;
 };
 
-/* All holes. */
+/* Ranges of columns that are free, because their row blocks were removed. */
 struct bond_holes {
     int64_t n;
     struct bond_hole *hole;
@@ -217,7 +222,7 @@ struct bonds {
     struct stencils *stencils;
     struct site_map *site_map;            /* kept while there are material points; else NULL */
     real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL if no bond yields [1] */
-    int32_t *pair;                        /* [columns 8] index in `yield`; NULL if no bond yields */
+    int32_t *pair;                        /* [columns 8] pair of materials, index in `yield`; NULL: no bond yields */
     struct bond_yield yield;
     real *trigger;         /* [row blocks 8] lower bound of the breaking stretches of the row [1] */
     float *family_volume;  /* [row blocks 8] sum of V_j over the whole initial family [m^3] */
@@ -240,7 +245,8 @@ static inline bool row_block_is_complete(const struct bonds *b, int64_t row_bloc
     return eight_bytes_as_word(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
 
-/* State of a bond that softens, as in struct softened; whole: 0 where it is not stored. */
+/* State of a bond that softens [1]. most: largest stretch so far; onset, end: stretches at which softening begins and
+ * the bond breaks; whole: weight before softening, 0 for bond-based models, which do not store it. */
 struct bond_softness {
     float most, onset, end, whole;
 };
@@ -277,8 +283,8 @@ static inline bool row_block_has_softening(const struct bonds *b, int64_t row_bl
     return b->soft.curve && b->soft.begun[row_block];
 }
 
-/* Returns true if the bond with index `bond`, in row block `row_block`, has begun to soften or may do so without
- * question. */
+/* Returns true if the bond with index `bond`, in row block `row_block`, has begun to soften, or was allowed to do so at
+ * a known stretch. */
 static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     return row_block_has_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
@@ -298,8 +304,9 @@ static inline void row_block_mark_due(struct bonds *b, int64_t row_block)
     __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
 }
 
-/* Returns the share 1 - d of the stiffness by its weight that the bond with index `bond`, in row block `row_block`, has
- * at the stretch `stretch` [1]; 1 in state-based models, whose weights contain it. */
+/* Returns the share 1 - d of its stiffness that the bond with index `bond`, in row block `row_block` (the bonds of
+ * eight particles), keeps at the stretch `stretch` [1], with its softening d. Returns 1 in state-based models, whose
+ * bond weights already contain this factor. */
 static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int64_t row_block, int64_t bond,
                                                      real stretch)
 {
@@ -319,8 +326,8 @@ static inline real bond_half_softening_energy(const struct bonds *b, int64_t row
            fabs(b->inverse_length[bond]);
 }
 
-/* Marks particle i, of which a bond begins to soften, for conversion if it is a material point: its stress does not
- * know that its bonds soften. */
+/* Marks particle i, a bond of which begins to soften, for conversion if it is a material point, since the stress of a
+ * material point does not include the softening of bonds. */
 static inline void softness_mark_point(struct bonds *b, struct particles *p, int32_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
@@ -338,7 +345,8 @@ void bond_column_update_common_properties(const struct bonds *b, int64_t column)
  * stencil. */
 void bond_changed_update_column(struct bonds *b, int64_t row, int64_t bond);
 
-/* Makes a row block store the state of bonds that soften, of which none has begun. limit: of the bonds. */
+/* Initialises the stored softening state of all bonds of a row block (the bonds of eight particles), none of which has
+ * begun to soften. limit: critical stretches and softening by pair of materials. */
 void row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t row_block);
 

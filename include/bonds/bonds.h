@@ -7,12 +7,12 @@
 #include "base/archive.h"
 #include "bonds/bond_storage.h"
 
-#define BYTES_PER_BOND 24.0 /* stored, with padding; measured on blocks of 10^6 particles */
+#define BYTES_PER_BOND 24.0 /* memory of a stored bond with padding [bytes]; measured on blocks of 10^6 particles */
 
-/* Block-Gershgorin bound of the largest eigenvalue of springs around one particle: norm of `block` plus
- * `total`. */
+/* Sums over the springs around one particle, from which an upper bound of the largest eigenvalue of their stiffness
+ * matrix follows (block-Gershgorin): row-sum norm of `block` plus `total`. */
 struct spring_bound {
-    real block[DIM_MAX][DIM_MAX], total; /* sum K n n; sum K [N/m] */
+    real block[DIM_MAX][DIM_MAX], total; /* sum K n n and sum K over springs of stiffness K, direction n [N/m] */
 };
 
 /* Adds a spring of stiffness `stiffness` [N/m] and direction `direction` (unit vector, dim components) to the sums of
@@ -71,9 +71,9 @@ real bonds_row_largest_eigenvalue_bound(const struct bonds *b, const struct part
 /* Releases all arrays of b. */
 void bonds_free(struct bonds *b);
 
-/* Returns the critical time step of intact bonds [s]: 2 / omega_max with the block-Gershgorin bound of omega. The
- * maximum is over all particles of the body, material points included, each with the bonds that it would have if all
- * particles were peridynamic. No stored rows are needed. */
+/* Returns a lower bound of the critical time step 2/omega_max of the body if all its particles were peridynamic and no
+ * bond broken [s], with the block-Gershgorin bound of the largest angular frequency omega_max. The bonds are made from
+ * `source` for this; no stored bonds are needed. */
 real bonds_critical_time_step(const struct particles *p, const struct bond_source *source);
 
 /* Returns the critical time step 2/omega_max of the existing bonds b [s]. Valid only while all particles are
@@ -87,9 +87,9 @@ real bonds_critical_time_step_of_rows(const struct bonds *b, const struct partic
 void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                            const struct bonds *old, const struct particles *old_particles, const int32_t *new_index);
 
-/* Saves (a->saving) or restores which bonds are broken and their plastic state; neighbours and weights are not stored,
- * since bonds_make rebuilds them. A trial archive (a->scope) contains only the plastic state, without the work of
- * broken bonds. Returns FAILED if an entry is missing or its size differs. */
+/* Saves which bonds are broken, and their plastic state, to the archive `a` if a->saving, else restores them from it.
+ * Neighbours and weights are not stored, since bonds_make rebuilds them. An archive for trial steps (a->scope) has the
+ * plastic state only, without the work of broken bonds. Returns FAILED if an entry is missing or its size differs. */
 status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *a);
 
 /* Returns the weighted volume Q = sum w r^2 of the intact bonds of a row, i.e. of one particle [m^2], summed anew,
@@ -107,27 +107,29 @@ const char *bonds_find_inconsistency(const struct bonds *b);
 /* Returns the energy that bonds which still exist have dissipated by softening [J]. */
 real bonds_dissipated_softening_energy(const struct bonds *b);
 
-/* Returns true if a bond of a row (all bonds of one particle) that is intact has begun to soften or been started by
- * the strength surface; false if row is -1. */
+/* Returns true if an intact bond of row `row` (all bonds of one particle) has begun to soften, by its stretch or
+ * because the strength surface of the material was reached; false if row is -1. */
 bool bonds_row_has_begun(const struct bonds *b, int64_t row);
 
-/* Evaluates the strength surfaces of materials (bonds_strength.c) at the present positions, in row blocks (the bonds of
- * eight particles) with stretches near them: where the share U of the surface reaches 1, or the strength of the
- * particle where strength scatters, the bonds of the particle that have not begun to soften do so from their present
- * stretch on. Marks material points of such bonds for conversion. Does nothing if no material has a surface. source:
- * inputs of the bonds. */
+/* Evaluates the strength surfaces of materials (bonds_strength.c) at the present positions, for particles whose bonds
+ * have stretches near them. Where the share U of the strength surface reaches 1 (or the strength factor of the
+ * particle, if strength scatters), those bonds of the particle that have not begun to soften do so from their present
+ * stretch on. Material points at such bonds are marked for conversion. Does nothing if no material has a surface.
+ * source: inputs of the bonds. */
 void bonds_start_by_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Computes the shares U of the strength surface of all peridynamic particles, from the strains averaged over families,
- * into share[p->n] [1]; those of material points from their stress. 0 where the material has no surface. */
+/* Computes the share U of the strength surface of every particle into share[p->n] [1]: U = 1 on the surface, 0 if the
+ * material has no surface. Stress follows from the strain averaged over the family of a peridynamic particle, and is
+ * that of the point for material points. */
 void bonds_surface_shares(const struct bonds *b, const struct particles *p, const struct bond_source *source,
                           real *share);
 
-/* Returns the damage that the softening of its intact bonds adds to the particle of a row, the sum of d V_j over its
- * family's volume [1]; 0 if row is -1. */
+/* Returns the damage of the particle of row `row` by the softening of its intact bonds [1]: sum d V_j over the volume
+ * of its family, with the softening d of the bond to neighbour j and the volume V_j of the neighbour; 0 if row is
+ * -1. */
 real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row);
 
-/* Returns the energy released by all bonds broken since the start, and dissipated by softening [J]. */
+/* Returns the energy released by all bonds broken since the start plus the energy dissipated by softening bonds [J]. */
 real bonds_fracture_energy(const struct bonds *b);
 
 /* Returns eight bits: bit l is set if the particle in lane l (0 to 7) of row block `row_block` has an intact bond. */
@@ -150,8 +152,8 @@ static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
     return row >= 0 && row_block_lanes_with_intact_bonds(b, row / LANES) >> row % LANES & 1;
 }
 
-/* Clears the bits in `marks` (one bit per particle and image) of all particles and images to which the particle of
- * `row` has intact bonds. Does nothing if row is -1. */
+/* Clears the bits of all particles and mirror images to which the particle of row `row` has intact bonds. marks: one
+ * bit for each particle or image, bit i % 64 of marks[i / 64]. Does nothing if row is -1. */
 void bonds_clear_neighbour_marks(const struct bonds *b, int64_t row, uint64_t *marks);
 
 /* Returns the number of directed bonds of the eight particles of a row block, broken bonds included. */
@@ -173,7 +175,8 @@ static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, 
                    : b->first[b->column[row_block] + column];
 }
 
-/* A column as it is stored, or would be if the row block were not implicit. */
+/* The eight bonds of one column of a row block, bond l of particle l. first: neighbour of lane 0 if the eight
+ * neighbours are consecutive, else -1; nbr: neighbours; inverse_length: 1/r [1/m]; w: weights [1]. */
 struct column_copy {
     int32_t first, nbr[LANES];
     real inverse_length[LANES], w[LANES];
@@ -203,8 +206,8 @@ static inline struct bond bond_read(const struct bonds *b, int64_t row_block, in
     return (struct bond){q, b->particle[row_block * LANES] + of->offset + lane, w == 0 ? 0 : of->inverse_length, w};
 }
 
-/* Iterator over the bonds of a row in the order of their columns, including bonds that are broken or cut by pre-cracks.
- * Writes nothing:
+/* Iterator over the bonds of one row, i.e. of one particle, including bonds that are broken or cut by pre-cracks. It
+ * changes no bond. Usage:
  *
  *     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) ... it.bond ... */
 struct bond_iterator {

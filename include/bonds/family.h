@@ -35,14 +35,16 @@ struct family {
     real shell_weight[2]; /* weights of bonds near the axes, near the diagonals (shells: isotropic) [1] */
 };
 
-/* Last force of a breaking bond: until the time within the step at which the bond passes its limit (MOMENT), or half,
- * all or none of its force in the first step that finds it beyond its limit. */
+/* Last force of a breaking bond, in the first step in which its stretch exceeds its limit: its force until the moment
+ * within the step at which it passes the limit (MOMENT), or half, all or none of its force. */
 enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FORCE_NONE };
 
-/* Time steps between two examinations of bonds that were not allowed to soften; empirical. */
+/* Number of time steps between two examinations of bonds that exceeded their onset but that the stress did not allow to
+ * soften; empirical. */
 enum { SOFTENING_RETRY_STEPS = 8 };
 
-/* Critical stretches by pair of materials [materials^2]; INFINITY: never breaks. */
+/* When bonds break or soften. critical_stretch: by pair of materials [materials^2], INFINITY for bonds that never
+ * break. */
 struct bond_limit {
     const real *critical_stretch; /* [1] */
     int materials;
@@ -57,7 +59,7 @@ struct bond_limit {
 extern const struct bond_limit bond_limit_never;
 
 /* Returns the stretch at which the bond between particles i and j breaks if it is brittle [1]: critical stretch of its
- * materials times its strength. A bond that softens spends as much energy. */
+ * materials times its strength factor. A bond that softens instead dissipates the same energy. */
 static inline real bond_breaking_stretch(const struct particles *p, const struct bond_limit *limit, int64_t i,
                                          int64_t j)
 {
@@ -66,8 +68,8 @@ static inline real bond_breaking_stretch(const struct particles *p, const struct
     return limit->critical_stretch[pair] * (alone ? 1 : bond_strength_factor(p, i, j));
 }
 
-/* Returns the stretches [1] at which the bond between particles i and j begins to soften and ends; both are the
- * critical stretch where it is brittle. */
+/* Returns the stretches [1] at which the bond between particles i and j begins to soften and breaks; both are the
+ * critical stretch if the bond is brittle. */
 static inline struct softening_range bond_softening_range(const struct particles *p, const struct bond_limit *limit,
                                                           int64_t i, int64_t j)
 {
@@ -78,8 +80,9 @@ static inline struct softening_range bond_softening_range(const struct particles
     return softening_range_of(limit->curve, pair->onset * (fixed ? 1 : bond_strength_factor(p, i, j)), critical);
 }
 
-/* Returns the stretches [1] at which the bond between particles i and j begins to soften and ends at the strain rate
- * `rate` [1/s]: a rate moves the onset at the same energy. */
+/* Returns the stretches [1] at which the bond between particles i and j begins to soften and breaks, at the strain rate
+ * `rate` [1/s]. The rate changes the onset, and the stretch at which the bond breaks such that the dissipated energy
+ * stays the same. */
 static inline struct softening_range
 bond_softening_range_at_rate(const struct particles *p, const struct bond_limit *limit, int64_t i, int64_t j, real rate)
 {
@@ -92,8 +95,8 @@ bond_softening_range_at_rate(const struct particles *p, const struct bond_limit 
                               critical);
 }
 
-/* Yield stretch s_y and hardening modulus over the elastic one, H_b/k_e, by pair of materials [materials^2]; stretch
- * NULL: no bond yields. */
+/* Plastic constants of bonds by pair of materials. stretch: yield stretch s_y [materials^2][1], NULL if no bond yields;
+ * hardening: hardening modulus over elastic modulus, H_b/k_e [materials^2][1]. */
 struct bond_yield {
     const real *stretch, *hardening;
     int materials;

@@ -3,8 +3,8 @@
 
 #include "bonds/bonds.h"
 
-/* Row of lattice sites within the cutoff: index of its middle site relative to the particle's, and half its length in
- * sites. */
+/* Row of lattice sites along the first axis, within the cutoff around a particle. site: index of its middle site less
+ * the index of the particle's site; half: number of sites on each side of the middle one. */
 struct stencil_row {
     int64_t site;
     int half;

@@ -41,7 +41,7 @@ struct surface_weights {
 status surface_weights_make(struct surface_weights *weights, const struct particles *p,
                             const struct bond_source *source, bool with_rotations);
 
-/* Releases all arrays of w. */
+/* Releases the arrays of the weights w. */
 void surface_weights_free(struct surface_weights *w);
 
 /* Returns the integer nearest to a number of spacings; quicker than nearbyint. */
