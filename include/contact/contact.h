@@ -26,7 +26,8 @@
 #include "rigid/rigid.h"
 #include "scene/requests.h"
 
-/* Depth of a face below a particle [spacings] as a function of the density at the particle (contact_face.c). */
+/* Table of the depth of a face below a particle as a function of the density of the face's particles at this particle
+ * (contact_face.c). */
 enum { PROFILE_NODES = 86 };
 struct contact_profile {
     /* nodes of the table: density [1], depth [spacings], derivative of the depth by the density [spacings] */
@@ -48,8 +49,8 @@ struct contact_law {
     const struct region *const *shape; /* [bodies] kept by reference, NULL for a body made from a list */
 };
 
-/* Friction of a particle in contact: a spring along the face, which the sliding of the particle stretches until its
- * force reaches the coefficient of friction times the normal force. */
+/* Friction of a particle in contact, modelled by a spring along the face: sliding of the particle stretches the spring
+ * until its force reaches the coefficient of friction times the normal force. */
 struct contact_spring {
     real length[DIM_MAX]; /* elongation [m] */
     real drag[DIM_MAX];   /* force on the particle [N] */
@@ -57,14 +58,16 @@ struct contact_spring {
     real stored, lost;    /* stored energy [J]; work of friction since the last search [J] */
 };
 
-/* Distribution of the reaction of a friction spring over the particles of the face (contact_friction.c): in proportion
- * to their weights, with a couple that balances the moment. Recomputed from the spring in every step. */
+/* Data by which the reaction to the force of a friction spring is distributed over the particles of the face
+ * (contact_friction.c): in proportion to their weights, plus a couple that balances the moment. Recomputed from the
+ * spring in every step. */
 struct contact_reaction {
     real arm[DIM_MAX];  /* from the weighted mean position of the face to the particle [m] */
     real turn[DIM_MAX]; /* moment of the drag about that position over the moment of inertia [N/m] */
 };
 
-/* Contact of a particle with the faces beside it: energy 1/4 k gap^2 if gap < 0 (contact_face.c). */
+/* Contact of a particle with the faces of other bodies or fragments beside it. Its energy is 1/4 k gap^2 with the
+ * stiffness k if gap < 0, else 0 (contact_face.c). */
 struct contact_face {
     real zero;      /* height above the face at which contact begins [spacings] */
     real stiffness; /* stiffness k [J] */
@@ -73,15 +76,17 @@ struct contact_face {
     real push, lift, mean;
 };
 
-/* Account of the energy error of leap-frog at the begin and end of contact (contact_balance.c). */
+/* Record of the energy error that leap-frog makes at the begin and end of a contact, from which a correcting force
+ * follows (contact_balance.c). */
 struct contact_balance {
     real gap, older; /* gaps of the last two steps [spacings] */
     real drag;       /* force against the rate of the gap [J] */
     real account;    /* energy added minus energy removed [J] */
 };
 
-/* Particles near a rigid body: rows in ascending order, with the gaps at which contact begins, 0 or less [m]; position
- * and rotation of the body at the last search. */
+/* Particles near one rigid body. row: [n] their rows in the contact list, ascending; zero: [n] gap at which contact
+ * begins, 0 or less [m]; x, turn: position [m] and rotation matrix of the body at the last search; spring, balance: [n]
+ * friction and energy correction; touch: [n] 1 if the contact is selected to act in an equilibrium. */
 struct contact_near {
     int64_t n;
     int32_t *row;
@@ -91,8 +96,8 @@ struct contact_near {
     uint8_t *touch;
 };
 
-/* A contact that acts, as a linear spring between particles: its energy is 1/2 stiffness gap^2, and its gap changes at
- * the rate sum_k along[k] . v[k], with the velocities v of its n particles. */
+/* A contact that acts as a linear spring between n particles. Its energy is 1/2 stiffness gap^2. Its gap changes at the
+ * rate sum_k along[k] . v[k] with the velocities v[k] of the particles. */
 struct contact_term {
     int n;
     int32_t *particle;      /* [n] images included */
@@ -161,20 +166,21 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
 
 /* Updates the list of pairs of particles that may come into contact, before a step. A new search is done if particles
  * have moved farther than the list allows since the last search, if bonds have been broken since that search and it was
- * at least BREAKS_WAIT steps ago, or if a search was requested (c->due). Particles on which contact forces may act are
- * marked as loaded in `loads`, and their bonds as active in b. family: horizon and lattice; step: number of the step;
- * broken_bonds: number of directed bonds broken so far; conversions: number of conversions and reversions so far. */
+ * at least a fixed number of steps ago (BREAKS_WAIT), or if a search was requested (c->due). Particles on which contact
+ * forces may act are marked as loaded in `loads`, and their bonds as active in b. family: horizon and lattice; step:
+ * number of the step; broken_bonds: number of directed bonds broken so far; conversions: number of conversions and
+ * reversions so far. */
 void contact_update_pair_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
                               const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions);
 
-/* Requests a search for pairs before the next step if one of n listed particles is at the surface of a body, i.e.
- * lacks a part of its family. list: indices of particles that have become peridynamic; family: horizon and lattice.
- * Does nothing if contact is not possible in this run. */
+/* Requests a search for contact pairs before the next step if one of n listed particles is at the surface of a body,
+ * i.e. some of the bonds of a complete family are missing. list: indices of particles that have become peridynamic;
+ * family: horizon and lattice. Does nothing if contact is not possible in this run. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *list, int64_t n);
 
-/* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds as active in b. Called by
- * contact_update_pair_list; to be called by the user only after a restart. */
+/* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds as active in b.
+ * contact_update_pair_list does so, too; other callers need it only after a restart. */
 void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
@@ -186,8 +192,8 @@ void contact_compute_forces(struct contact *c, struct particles *p, real dt);
  * set. Does nothing if contact is not possible in this run, or if the array exists. */
 void contact_allocate_forces(struct contact *c, const struct particles *p);
 
-/* Sets the last time of contact, and the first one if there is none yet, to t [s], if particles were in contact at the
- * last call of contact_compute_forces. */
+/* Records the times of first and last contact of the run: if particles were in contact at the last call of
+ * contact_compute_forces, c->ended becomes t [s], and c->began, too, if it is still NAN. */
 void contact_record_first_and_last_time(struct contact *c, real t);
 
 /* Returns the elastic energy of all contacts at the present positions, of contacts with rigid bodies and friction
@@ -195,7 +201,7 @@ void contact_record_first_and_last_time(struct contact *c, real t);
 real contact_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal of the bounding box of all particles in contact with rigid body number `rigid_body` [m], or 0 if
- * there is none. */
+ * no particle is. */
 real contact_patch_diagonal(const struct contact *c, const struct particles *p, int rigid_body);
 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
@@ -210,13 +216,13 @@ real contact_friction_work(const struct contact *c);
 int64_t contact_search_and_select_active(struct contact *c, const struct particles *p, struct bonds *b,
                                          struct loads *loads, const struct family *family, real gap_limit);
 
-/* Selects the contacts that act in an equilibrium solution, as contact_search does, from the existing list of pairs. A
- * gap within round-off of 0 does not change the selection. gap_limit: gap between bodies below which a contact is
- * selected [spacings]. Returns the number of contacts whose selection changed. */
+/* Selects the contacts that act in an equilibrium solution, as contact_search_and_select_active does, from the existing
+ * list of pairs. A gap within round-off of 0 does not change the selection. gap_limit: gap between bodies below which a
+ * contact is selected [spacings]. Returns the number of contacts whose selection changed. */
 int64_t contact_select_active(struct contact *c, const struct particles *p, real gap_limit);
 
-/* Selects which contacts act in the next forces: with `use` those selected by contact_select_active, as linear springs;
- * otherwise those that overlap. */
+/* Chooses which contacts act when forces are computed next. use: true for those selected by contact_select_active, as
+ * linear springs; false for all that overlap. */
 void contact_use_selection(struct contact *c, bool use);
 
 /* Ends the selection of contacts for an equilibrium: the contacts that overlap act again, and a search for pairs is
@@ -237,8 +243,8 @@ real contact_list_largest_safe_motion(const struct contact *c);
 void contact_visit_springs(const struct contact *c, const struct particles *p,
                            void (*visit)(void *context, const struct contact_term *term), void *context);
 
-/* Returns the root of the sum of squares of the forces of rigid bodies on particles, over all contacts [N], a scale for
- * residuals. */
+/* Returns the root of the sum of squares of the contact forces of rigid bodies on particles [N]. Serves as a scale for
+ * the residual of an equilibrium. */
 real contact_rigid_force_norm(const struct contact *c, const struct particles *p);
 
 /* Saves the list of pairs with contact distances, friction springs and energies to the archive if a->saving, else
