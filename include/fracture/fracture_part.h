@@ -14,8 +14,8 @@ struct fracture_state {
     struct growing_crack *growth; /* [growths] */
 };
 
-/* Returns true if the run has a growing crack whose bonds lose their strength gradually over a length of crack growth,
- * instead of at once. */
+/* Returns true if f has a growing crack whose bonds lose their weight gradually while the tip moves on, instead of all
+ * at once when it crosses them. */
 bool cracks_have_fading_bonds(const struct fracture_state *f);
 
 #endif

@@ -49,8 +49,9 @@ struct growth_control {
     struct crack_medium medium; /* elastic body round the tip */
 };
 
-/* A fading entry of the rows: bond i-j; its weight when crossed (whole), in the previous step (before) and at present
- * (now); length of the crack when the bond was crossed [m]. */
+/* A bond i-j that a growing crack has crossed and that loses its weight gradually. whole, before, now: its weight when
+ * it was crossed, in the previous step and at present [1]; length: length of the crack when the bond was crossed
+ * [m]. */
 struct fading {
     int32_t i, j;
     real whole, before, now;
@@ -80,10 +81,10 @@ void growing_crack_make(struct growing_crack *g, const struct growth_rule *rule)
 void growing_crack_free(struct growing_crack *g);
 
 /* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
- * the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. source: bond law and
- * neighbour search. control: present stress-intensity factors, which turn the tip to the direction of the largest hoop
- * stress and may set its speed; NULL if they are not known. Returns the number of directed bonds (bond i-j counts
- * twice) whose weight became 0. */
+ * the tip crosses to the list of fading bonds (bonds whose weight decreases to 0 while the crack grows), and reduces
+ * the weights of all bonds in this list. source: bond law and neighbour search. control: present stress-intensity
+ * factors, which turn the tip to the direction of the largest hoop stress and may set its speed; NULL if they are not
+ * known. Returns the number of directed bonds (bond i-j counts twice) whose weight became 0. */
 int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct particles *p,
                               const struct bond_source *source, const struct growth_control *control, real t, real dt);
 
@@ -91,9 +92,9 @@ int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct p
  * 0 to 180 [degree], or NAN if the crack has not grown. */
 real growing_crack_angle(const struct growing_crack *g);
 
-/* Saves the state of a growing crack and its fading bonds to the archive if a->saving, else restores them. which:
- * number of the crack, which names its entries. Returns FAILED if the archive cannot be read or written or a stored
- * size differs. */
+/* Saves the state of a growing crack and its fading bonds to the archive `a` if a->saving, else restores them from it.
+ * which: number of the crack, part of the names of its entries in the archive. Returns FAILED if the archive cannot be
+ * read or written or a stored size differs. */
 status growing_crack_save_or_load(struct growing_crack *g, int which, struct archive *a);
 
 #endif

@@ -21,8 +21,8 @@
 
 /* ---- gradients at particles (sif_gradient.c) --------------------------------------------------------------------- */
 
-/* Visibility of neighbours: particles are hidden from each other by cracks that cut the line between their reference
- * positions, and by bonds broken by load. */
+/* Which neighbours of a particle are visible for gradients: a neighbour is hidden if one of the `cracks` cracks cuts
+ * the line between the two reference positions, or if load has broken the bond between the two. */
 struct sight {
     const struct crack *crack;
     int cracks;
@@ -39,7 +39,8 @@ struct gradient_rule {
     real tip[DIM_MAX]; /* position of the tip [m] */
 };
 
-/* Gradient at a particle: df/dX_d = sum of weight[k][d] (f(particle[k]) - f(particle itself)). */
+/* Weights of the gradient of a field f at particle i: df/dX_d = sum_k weight[k][d] (f(particle[k]) - f(i)), k < n.
+ * room: capacity of the arrays. */
 struct gradient_stencil {
     int n, room;
     int32_t *particle;
@@ -84,7 +85,8 @@ struct sif_tip {
     enum sif_stress stress;
 };
 
-/* The motion at a time, of all particles, images included; velocity and acceleration NULL: equilibrium. */
+/* Motion of all particles, mirror images included, at one time; an entry of each array for every particle. velocity and
+ * acceleration are NULL for an equilibrium. */
 struct sif_motion {
     const real *displacement[2], *velocity[2], *acceleration[2]; /* [m] [m/s] [m/s^2] */
     const real *body[2];   /* forces of loads over masses [m/s^2]; NULL: no loads inside the contours */
@@ -101,9 +103,9 @@ struct sif {
 void sif_contour_weight(enum sif_weight form, const struct contour *contour, real distance, real *weight, real *slope);
 
 /* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
- * frame of the crack tip, x[0] ahead of the tip [m]; contour: contour with the weight q; actual, auxiliary: the two
- * motions at the point, in the same frame; inertia_factor: factor 0 to 1 on the second sum of I, which has the inertia
- * terms [1]. */
+ * frame of the crack tip, x[0] ahead of the tip [m]; contour: radii where the weight q decreases from 1 and reaches 0;
+ * actual, auxiliary: the two motions at the point, in the same frame; inertia_factor: factor 0 to 1 on the second sum
+ * of I, which has the inertia terms [1]. */
 real sif_interaction_integrand(const struct sif_tip *tip, const struct contour *contour, const real x[2],
                                const struct crack_state *actual, const struct crack_state *auxiliary,
                                real inertia_factor);

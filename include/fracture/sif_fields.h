@@ -7,7 +7,7 @@
 
 enum crack_mode { MODE_I, MODE_II, MODES };
 
-/* Elastic constants and wave speeds of the body round a crack, for its space. */
+/* Elastic constants and wave speeds of the body round a crack, for plane stress, plane strain or 3D. */
 struct crack_medium {
     /* shear modulus G; Lame constant lambda' of the space, plane stress: 2 G nu/(1 - nu) [Pa] */
     real shear, lambda;
@@ -21,7 +21,7 @@ struct crack_medium {
  * plane strain or 3D. */
 struct crack_medium crack_medium_of(const struct material *m, enum space space);
 
-/* Motion at a point as the interaction integral needs it, in the local frame. */
+/* Motion and stress at a point, in the frame of the crack tip: x_1 ahead of the tip, x_2 perpendicular to the crack. */
 struct crack_state {
     real gradient[2][2];    /* du_i/dx_j [1] */
     real stress[2][2];      /* stress [Pa] */
@@ -60,9 +60,9 @@ void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real sp
                      struct crack_field *f);
 
 /* Returns the universal function A_I(v) or A_II(v) of the energy release rate G = (A_I K_I^2 + A_II K_II^2)/E* (Freund
- * 1990, chapter 5) [1]; 1 at rest. speed: speed v of the tip [m/s]. A_II contains the factor 1 - a_s^2, as A_I does;
- * with 1
- * - a_d^2, as sometimes printed, A_II would not tend to 1 at rest. */
+ * 1990, chapter 5) [1]; 1 at rest. speed: speed v of the tip [m/s]. With a_d = sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 -
+ * v^2/c_s^2), both contain the factor 1 - a_s^2; some prints have 1 - a_d^2 in A_II, which then would not tend to 1 at
+ * rest. */
 real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed);
 
 /* Form of k(v) = K_I/K_I at rest of a semi-infinite crack that grows at constant speed under a time-independent load:

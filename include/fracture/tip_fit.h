@@ -1,9 +1,10 @@
 /* Stress-intensity factors of a crack at rest from the displacements round its tip, by a least-squares fit of the
  * series of Williams (1957), both modes, with a translation (term n = 2 of mode II is the rotation):
  *
- * 2 G u_I  = r^(n/2) [(kappa + n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]      s = (-1)^n 2 G v_I  = r^(n/2) [(kappa -
- * n/2 - s) sin(n t/2) + n/2 sin((n/2 - 2) t)] 2 G u_II = r^(n/2) [(kappa + n/2 - s) sin(n t/2) - n/2 sin((n/2 - 2) t)]
- * 2 G v_II = r^(n/2) [-(kappa - n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]
+ *     2 G u_I  = r^(n/2) [(kappa + n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]      s = (-1)^n
+ *     2 G v_I  = r^(n/2) [(kappa - n/2 - s) sin(n t/2) + n/2 sin((n/2 - 2) t)]
+ *     2 G u_II = r^(n/2) [(kappa + n/2 - s) sin(n t/2) - n/2 sin((n/2 - 2) t)]
+ *     2 G v_II = r^(n/2) [-(kappa - n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]
  *
  * K_I and K_II are the coefficients of n = 1 times sqrt(2 pi). Terms up to n = 8 describe the bending of a ligament of
  * a few radii (in a ligament of 12 spacings the error of the direction is 5 degrees with n = 5, one degree with n = 8).

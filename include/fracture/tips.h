@@ -86,32 +86,32 @@ int64_t tips_count_longest_ends(const struct crack_tips *t);
 bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_tip *tip,
                                const struct mirror_plane *mirror, int mirrors);
 
-/* Quantities besides tips on which areas of cracks depend. */
+/* Symmetry and cross-section of the body, on which the area of a crack depends. */
 struct tip_surroundings {
     const struct mirror_plane *mirror; /* [mirrors] planes of symmetry */
     int mirrors;
-    real section; /* factor of a length in the plane, of a point in 1D [m], [m^2] */
+    real section; /* thickness in 2D [m], cross-section in 1D [m^2], 1 in 3D */
     real half;    /* half of the damage of particles beside a plane cut [1] */
 };
 
-/* Area of cracks [m^2]. face: of one of both faces. own: the area whose energy is in the modelled body, which is half
- * of the face of a crack in a plane of symmetry. */
+/* Area of cracks [m^2]. face: area of one of the two faces; own: area whose fracture energy the modelled body has
+ * spent, half of `face` for a crack in a plane of symmetry, else `face`. */
 struct crack_area {
     real face, own;
 };
 
-/* Returns the crack area created up to the last sample. The face of a crack that starts at a pre-crack is its growth in
- * strips one spacing wide along its front, without branches. That of any other crack is half the number of its
- * particles times the area of a particle; all of them in a plane of symmetry, beside which they are on one side. s:
- * planes of symmetry and thickness. */
+/* Returns the crack area created up to the last sample. For a crack that starts at a pre-crack, the area of a face is
+ * the sum of its growth over strips one spacing wide along the front, without branches. For any other crack it is half
+ * the number of its particles times the area of a particle, since particles of both faces are counted; in a plane of
+ * symmetry, where only one face is modelled, it is the whole number. s: planes of symmetry and thickness. */
 struct crack_area tips_crack_area(const struct crack_tips *t, const struct particles *p,
                                   const struct tip_surroundings *s);
 
 /* Frees the arrays of t. */
 void tips_free(struct crack_tips *t);
 
-/* Saves the tips, the crack of each particle and the recorded samples to the archive if a->saving, else restores them.
- * Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the tips, the crack of each particle and the recorded samples to the archive `a` if a->saving, else restores
+ * them from it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status tips_save_or_load(struct crack_tips *t, struct archive *a);
 
 #endif
