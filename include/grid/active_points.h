@@ -19,7 +19,7 @@ struct active_points {
     struct transfer_order active;
 };
 
-enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches */
+enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches for the cells that motion can reach */
 
 /* Finds the material points whose cells motion can reach in the next steps, so that transfers can skip all others.
  * full_order: cell order of all points; previous_order: order used up to this step; grid: background grid with the

@@ -8,14 +8,15 @@
 #include "data/transfer_order.h"
 #include "data/particles.h"
 
-/* The grid of a body, its points, and the range of nodes that the points reach, counted from the anchor of the grid. */
+/* A body in contact of material points: its background grid, the cell order of its points, and the range of nodes that
+ * the points reach, from[d] to to[d] along each axis d, counted from the anchor of the grid. */
 struct grid_contact_side {
     struct grid *grid;
     const struct transfer_order *order;
     int64_t from[DIM_MAX], to[DIM_MAX];
 };
 
-/* A node that points of two bodies reach. */
+/* A node that material points of two bodies reach, so that contact may act there. side: numbers of the two bodies. */
 struct grid_contact_node {
     int side[2];
     int64_t at[2]; /* index of the node in the two grids */
@@ -41,8 +42,8 @@ struct grid_contact {
     real began, ended;            /* first and last time of contact, NAN: none so far [s] */
 };
 
-/* Allocates the sums of the energy dissipated by contact, for each pair of `sides` bodies. The other members of c are
- * set by the caller. Release with grid_contact_free. */
+/* Allocates c->dissipated, the energy dissipated by contact for each pair of `sides` bodies. The caller sets the
+ * constants friction, spacing, half_width and smallest_mass of c. Release with grid_contact_free. */
 void grid_contact_make(struct grid_contact *c, int sides);
 
 /* Initialises *side with the background grid g of one body, the cell order of its points, and the range of nodes that
@@ -59,18 +60,19 @@ void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_s
  * stored in the forces, of the grids of `side`, c->sides elements. Returns the energy dissipated [J]. */
 real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_contact_side *side);
 
-/* Returns the energy that contact dissipates in this step in addition to grid_contact_exchange_momentum with the FLIP
- * transfer [J], and adds it to c->dissipated: half the contact impulse of each node times the difference between the
- * relative velocity of the bodies after a second mapping of the moved points to the nodes, which strains the points,
- * and that just after the impulse. side: grids of the bodies, c->sides elements. */
+/* Returns the part of the energy dissipated by contact in this step that grid_contact_exchange_momentum does not
+ * include [J], and adds it to c->dissipated. With the FLIP transfer, the moved points are mapped to the nodes a second
+ * time to compute their strain. The part is the sum over nodes of J . (w' - w)/2: contact impulse J, relative velocity
+ * w of the two bodies just after the impulse and w' after the second mapping. side: grids of the bodies, c->sides
+ * elements. */
 real grid_contact_remap_energy_loss(struct grid_contact *c, const struct grid_contact_side *side);
 
-/* Sets the last time of contact, and the first one if there is none yet, to t [s], if bodies touched at nodes in the
- * last step. */
+/* Records the times of first and last contact: if bodies touched at nodes in the last step, c->ended becomes t [s], and
+ * c->began, too, if it is still NAN. */
 void grid_contact_record_first_and_last_time(struct grid_contact *c, real t);
 
-/* Saves energies and times of contact to the archive if a->saving, else restores them. Returns FAILED if the archive
- * cannot be read or written or a stored size differs. */
+/* Saves energies and times of contact to the archive `a` if a->saving, else restores them from it. Returns FAILED if
+ * the archive cannot be read or written or a stored size differs. */
 status grid_contact_save_or_load(struct grid_contact *c, struct archive *a);
 
 /* Frees the arrays of c. */

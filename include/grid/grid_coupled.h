@@ -16,10 +16,10 @@ struct grid_coupled {
     int64_t n;
 };
 
-/* Selects the peridynamic particles that the background grid moves in this step: lists them, sets FLAG_GRID_COUPLED
- * and sorts them into cells. coupling: at the interface (pm, pg) the particles in cells that share a node with a cell
- * holding a material point, else (pmg, pgg) all particles. g: grid that covers all material points, in the second case
- * all particles. To be called before the forces. */
+/* Selects the peridynamic particles that the background grid moves in this step: lists them, sets FLAG_GRID_COUPLED and
+ * sorts them into cells. coupling: with PM and PG, those in cells that share a node with a cell that contains a
+ * material point; with PMG and PGG, all. g: background grid, which must cover all material points (with PMG and PGG all
+ * particles). To be called before the forces are computed. */
 void grid_coupled_select_particles(struct grid_coupled *c, enum coupling coupling, struct particles *p,
                                    const struct grid *g);
 

@@ -34,15 +34,15 @@ struct grid_method {
     real spacing;       /* of particles [m] */
 };
 
-/* Makes the background grids of a run: one, or one for each body if material points of several bodies can be in
- * contact. Sets cell size and position of the nodes; nodes are allocated later (grid_sort_points_into_cells). A second
- * call moves the nodes. s: scene; meshed: true if bodies are in the reference frame, whose particles must be midway
- * between nodes. */
+/* Makes the background grids of a run: one for all bodies, or one for each body if material points of several bodies
+ * can be in contact. Sets cell size and positions of the nodes; grid_sort_points_into_cells allocates the nodes later.
+ * May be called again, with another `meshed`, to change the positions of the nodes. s: scene; meshed: true if bodies
+ * are in the reference frame, whose particles must be midway between nodes. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed);
 
-/* Makes groups of material points that share a rotation (data/turning.h), so that FLIP conserves angular momentum.
- * Does nothing if no body is free to rotate, in 1D, and for transfers other than FLIP. loads: boundary conditions; s:
- * scene. */
+/* Makes groups of material points that share a rotation (data/turning.h), so that FLIP conserves angular momentum. Does
+ * nothing if no body is free to rotate, in 1D, and for transfers other than FLIP. loads: boundary conditions, which may
+ * prevent rotation; coupling: how material points and peridynamic particles are coupled. */
 void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
                                const struct scene *s, enum coupling coupling);
 
@@ -51,8 +51,8 @@ void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *
  * to place nodes midway between particles. */
 void grid_choose_anchor(const struct scene *s, const real *body_corner, const real *site, bool meshed, real *anchor);
 
-/* Returns the number in the scene of body `group` = 0, 1, ..., where bodies joined to each other count once, under the
- * first of them. Returns -1 if there are no more than `group` bodies. */
+/* Returns the number in the scene of the first body of group number `group` = 0, 1, .... A group is a set of bodies
+ * that are joined to each other, or a single body. Returns -1 if there are no more than `group` groups. */
 int joined_bodies_first_body(const struct scene *s, int group);
 
 /* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits and voids then
