@@ -7,10 +7,11 @@
 #include "data/grid.h"
 #include "data/particles.h"
 
-/* The method that moves a particle, each with its own elastic constants. */
+/* The method that moves a particle: bond forces, background grid or mesh. Each has elastic constants of its own. */
 enum moved_by { MOVED_BY_BONDS, MOVED_BY_GRID, MOVED_BY_MESH, MOVERS };
 
-/* Impedances of a material, rho c_p and rho c_s [kg/(m^2 s)]. */
+/* Wave impedances of a material: normal, rho c_p, and tangential, rho c_s [kg/(m^2 s)], with the speeds c_p, c_s of
+ * longitudinal and shear waves. */
 struct impedance {
     real normal, tangential;
 };

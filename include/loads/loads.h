@@ -23,7 +23,8 @@ enum boundary_kind {
     BOUNDARY_PRESSURE    /* on every free face, against its outward normal (loads_pressure.c) [Pa] */
 };
 
-/* Factor on a body force over the reference position: sin(2 pi (X - origin) . direction/wavelength). */
+/* Factor on a body force as a function of the reference position X: 1 (uniform) or sin(2 pi (X - origin) .
+ * direction/(wavelength |direction|)). */
 enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
 struct profile {
     enum profile_kind kind;
@@ -32,7 +33,8 @@ struct profile {
     real direction[DIM_MAX]; /* of any length [1] */
 };
 
-/* One boundary condition as given in the scene. */
+/* One boundary condition as given in the scene. Words in capitals tell for which kinds (enum boundary_kind) a member is
+ * used. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
     char place[PLACE_LENGTH]; /* position in the scene file */
@@ -68,7 +70,7 @@ struct boundary {
     bool hold_tangential; /* MIRROR: displacement odd in all components, not only the normal one */
 };
 
-/* A boundary condition applied to particles. Arrays are owned, except shares that loads have in common. */
+/* A boundary condition applied to particles. Arrays are owned, except shares that several loads use together. */
 struct load {
     const struct boundary *boundary; /* borrowed from the scene */
     int64_t n;
@@ -121,20 +123,21 @@ static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
 }
 
-/* A constrained component of a node, valid as long as the grid keeps its box. */
+/* A constrained velocity component of a node, and the number of the boundary condition that constrains it. Node indices
+ * are valid until the grid covers another box of nodes. */
 struct held {
     int32_t node;
     uint8_t component, load;
 };
 
-/* Constrained components of nodes; found once for each box of nodes. */
+/* Constrained velocity components of the nodes of a grid; found again when the grid covers another box of nodes. */
 struct constrained_set {
     int64_t n, lasting; /* length of `held`; the first `lasting` do not depend on nodal masses */
     struct held *held;
     int64_t first[DIM_MAX], count[DIM_MAX]; /* box of nodes for which they were found */
 };
 
-/* All boundary conditions of a run with their accounts. */
+/* All boundary conditions of a run, with the sums of their impulse and work. */
 struct loads {
     int n;
     struct load *load;
@@ -181,8 +184,8 @@ static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
  * traction on particles without a free face. */
 status load_find_particles(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
-/* Sets selected[i] = 1 for the particles in the region and body of boundary b, 0 for all others; selected: [p->n].
- * spacing: lattice spacing, to which the tolerance of the region refers [m]. Returns false if none is selected. */
+/* Sets selected[i] = 1 for the particles i < p->n in the region and body of boundary b, 0 for all others. spacing:
+ * lattice spacing, to which the tolerance of the region refers [m]. Returns false if none is selected. */
 bool load_mark_particles_in_region(const struct boundary *b, const struct particles *p, real spacing,
                                    uint8_t *selected);
 
@@ -190,8 +193,9 @@ bool load_mark_particles_in_region(const struct boundary *b, const struct partic
  * the load applies forces. Sets FLAG_DRIVEN on these particles if the load prescribes motion. selected: [p->n]. */
 void load_set_particles(struct load *l, const uint8_t *selected, struct particles *p);
 
-/* Exposed face for a traction (loads_columns.c): areas of particles. Of each column along the normal, the first
- * particle that no other one hides gets its area; for tangential components together with the next one if `two`. */
+/* Areas of the particles on an exposed face, for tractions (loads_columns.c). In each column of particles along the
+ * normal, the outermost particle receives the area of the column. Tangential areas may be extrapolated to the face: 3/2
+ * of the area for the outermost particle, -1/2 for the next one. */
 struct exposed_face {
     real *normal, *along; /* [particles] area for the normal component, and for the tangential ones [m^2] */
 };
@@ -236,21 +240,21 @@ void pressure_visit_faces(const struct boundary *boundary, int boundaries, int n
                           real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context);
 
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
- * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that change.
- * Returns REFUSED, with a message, if a formula has no finite value at a particle. */
+ * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that depend
+ * on time. Returns REFUSED, with a message, if a formula has no finite value at a particle. */
 status load_prepare_varying_shares(struct load *l, const struct particles *p);
 
 /* Checks that the formulas of all loads and supports have finite values at their particles at time t [s]. Returns
  * FAILED, with a message that contains boundary, position and time, if one has not. */
 status loads_check_finite(const struct loads *l, const struct particles *p, real t);
 
-/* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time, for
- * loads_add_forces: to their mean over the velocity update of duration dt_velocity [s] that ends at time t [s]. */
+/* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
+ * over the velocity update of duration dt_velocity [s] that ends at time t [s]. loads_add_forces then uses them. */
 void loads_update_shares_for_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
-/* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time, for
- * loads_add_work: to the mean of the two velocity updates before and after the change of positions in the step of size
- * dt about t [s]. */
+/* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
+ * over the two velocity updates before and after the position update of the step t - dt/2 to t + dt/2 [s].
+ * loads_add_work then uses them. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
 /* Releases the arrays that load_prepare_varying_shares has allocated for load l. */
@@ -287,7 +291,8 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads that have equal lists of particles, so that each list is traversed once; last part of loads_make. */
+/* Combines loads with equal lists of particles (sets load.leader), so that each list is traversed once. The last part
+ * of loads_make. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the shares (areas, volumes, masses) of all loads, also those that several loads have in common. */
@@ -362,7 +367,8 @@ void load_displacement_of_particle(const struct load *l, const struct particles 
  * formula of t), so that its displacements are unknown; else OK. */
 status boundary_check_displacement_known(const struct boundary *b);
 
-/* Motion that a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
+/* Motion that a boundary of kind VELOCITY prescribes in a time step from t - dt/2 to t + dt/2, prepared for evaluation
+ * at many positions (loads_driving.c). */
 struct prescribed_motion {
     const struct boundary *boundary;
     int dim;
@@ -375,8 +381,8 @@ struct prescribed_motion {
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
 /* Returns the motion that boundary number `number` of l prescribes in the step of size dt about t [s], as
- * prescribed_motion_make. After the last step of a run (l->ended) a prescribed displacement continues as in the
- * previous step; otherwise half of a change of motion after the end would enter the work of the run. */
+ * prescribed_motion_make. After the last step of a run (l->ended) a prescribed displacement continues at the velocity
+ * of the previous step, so that a change of motion beyond the end does not enter the work of the run. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int number, int dim, real t, real dt);
 
 /* Returns component `component` of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for
@@ -393,12 +399,13 @@ static inline bool boundary_motion_varies_in_space(const struct boundary *b)
 }
 
 /* Returns the largest speed of the displacement that load l prescribes between the times 0 and `t_end` [s] [m/s],
- * INFINITY if the displacement jumps. Formulas are sampled at MOMENTS times and at some of the load's particles. */
+ * INFINITY if the displacement jumps. Formulas are sampled at a fixed number of times and at some of the load's
+ * particles. */
 real load_largest_displacement_speed(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest difference between the velocity that load l prescribes between the times 0 and `t_end` [s] and
- * the velocity of its particles in p, the state at time 0 [m/s]. Sampled at MOMENTS times and some particles. For
- * rotations the difference of speeds; 0 for prescribed displacements. */
+ * the velocity of its particles in p, the state at time 0 [m/s]. Sampled at a fixed number of times and at some
+ * particles. For rotations the difference of speeds; 0 for prescribed displacements. */
 real load_largest_velocity_jump(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest speed that load l gives to its particles in p between the times 0 and `t_end` [s] [m/s]:
@@ -407,8 +414,8 @@ real load_largest_driven_speed(const struct load *l, const struct particles *p, 
 
 /* Returns the largest change, within any time span of length `time_span` [s], of the velocity that load l (velocity or
  * displacement) prescribes between the times 0 and `t_end` [s] [m/s]. Before time 0 the particles of the load have the
- * velocity in p. Sampled at MOMENTS times and some particles; a span shorter than the sampling interval is extended to
- * that interval. */
+ * velocity in p. Sampled at a fixed number of times and at some particles; a span shorter than the sampling interval is
+ * extended to that interval. */
 real load_largest_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span);
 
 /* Returns the largest difference between the velocities that loads a and b prescribe between the times 0 and `t_end`
@@ -417,7 +424,8 @@ real load_largest_velocity_change(const struct load *l, const struct particles *
 real loads_largest_velocity_difference(const struct load *a, const struct load *b, const struct particles *p,
                                        real t_end);
 
-/* tolerance of region membership, over the spacing: points on the border belong to the region */
+/* Tolerance by which a particle may be outside a region and still belong to it, so that particles on the border do
+ * [spacings]. */
 #define LOADS_TOLERANCE ON_SURFACE
 
 /* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */
@@ -499,8 +507,8 @@ void loads_compute_static_displacements(struct loads *l, const struct particles 
                                         real *const *displacement, uint8_t *driven_components);
 
 /* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
- * loads with a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns that moment
- * over the largest moment that forces of this size could have [1]. */
+ * loads with a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns the moment of
+ * the loads over the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
 /* Adds the applied forces of a static problem at full load, and the inertia forces of loads_add_inertia_relief, to p->f
@@ -515,11 +523,11 @@ void loads_collect_static_reactions(struct loads *l, struct particles *p);
  * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */
 void loads_compute_static_work(struct loads *l, const struct particles *p);
 
-/* Saves (a->saving) or restores the impulse and work of the loads since the start, and displacement and reaction of
- * each load. Returns FAILED if an entry is missing or its size differs. */
+/* Saves the impulse and work of the loads since the start, and displacement and reaction of each load, to the archive
+ * `a` if a->saving, else restores them from it. Returns FAILED if an entry is missing or its size differs. */
 status loads_save_or_load(struct loads *l, struct archive *a);
 
-/* largest number: indices are stored as bytes in struct held and struct image; scene_keys.c */
+/* Largest number of boundary conditions in a scene: their indices are stored as bytes (struct held, struct image). */
 enum { BOUNDARIES_MAX = 255 };
 
 #endif
