@@ -31,16 +31,18 @@ struct archive {
     const int32_t *now;
 };
 
-/* Saves or restores a variable; returns from the calling function on failure. */
+/* Saves the variable `variable` to the archive a under the name `name` if a->saving, else restores it. On failure,
+ * makes the calling function return the status. */
 #define ARCHIVE_VALUE(a, name, variable) TRY((a)->exchange((a), (name), &(variable), sizeof(variable)))
 
-/* Saves n elements of `size` bytes, one per particle (mirror images included), or restores them. If a->now is set while
- * restoring, the run has other particles than the stored one: each element goes to the new index of its particle, and
- * elements of particles that were not stored keep their value. Returns the status of a->exchange. */
+/* Saves n elements of `size` bytes, one per particle (mirror images included), under the name `name` if a->saving, else
+ * restores them. If a->now is set while restoring, the run has other particles than the stored one: each element goes
+ * to the new index of its particle, and elements of particles that were not stored keep their value. Returns the status
+ * of a->exchange. */
 status archive_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size);
 
-/* Replaces each of the n indices in `particle`, which have been restored by the new index of that particle,
- * a->now[particle[k]]; -1 if it no longer exists. Does nothing while saving, or if a->now is NULL (equal particles). */
+/* Replaces each of the n restored particle indices particle[k] by the new index of that particle, a->now[particle[k]];
+ * -1 if the particle no longer exists. Does nothing while saving, or if a->now is NULL (equal particles). */
 void archive_renumber_particles(const struct archive *a, int32_t *particle, int64_t n);
 
 #endif

@@ -26,8 +26,8 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 #define NEVER_INLINE __attribute__((noinline)) /* for large functions called from several places: compiled once */
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
-/* Shuffles the entries of vectors a and b of n entries; indices from n on refer to b. MASK: the integer vector type of
- * n entries. */
+/* Composes a vector of n entries from entries of the vectors a and b, chosen by the n indices that follow: 0 .. n-1 for
+ * entries of a, n .. 2n-1 for entries of b. MASK: the integer vector type of n entries. */
 #ifdef __clang__
 #define VECTOR_PICK(MASK, a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
@@ -38,14 +38,15 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 static inline int symmetric_component_count(int dim) { return dim * (dim + 1) / 2; }
 
 /* Computes row and column (0 .. 2) of component number `component` of a symmetric tensor. Order of the components: xx,
- * yy, zz, xy, yz, zx in 3D; xx, yy, xy in 2D. */
+ * yy, zz, xy, yz, zx in 3D; xx, yy, xy in 2D; xx in 1D. */
 static inline void symmetric_component_axes(int dim, int component, int *row, int *column)
 {
     *row = component < dim ? component : component == dim ? 0 : component == dim + 1 ? 1 : 2;
     *column = component < dim ? component : (*row + 1) % DIM_MAX;
 }
 
-/* Returns the hash `hash` extended by a word, by one step of Splitmix64 (Steele, Lea, Flood 2014). */
+/* Returns a hash that combines the hash `hash` of previous words with one more word, by one step of Splitmix64 (Steele,
+ * Lea, Flood 2014). */
 static inline uint64_t hash_add_word(uint64_t hash, uint64_t word)
 {
     hash += (word + 1) * UINT64_C(0x9e3779b97f4a7c15);
@@ -57,8 +58,9 @@ static inline uint64_t hash_add_word(uint64_t hash, uint64_t word)
 /* Result of a function that can fail; the values are the exit statuses of the program. */
 typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
 
-/* Composes the message of a failure (one line), stores it for `status_message`, and returns `s`. Called once, where the
- * fault is found; callers only use TRY(). The message is kept per thread, like errno of the C library. */
+/* Composes the message of a failure (one line) as printf does, stores it for status_message, and returns `s`. Called
+ * once, where the fault is found; functions above it in the call chain only pass the status on (TRY). Each thread has
+ * its own message. */
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Returns the message of the last failure in this thread. */
@@ -102,10 +104,10 @@ struct printable_name {
     char text[512];
 };
 
-/* Returns a copy of `name` for printing, at most 511 bytes long, with `?` in place of control characters. */
+/* Returns a copy of `name` for messages, cut to at most 511 bytes, with `?` in place of control characters. */
 struct printable_name printable_name(const char *name);
 
-/* Compares two numbers (double), for array_sort in ascending order. */
+/* Compares the numbers *a and *b (double), for array_sort in ascending order: returns -1, 0 or 1. */
 int compare_doubles(const void *a, const void *b);
 
 /* Sorts the `count` numbers in `value`, at least one, in place, and returns their median; for even `count` the upper of
@@ -119,8 +121,8 @@ double median_by_sorting(double *value, int64_t count);
         if (try_status_ != OK) return try_status_;                                                                     \
     } while (0)
 
-/* Runs a loop of independent iterations in parallel if MANY, else in the calling thread: starting a team, even of one
- * thread, takes 0.3 to 0.5 us (measured). */
+/* Runs LOOP, a for loop of independent iterations, on all threads if MANY is true, else in the calling thread alone:
+ * starting a team of threads takes 0.3 to 0.5 us (measured). */
 #define TEAM_LOOP(MANY, LOOP)                                                                                          \
     do {                                                                                                               \
         if (MANY) {                                                                                                    \

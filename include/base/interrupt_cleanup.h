@@ -11,7 +11,7 @@ enum cleanup_kind { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
  * replaces its previous entry. A signal that is ignored or already has a handler is left alone. */
 void interrupt_cleanup_register(enum cleanup_kind kind, const char *path, int process);
 
-/* Blocks SIGINT, SIGTERM and SIGHUP in the calling thread (hold true), or unblocks them (false). Block them while a
+/* Blocks SIGINT, SIGTERM and SIGHUP in the calling thread if `block` is true, else unblocks them. Block them while a
  * temporary file or child process exists that has not yet been passed to interrupt_cleanup_register. A child process
  * inherits the block. */
 void interrupt_signals_block(bool block);

@@ -5,8 +5,9 @@
 
 #include "base.h"
 
-/* Returns `count` zeroed elements of `size` bytes, first written by the threads that will use them (static partition).
- * Never returns NULL; count 0 gives a valid pointer. Release with memory_free. */
+/* Allocates `count` zeroed elements of `size` bytes, 64-byte aligned. Each thread writes its part of the array first,
+ * so that this part is in memory near the thread. Never returns NULL, not even for count 0: out of memory, the program
+ * ends with a message that contains `label`. Release with memory_free. */
 void *memory_new(const char *label, int64_t count, size_t size);
 
 /* Allocates `count` elements of `size` bytes with undefined contents, to be written at once and completely by the
@@ -24,13 +25,15 @@ void *memory_new_lazy_uninitialised(const char *label, int64_t count, size_t siz
  * with memory_free. */
 void *memory_new_lazy_zeroed(const char *label, int64_t count, size_t size);
 
-/* Grows or shrinks an array of memory_new and returns it; the first min(old, new) elements are kept, new ones are zero.
- * `pointer` may be NULL and is invalid afterwards. */
+/* Changes the length of an array of memory_new from old_count to `count` elements of `size` bytes and returns it.
+ * Elements that both lengths include are kept, new ones are zero. pointer: the array, invalid afterwards, or NULL to
+ * allocate a new one. label: name of the array for messages about memory. */
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
-/* Returns an array of at least `count` elements: `pointer` if it has so many, else a copy at least twice as long, whose
- * new elements are zero; `pointer` is released. The number of allocated elements is stored with the array. pointer: an
- * array of memory_new, or NULL, which stays NULL for count 0. */
+/* Returns an array of at least `count` elements of `size` bytes: `pointer` itself if it has so many, else a copy at
+ * least twice as long, whose new elements are zero, and `pointer` is released. The number of allocated elements is
+ * stored with the array. pointer: an array of memory_new, or NULL; NULL is returned if pointer is NULL and count 0.
+ * label: name of the array for messages about memory. */
 void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, size_t size);
 
 /* Grows an array of memory_new_lazy_uninitialised or memory_new_uninitialised from old_count to `count` elements of
@@ -49,8 +52,8 @@ void memory_set_reuse(bool reuse);
 /* Returns the largest resident size of the process so far, from the operating system [byte]. */
 int64_t memory_peak(void);
 
-/* The tightest limit of memory for this process, from ulimit and control groups: bytes left (INT64_MAX: none) and
- * name. */
+/* The limit that leaves this process the least memory, from ulimit and control groups: bytes left (INT64_MAX: no limit)
+ * and name of the limit. */
 struct memory_limit {
     int64_t bytes;
     const char *name;
@@ -63,7 +66,8 @@ struct memory_limit memory_limit(void);
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
 #define BLANK(label, count, type) ((type *)memory_new_lazy_zeroed(label, count, sizeof(type)))
 #define BARE(label, count, type) ((type *)memory_new_uninitialised(label, count, sizeof(type)))
-/* Makes array[count - 1] writable, by memory_ensure_capacity. */
+/* Makes the array at least `count` elements long (memory_ensure_capacity); the variable `array` receives its new
+ * address. */
 #define GROW(label, array, count) ((array) = memory_ensure_capacity(label, array, count, sizeof *(array)))
 
 #endif

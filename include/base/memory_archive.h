@@ -4,13 +4,13 @@
 
 #include "base/archive.h"
 
-/* A stored entry; owned. */
+/* A stored entry: a copy of `size` bytes, owned by the archive. */
 struct memory_entry {
     void *data;
     size_t size;
 };
 
-/* The archive. */
+/* An archive (base/archive.h) whose entries are in memory. */
 struct memory_archive {
     struct archive archive;     /* must be first: `exchange` converts its pointer */
     int64_t n, next;            /* entries; next one to be restored */

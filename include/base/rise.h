@@ -16,7 +16,8 @@ enum {
     RISE_VALUES = 64
 };
 
-/* The last RISE_VALUES records; record n is at[n % RISE_VALUES]. */
+/* Records of a quantity at time steps. n: number of records so far; at: the last RISE_VALUES of them, record k is at[k
+ * % RISE_VALUES]. */
 struct growth_samples {
     int64_t n;
     struct {
@@ -25,7 +26,7 @@ struct growth_samples {
     } at[RISE_VALUES];
 };
 
-/* Growth rates: tenfold within RISE_STEPS, slower, or undecided. */
+/* Growth of a quantity: tenfold within RISE_STEPS steps, slower, or undecided. */
 enum growth_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
 /* Records `value` at time step number `step` in `samples`, unless the last record is less than RISE_CLOSEST steps old.

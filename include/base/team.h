@@ -12,9 +12,10 @@ struct machine {
     char model[128];            /* name of the processor */
 };
 
-/* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask. Binds helper
- * thread k >= 1 to the k-th core of the mask, if there are enough, unless the user set OMP_PROC_BIND or OMP_PLACES; the
- * calling thread moves to the first core and keeps the mask. Returns the number of threads. */
+/* Sets the number of threads: `threads` if > 0, else the value of OMP_NUM_THREADS, else the number of physical cores
+ * that this process may use. Binds helper thread k >= 1 to the k-th of these cores if there are enough and the user has
+ * set neither OMP_PROC_BIND nor OMP_PLACES. The calling thread moves to the first core, but is not bound to it. Returns
+ * the number of threads. */
 int team_set_threads(int threads);
 
 /* Returns the number of cores, the sizes of caches and memory, as far as this process may use them, and the name of the
@@ -39,11 +40,11 @@ int machine_cores(void);
  * core_shares_free. */
 struct core_shares *core_shares_make(int shares);
 
-/* Binds the calling thread, and processes that it starts, to a share; share -1 restores its previous binding. s NULL:
- * does nothing. */
+/* Binds the calling thread, and processes that it starts later, to the cores of share number `share` of s; -1 restores
+ * its previous binding. Does nothing if s is NULL. */
 void core_share_bind(const struct core_shares *s, int share);
 
-/* Releases the shares. */
+/* Releases the shares of cores s. */
 void core_shares_free(struct core_shares *s);
 
 /* Returns the wall clock [s]. */
@@ -52,11 +53,12 @@ double wall_clock(void);
 /* Returns the processor time of the calling thread [s]; time taken by other programs does not count. */
 double thread_cpu_clock(void);
 
-/* Terms per block of a sum, and largest number of sums in one pass. */
+/* SUM_BLOCK: number of terms per block of a reproducible sum; TERMS_MAX: largest number of sums in one pass. */
 enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
 
-/* Returns the sum of n terms, added in fixed blocks of SUM_BLOCK, and the blocks in order: equal bits on any number of
- * threads. term(context, i) must not write. */
+/* Returns the sum of the terms term(context, i) for i = 0 .. n - 1. Terms are added in blocks of SUM_BLOCK, and the
+ * sums of the blocks in order, so that the result has equal bits with any number of threads. `term` is called by
+ * several threads at once and must not write. */
 real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
 
 /* Computes `terms` <= TERMS_MAX sums over n terms in one pass, with bit-identical results for any number of threads.
@@ -65,11 +67,12 @@ real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), c
 void reproducible_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                        const void *context, real *sum);
 
-/* Timed sections of a step. */
+/* Timed sections of a time step; timer_name has their names. */
 enum timer { TIMER_BONDS, TIMER_SCATTER, TIMER_GRID, TIMER_GATHER, TIMER_CONVERT, TIMER_SAMPLE, TIMER_OUTPUT, TIMERS };
 extern const char *const timer_name[TIMERS];
 
-/* Time spent in each section, and the time of the last booking [s]. */
+/* Timer of the sections of a time step. spent: time spent in each section so far [s]; last: wall clock at the last call
+ * of timer_add_elapsed or timers_start [s]. */
 struct timers {
     double last, spent[TIMERS];
 };

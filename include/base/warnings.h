@@ -7,7 +7,7 @@
 #include "archive.h"
 #include "base.h"
 
-/* The list; texts are owned. */
+/* A list of `n` different warnings, text[k] in the order of their first occurrence; it owns the texts. */
 struct warnings {
     int n;
     bool silent; /* pilot run: warnings are stored, but not printed while it runs */
@@ -32,11 +32,11 @@ void warnings_add_and_print(struct warnings *w, const char *text);
 /* Prints the warnings number `first`, first + 1, ... of the list w on standard error, unless the list is silent. */
 void warnings_print_to_stderr(const struct warnings *w, int first);
 
-/* Saves the warnings of the list w to the archive if a->saving, else appends the stored ones to w. Returns FAILED if
- * the archive cannot be read or written or its entries are inconsistent. */
+/* Saves the warnings of the list w to the archive `a` if a->saving, else appends those stored in `a` to w. Returns
+ * FAILED if the archive cannot be read or written or its entries are inconsistent. */
 status warnings_save_or_load(struct warnings *w, struct archive *a);
 
-/* Releases all texts. */
+/* Releases all texts of the list w. */
 void warnings_free(struct warnings *w);
 
 #endif
