@@ -27,7 +27,7 @@ struct active_set {
  * Release with active_set_free. */
 void active_set_make(struct active_set *r, int64_t blocks);
 
-/* Releases all arrays. */
+/* Releases all arrays of the active set r. */
 void active_set_free(struct active_set *r);
 
 /* Rebuilds r->list and r->active, the blocks that computations visit (level above 0) in ascending order and their

@@ -4,13 +4,13 @@
 
 #include "base/base.h"
 
-/* A box; sides may be infinite [m]. */
+/* A box between the corners `low` and `high`; coordinates may be infinite [m]. */
 struct bounds {
     real low[DIM_MAX], high[DIM_MAX];
 };
 
-/* node[0] contains all n boxes; the boxes of a node are divided between the nodes `left` and `left` + 1. left = 0: a
- * leaf with box number `item`. */
+/* A binary search tree over n boxes. node[0] contains all of them; the boxes of a node are divided between node[left]
+ * and node[left + 1]. A node with left = 0 is a leaf, with the single box number `item`. */
 struct box_tree {
     int n;
     struct box_node {
@@ -23,10 +23,10 @@ struct box_tree {
  * and box_search_next find the boxes near a point. Release with box_tree_free. */
 void box_tree_make(struct box_tree *t, const struct bounds *box, int n, int dim);
 
-/* Releases the tree. */
+/* Releases the nodes of the tree. */
 void box_tree_free(struct box_tree *t);
 
-/* State of a search for boxes near X, nearer halves first; `wait`: nodes still to be visited, with their distances. */
+/* BOXES_WAITING: capacity of box_search.wait, the nodes still to be visited by a search for boxes near the point X. */
 enum { BOXES_WAITING = 48 };
 struct box_search {
     const struct box_tree *tree;

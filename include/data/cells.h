@@ -5,7 +5,8 @@
 
 #include "particles.h"
 
-/* Cells. All arrays are owned. */
+/* Search cells: equal squares or cubes that cover all particles, with a list of the particles in each of them. All
+ * arrays are owned. */
 struct cells {
     int dim;
     int64_t count[DIM_MAX], n; /* cells per direction; in all */
@@ -19,7 +20,7 @@ struct cells {
  * a radius of up to `edge` [m] can be found. Release with cells_free. */
 void cells_make(struct cells *c, const struct particles *p, real edge);
 
-/* Releases all arrays. */
+/* Releases all arrays of c. */
 void cells_free(struct cells *c);
 
 /* Lists the particles and mirror images of p within `radius` [m] (at most c->edge) of the point X (dim components [m])
@@ -32,14 +33,16 @@ int cells_find_near(const struct cells *c, const struct particles *p, const real
  * the largest number of particles in the search cells around any cell. Fast, because no distances are computed. */
 int cells_neighbour_count_bound(const struct cells *c, real radius);
 
-/* List of near particles that grows as needed; start with {0}, release `at` with memory_free. */
+/* List of particle indices at[0 .. n - 1] that grows as needed. Initialise it with {0} and release `at` with
+ * memory_free. */
 struct neighbour_list {
     int32_t *at;
     int n, room;
 };
 
 /* Lists the particles and mirror images within `radius` [m] of particle i in near->at, in ascending order, and their
- * number in near->n. include_itself: true to include particle i. */
+ * number in near->n. c: search cells, whose edge must be at least the radius; include_itself: true to include particle
+ * i. */
 void particles_find_near(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
                          real radius, bool include_itself);
 

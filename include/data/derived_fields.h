@@ -5,10 +5,11 @@
 
 #include "base/base.h"
 
-enum derived_from { FROM_STRESS, FROM_VELOCITY, DERIVED_SOURCES }; /* symmetric tensor [6], vector [3] */
+enum derived_from { FROM_STRESS, FROM_VELOCITY, DERIVED_SOURCES }; /* source field: stress tensor [6] or velocity [3] */
 enum { DERIVED_MOST = 9 };                                         /* largest number of components of a field */
 
-/* Description of a derived field. */
+/* Description of a field that is computed from one field of the same particle: name, unit, meaning in words, source
+ * field `from`, number of components `columns`. */
 struct derived_field {
     const char *name, *unit, *meaning;
     enum derived_from from;
@@ -21,15 +22,16 @@ extern const struct derived_field derived_fields[DERIVED_FIELDS];
 /* Returns the entry of derived_fields with the given name, or NULL if there is none. */
 const struct derived_field *derived_field_find(const char *name);
 
-/* Computes the eigenvalues of a symmetric tensor, descending, and unit vectors along its axes in this order, row by
- * row; the largest component of the first two is positive, the third completes a right-handed system. direction NULL:
- * only the values. */
+/* Computes the eigenvalues of a symmetric tensor (xx, yy, zz, xy, yz, xz), descending, and unit eigenvectors in this
+ * order: components 3 k .. 3 k + 2 of `direction` belong to value[k]. The largest component of the first two vectors is
+ * positive, the third completes a right-handed system. direction NULL: only eigenvalues are computed. */
 void tensor_principal_values(const real tensor[6], real value[3], real direction[9]);
 
-/* Returns the equivalent stress of von Mises, sqrt(3/2 s : s) with the deviator s. */
+/* Returns the equivalent stress of von Mises, sqrt(3/2 s : s) with the deviator s, of a stress tensor with components
+ * xx, yy, zz, xy, yz, xz; unit as `tensor`. */
 real tensor_mises_stress(const real tensor[6]);
 
-/* Returns the determinant of a symmetric tensor. */
+/* Returns the determinant of a symmetric tensor with components xx, yy, zz, xy, yz, xz. */
 real tensor_determinant(const real tensor[6]);
 
 #endif

@@ -43,14 +43,15 @@ enum expression_op {
 
 enum { EXPRESSION_STACK = 32, EXPRESSION_STEPS = 400 }; /* largest stack and largest number of steps */
 
-/* One step of an expression. */
+/* One step of an expression: an operation on the topmost values of a stack. */
 struct expression_step {
     enum expression_op op;
     real value; /* value of a NUMBER [SI] */
 };
 
-/* An expression; n = 0: none. `text` has SI units and units of the scene, without variables of the scene: parsing it
- * gives an equal expression. */
+/* A compiled expression of x, y, z and t: n steps, evaluated on a stack; n = 0 means that there is none. text: source
+ * of the expression with its units, in which variables of the scene are replaced by their values; compiling it gives an
+ * equal expression. */
 struct expression {
     int n;
     struct expression_step *step;
@@ -65,7 +66,7 @@ void expression_make(struct expression *e, const struct expression_step *step, i
 /* Creates an expression that is the constant `value` [SI], with a copy of its text. Release with expression_free. */
 void expression_make_constant(struct expression *e, real value, const char *text);
 
-/* Releases steps and text. */
+/* Releases the steps and the text of e. */
 void expression_free(struct expression *e);
 
 /* Returns the value of the expression [SI] at the position X (dim components [m]) and the time t [s]. X may be NULL if

@@ -1,10 +1,10 @@
-/* Where the bodies of a run are, as text for messages about places that hold no particle. */
+/* Text on the extent of the bodies of a run, for messages about positions at which there is no particle. */
 #ifndef CLEAVE_EXTENT
 #define CLEAVE_EXTENT
 
 #include "data/particles.h"
 
-/* Text of an extent, returned by value. */
+/* Text on the extent of all particles, returned by value. */
 struct extent_text {
     char text[240];
 };

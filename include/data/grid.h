@@ -5,7 +5,8 @@
 
 #include "base/base.h"
 
-/* Dashpots on a node: force over velocity by component [kg/s]; 0: none, or a wall prescribes the component. */
+/* Dashpots on a node of an absorbing face. rate: force over velocity by component [kg/s]; 0 if there is no dashpot or
+ * if the component is prescribed. */
 struct dashpot {
     int32_t node;
     real rate[DIM_MAX];
@@ -18,7 +19,7 @@ struct absorbed {
     real energy, kick, impulse[DIM_MAX];
 };
 
-/* The grid. All arrays are owned. */
+/* The background grid: a box of equal square or cubic cells with values at their nodes. All arrays are owned. */
 struct grid {
     int dim;
     int body;                  /* 1 + the only body whose points are on it; 0: any body */
@@ -38,7 +39,7 @@ struct grid {
     real light_mass;                 /* nodes lighter than this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
     struct follower *follower; /* [n] followers of this step, ascending */
-    uint8_t *held; /* [n] not 0: a wall prescribes it; set only while followers are searched or bodies meet */
+    uint8_t *held; /* [n] not 0: a component is prescribed; valid only in the search for followers and in contact */
     int64_t dashpots;
     struct dashpot *dashpot;  /* dashpots of absorbing faces in this step, ascending by node */
     struct absorbed absorbed; /* their effect in this step */
@@ -61,7 +62,8 @@ struct mirror_node {
     real reaction[DIM_MAX];         /* impulse of the plane on the body in this step [N s] */
 };
 
-/* One prescribed component of one node; its force is replaced by the force that the prescribed motion needs. */
+/* A wall: one velocity component of one node that is prescribed. The force on it is replaced by the force that the
+ * prescribed motion requires. */
 struct wall {
     int32_t node;
     int16_t component, load; /* load: index of the boundary condition */
@@ -76,29 +78,31 @@ struct wall {
  * far away, or if the box would have more than `max_nodes` nodes. */
 status grid_extend_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes, bool *changed);
 
-/* Releases all arrays. */
+/* Releases all arrays of g. */
 void grid_free(struct grid *g);
 
-/* Appends a wall (copied). */
+/* Appends a wall, a prescribed velocity component of a node, to those of this step (copied). */
 void grid_add_wall(struct grid *g, const struct wall *wall);
 
-/* Appends a mirror node (copied). */
+/* Appends a mirror node, a node beyond a plane of symmetry that moves as the image of another one (copied). */
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
 
-/* Appends a dashpot (copied). */
+/* Appends the dashpots of one node to those of this step (copied). */
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
 
 /* Sets the numbers of walls (prescribed nodal velocities) and dashpots of this step, and the reactions of mirror nodes,
  * to 0, for a step without points on the grid. */
 void grid_clear_constraints(struct grid *g);
 
-/* Nodes lighter than this share of a full node are left at rest. 1e-9 is usual; but such a node may have a force, whose
- * impulse would be lost: momentum is exact to 1e-12 only if just empty nodes are left out, and with the re-map light
- * nodes do no harm (their velocity is that of their particle). */
+/* Nodes whose mass is less than this share of the mass of a full node are left at rest [1]. The usual value is 1e-9;
+ * but the impulse of the force on such a node would be lost, so that momentum is exact to 1e-12 only if just empty
+ * nodes are left out. Light nodes do no harm, since after the second map to the nodes their velocity is that of their
+ * particle. */
 #define GRID_MASS_SMALLEST 1e-30
 
-/* Nodes lighter than this share of a full node follow a neighbour. Empirical: below 1e-6 motions of a hundredth of a
- * spacing reach across; above 1e-3 rotating bodies gain more than 1e-3 of their energy in four turns. */
+/* The acceleration of nodes whose mass is less than this share of the mass of a full node [1] is extrapolated from
+ * heavier neighbours (struct follower). Empirical: with less than 1e-6, motions of a hundredth of a spacing act across
+ * gaps; with more than 1e-3, rotating bodies gain more than 1e-3 of their energy in four turns. */
 #define GRID_MASS_LIGHT 1e-5
 
 /* GRID_MASS_LIGHT for static solutions, in which the balance of a node just reached by the edge of a point would set

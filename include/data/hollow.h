@@ -5,7 +5,8 @@
 
 #include "data/grid.h"
 
-/* Marks of hollow cells. */
+/* Cells of two spacings in which no particles are made, because they are wholly inside the body and belong to coarse
+ * cells of the mesh (mesh/levels.h). */
 struct cells_without_particles {
     struct grid box; /* its cells, equal to those of the mesh; no nodal arrays */
     uint8_t *whole;  /* [box.n] 1: the particles are dispensable: all are in the body, and no load, probe or pre-crack
@@ -14,7 +15,7 @@ struct cells_without_particles {
     bool restored;   /* restored from a checkpoint, which overrides the start */
 };
 
-/* Releases the marks. */
+/* Releases the arrays of h. */
 void cells_without_particles_free(struct cells_without_particles *h);
 
 /* Returns true if the particle at the reference position X [m] is not created, because its cell is part of a coarse

@@ -9,8 +9,8 @@
 
 #include "base/base.h"
 
-/* Node of a tree over the faces first .. first + count - 1, divided between the nodes `left` and `left` + 1; left = 0:
- * leaf. */
+/* Node of the search tree over the faces of a surface, with the faces first .. first + count - 1. They are divided
+ * between the child nodes number `left` and left + 1; left = 0 for a leaf, which has no child nodes. */
 struct hull_node {
     real low[DIM_MAX], high[DIM_MAX]; /* box round its faces [m] */
     real centre[DIM_MAX];             /* centroid of its faces, weighted by area [m] */
@@ -52,15 +52,15 @@ void hull_make(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX]
 void hull_make_open(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
                     int32_t (*face)[DIM_MAX]);
 
-/* Releases all arrays. */
+/* Releases all arrays of s. */
 void hull_free(struct hull *s);
 
-/* Returns the winding number of the surface around the point X [1]: 1 inside and 0 outside a closed surface with
- * outward normals, in between near a hole. */
+/* Returns the winding number of the surface around the point X (s->dim components [m]) [1]: 1 inside and 0 outside a
+ * closed surface with outward normals, in between near a hole. */
 real hull_winding_number(const struct hull *s, const real *X);
 
-/* Returns the signed distance of the point X from the surface [m], negative inside (an open surface has no inside).
- * normal: NULL, or receives the unit vector that points away from the surface, outwards. */
+/* Returns the signed distance of the point X (s->dim components [m]) from the surface [m], negative inside (an open
+ * surface has no inside). normal: NULL, or receives the unit vector that points away from the surface, outwards. */
 real hull_distance(const struct hull *s, const real *X, real *normal);
 
 /* Returns true if hull_distance of the point X is at most `max_distance` [m]; faster, because faces farther away than

@@ -25,7 +25,8 @@
 #define FLOW_NAME(upper, ...) FLOW_##upper,
 enum flow { FLOWS(FLOW_NAME) FLOW_LAWS };
 
-/* Columns 3, 4 and 5 of the table of flow laws. */
+/* Properties of a flow law. word: its key below `material.hardening`, NULL if it has a key of its own; own_yield: its
+ * constants contain the first yield stress; steep: its slope at plastic strain 0 is infinite or unbounded. */
 struct flow_properties {
     const char *word;
     bool own_yield, steep;
@@ -37,7 +38,7 @@ extern const struct flow_properties flow_properties[FLOW_LAWS];
  * that errors do not add up. LAW_LOAD_STEP: to round-off, for increments of any size. */
 enum law_mode { LAW_EXPLICIT, LAW_LOAD_STEP };
 
-/* Most points of a hardening curve. */
+/* Largest number of points of a hardening curve. */
 enum { FLOW_POINTS = 16 };
 
 /* A concave hardening curve through `points` points: plastic strain [1] and stress [Pa]; constant beyond the last. Its
@@ -48,7 +49,8 @@ struct flow_curve {
     real start[FLOW_POINTS], slope[FLOW_POINTS]; /* derived by law_compute_derived_constants */
 };
 
-/* The law of one material. */
+/* The law by which the material points of one material yield: flow law, kinematic hardening and heating by plastic
+ * work. Only the constants of the law that `flow` names are used. a: equivalent plastic strain. */
 struct law {
     bool given; /* false: elastic, or a material of bonds alone; the other members have no meaning */
     enum flow flow;

@@ -15,19 +15,19 @@ enum space { SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID };
 /* Returns the dimension of a space. */
 static inline int space_dim(enum space s) { return s == SPACE_LINE ? 1 : s == SPACE_SOLID ? 3 : 2; }
 
-/* How the force of a bond that softens falls beyond its peak (softening.h). */
+/* Shape of the curve by which the force of a softening bond decreases after its maximum (softening.h). */
 enum softening { SOFTENING_LINEAR, SOFTENING_BILINEAR, SOFTENING_EXPONENTIAL };
 
-/* How the tensile strength of bonds that soften grows with the strain rate (softening.h): factors on it at given rates,
- * linear in the logarithm of the rate between these, constant beyond. */
+/* Dependence of the tensile strength of softening bonds on the strain rate (softening.h): a factor on the strength at
+ * each of `points` rates, linear in the logarithm of the rate between them, constant beyond. */
 enum { RATE_POINTS = 16 };
 struct strength_rate {
-    int points;                                  /* 0: the strength does not depend on the rate */
+    int points;                                  /* number of rates; 0: the strength does not depend on the rate */
     real rate[RATE_POINTS], factor[RATE_POINTS]; /* [1/s] ascending; at least 1, not falling [1] */
     real onset[RATE_POINTS]; /* factor on the stretch at which bonds begin to soften that gives this strength [1] */
 };
 
-/* A material. */
+/* A material: constants given by the scene, and constants that material_compute_derived_constants derives from them. */
 struct material {
     char name[NAME_MAX_LENGTH];
     /* values given by the scene */
@@ -71,15 +71,15 @@ static inline bool material_yields(const struct material *m)
     return (m->yield_stress > 0 && isfinite(m->yield_stress)) || m->law.given;
 }
 
-/* Returns true if the material points of a cell have one dilatation, the mean of theirs: where the material yields, or
- * is nearly incompressible (Poisson's ratio above 0.4), linear cells would be too stiff (kernels/mpm/dilatation.h). In
- * plane stress and 1D the volume is not constrained. */
+/* Returns true if all material points of a cell shall use the mean of their dilatations. This is so if the material
+ * yields or is nearly incompressible (Poisson's ratio above 0.4), since linear cells would be too stiff otherwise
+ * (kernels/mpm/dilatation.h). In plane stress and 1D the volume is not constrained. */
 static inline bool material_uses_mean_dilatation(const struct material *m, enum space space)
 {
     return (space == SPACE_PLANE_STRAIN || space == SPACE_SOLID) && (material_yields(m) || m->poisson > 0.4);
 }
 
-/* Returns the stress at which the material begins to yield [Pa]; only if material_yields. */
+/* Returns the stress at which the material begins to yield [Pa]. Only for materials that yield (material_yields). */
 static inline real material_initial_yield_stress(const struct material *m)
 {
     return m->law.given ? m->law.yield : m->yield_stress;
@@ -121,23 +121,25 @@ real material_uniaxial_stress(const struct material *m, real strain);
  * speeds, for the given space (1D, plane stress, plane strain, 3D). */
 void material_compute_derived_constants(struct material *m, enum space space);
 
-/* Strengths of a material with a surface, in the states of a space: uniaxial and equal biaxial tension, shear,
- * hydrostatic tension [Pa]; in plane strain the first two with the stress across the plane. */
+/* Strengths by the strength surface of a material [Pa]: uniaxial tension, equal biaxial tension, shear, hydrostatic
+ * tension. In plane strain the first two states include the stress normal to the plane. */
 struct surface_strengths {
     real tension, biaxial, shear, hydrostatic;
 };
 
-/* Returns the strengths of a material with a surface, in the given space (plane stress, plane strain, solid). */
+/* Returns the strengths of material m, which must have a strength surface, in the given space (plane stress, plane
+ * strain, solid). */
 struct surface_strengths material_surface_strengths(const struct material *m, enum space space);
 
-/* Returns the smallest value, over all stress states on the surface of material m, of the largest principal strain that
- * its bonds have [1]; 0 if some state stretches no bond. */
+/* Returns the smallest stretch of the most stretched bond, over all stress states on the strength surface of material m
+ * [1], i.e. the minimum of the largest principal strain. Returns 0 if some state stretches no bond. */
 real material_least_strain(const struct material *m, enum space space);
 
-/* Gives the material m a strength surface, and computes m->surface_least_strain. */
+/* Sets the strength surface of material m, and computes m->surface_least_strain for it. */
 void material_set_surface(struct material *m, enum space space, struct strength_surface surface);
 
-/* Returns the share of the surface of material m at a stress of symmetric components `stress` [Pa] [1]. */
+/* Returns the share of the strength surface of material m that a stress has reached [1]: 1 on the surface, 0 without
+ * stress. stress: symmetric components [Pa]. */
 real material_stress_share(const struct material *m, enum space space, const real *stress);
 
 /* Computes the elastic stiffness as a matrix over symmetric components, symmetric_component_count(dim) squared, row

@@ -23,20 +23,22 @@
 
 enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 18 };
 
-/* Consecutive whole cells along x. */
+/* A run: consecutive whole cells along x (cells with all their points, of one material, without bonds). */
 struct mesh_run {
     int32_t cell, cells; /* first cell; number of cells */
     uint8_t material;
     bool stressed; /* a point may have exceeded the conversion stress */
 };
 
-/* Points of a cell whose motion is needed in every step: bit c of `places` for place c. */
+/* Points of cell `cell` whose position and velocity are needed in every step. Bit c of `places` is set for the point
+ * next to corner c. */
 struct mesh_exposed {
     int32_t cell;
     uint8_t places;
 };
 
-/* A bonded material point (state-based bonds), and the lane of its cell in the group of partial cells. */
+/* A material point with state-based bonds to peridynamic particles, and the position (0 to 7) of its cell in its group
+ * of eight partial cells. */
 struct mesh_end {
     int32_t point, lane;
 };
@@ -67,7 +69,8 @@ struct mesh_slits {
     uint8_t *linked; /* [blocks] 1: the block is in a link */
 };
 
-/* The mesh. All arrays are owned unless const. */
+/* A mesh of cells in the reference frame. A cell has the index of its lowest node. All arrays are owned unless
+ * const. */
 struct mesh {
     struct grid grid;            /* nodes: mass, force, velocity; momentum is unused */
     int64_t points;              /* particles in the mesh; 0: there is no mesh */
@@ -151,8 +154,8 @@ static inline int64_t mesh_regular_node_of(const struct mesh *mesh, int64_t node
 }
 
 /* Returns the cell of the regular grid whose corner `corner` is at the position of node `node`; -1 if there is none.
- * Where slits divide this cell, mesh_cell_next_slit_part lists its further parts, and mesh_node shows which of the
- * parts has node `node` itself. */
+ * Where slits divide this cell, mesh_cell_next_slit_part lists its further parts, and mesh_cell_corner_node shows which
+ * of the parts has node `node` itself. */
 static inline int64_t mesh_cell_with_corner_at_node(const struct mesh *mesh, int64_t node, int corner)
 {
     const int64_t cell = mesh_regular_node_of(mesh, node) - mesh->corner[corner];
@@ -209,7 +212,7 @@ static inline const uint8_t *mesh_row_activity_levels(const struct mesh *mesh, i
 }
 
 /* Returns true if the eight consecutive nodes, or cells, of a row from the `first`-th one on are at rest, so that they
- * can be skipped. levels: activity levels of the blocks of this row (mesh_levels). */
+ * can be skipped. levels: activity levels of the blocks of this row (mesh_row_activity_levels). */
 static inline bool mesh_nodes_are_at_rest(const uint8_t *levels, int64_t first)
 {
     return (levels[first / LANES] | levels[(first + LANES - 1) / LANES]) == 0;

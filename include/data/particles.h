@@ -103,7 +103,7 @@ static inline uint64_t eight_bytes_as_word(const uint8_t *from)
     return eight;
 }
 
-/* A number of eight equal bytes. */
+/* The 64-bit number whose eight bytes are all equal to `byte`. */
 #define EIGHT_TIMES(byte) ((uint64_t)(byte)*0x0101010101010101)
 
 /* Returns true if the eight bytes from[0] .. from[7] are all equal. */
@@ -124,13 +124,13 @@ static inline int64_t next_marked_index(const uint8_t *mark, int64_t first, int6
     return first < count ? first : count;
 }
 
-/* Sets bit i. */
+/* Sets bit i of the bit array `marks`. */
 static inline void bit_set(uint64_t *marks, int64_t i) { marks[i / 64] |= (uint64_t)1 << i % 64; }
 
-/* Clears bit i. */
+/* Clears bit i of the bit array `marks`. */
 static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((uint64_t)1 << i % 64); }
 
-/* Returns true if bit i is set. */
+/* Returns true if bit i of the bit array `marks` is set. */
 static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i / 64] >> i % 64 & 1; }
 
 /* Returns how many of the eight indices from `first` on are below `limit`. */
@@ -147,7 +147,7 @@ static inline int64_t image_source_particle(const struct particles *p, const str
     return i;
 }
 
-/* Optional arrays, as bits of `optional`. */
+/* Bits of arguments `optional_arrays`: which optional arrays of struct particles are allocated. */
 enum {
     WITH_GRADIENT = 1,
     WITH_STRETCH = 2,
@@ -175,8 +175,8 @@ struct particle_field {
 extern const struct particle_field particle_fields[];
 extern const int particle_fields_count;
 
-/* Returns the k-th component array of field f of the particles p, for example k = 1 for the velocities along y; NULL if
- * an optional field is not allocated. */
+/* Returns the array of component number `component` of field f of the particles p, for example component 1 of the
+ * velocity for velocities along y; NULL if an optional field is not allocated. */
 void *particle_field_array(const struct particles *p, const struct particle_field *f, int component);
 
 /* Saves the fields of all particles, mirror images included, to the archive if a->saving, else restores them; only
@@ -210,8 +210,8 @@ static inline real bond_strength_factor(const struct particles *p, int64_t i, in
     return p->strength ? (p->strength[i] < p->strength[j] ? p->strength[i] : p->strength[j]) : 1;
 }
 
-/* Returns the share of the strength surface of its material at the stress that particle i stores [1]; 0 if it has none.
- * material: of all particles. */
+/* Returns the share of the strength surface of its material that the stored stress of particle i has reached [1]: 1 on
+ * the surface, 0 if the material has no such surface. material: array of the materials. */
 static inline real particle_stress_share(const struct particles *p, const struct material *material, enum space space,
                                          int64_t i)
 {
@@ -229,8 +229,8 @@ static inline bool particle_moves_with_nodes(const struct particles *p, int64_t 
 }
 
 /* Returns the stress sigma_zz of particle i in plane strain [Pa]: nu (sigma_xx + sigma_yy) plus a part due to plastic
- * flow; 0 in all other spaces. In the reference frame it has a relative error of the size of the strain. Bonds have nu
- * = 1/4, as does their material; plastic sigma_zz is kept at conversion, and yielding of bonds adds nothing to it. */
+ * flow; 0 in all other spaces. In the reference frame its relative error is of the order of the strain. For peridynamic
+ * particles the plastic part stays as it was when they converted. */
 static inline real particle_out_of_plane_stress(const struct particles *p, int64_t i)
 {
     if (!p->plane_strain) return 0;
@@ -246,7 +246,7 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional_arrays
  * arrays change. optional_arrays: optional arrays of p, sum of WITH_*. Called once, at set-up. */
 void particles_add_images(struct particles *p, int64_t images, int optional_arrays);
 
-/* Releases all arrays. */
+/* Releases all arrays of p. */
 void particles_free(struct particles *p);
 
 /* Copies all fields of the particles of `previous` to p, which has other particles. new_index: [previous->n] new index

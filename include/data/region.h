@@ -15,8 +15,8 @@
  * grown by `tolerance` [m] (shrunk if negative). */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
 
-/* Returns the least tolerance at which region_contains is true for the point X (dim components [m]) [m]: negative
- * inside the region, 0 on its surface, positive outside. */
+/* Returns by how much the region must grow to contain the point X (dim components [m]) [m]: negative inside the region,
+ * 0 on its surface, positive outside. It is the least tolerance at which region_contains returns true. */
 real region_level_set_value(const struct region *r, const real *X, int dim);
 
 /* Computes a box between the corners `lower` and `upper` [m] that contains the region. It may be too large, because
@@ -44,10 +44,10 @@ real region_volume(const struct region *r, int dim, const real *lower, const rea
  * point; results stay bitwise equal. The list must not change afterwards. */
 void region_build_search_trees(struct region *r, int dim);
 
-/* Releases all solids and the index. */
+/* Releases all solids and the search trees of the region. */
 void region_free(struct region *r);
 
-/* List of ascending numbers. */
+/* A list of n numbers in ascending order. */
 struct number_list {
     int n;
     real *value;
@@ -70,7 +70,7 @@ struct time_function {
     real *t, *value; /* [s], [1] */
 };
 
-/* Returns the factor at t [s]. */
+/* Returns the value of the time function f at time t [s], a dimensionless factor. */
 real time_function_value(const struct time_function *f, real t);
 
 /* Returns the integral of the time function f, a dimensionless factor, from time 0 to t >= 0 [s]. */
@@ -114,7 +114,7 @@ struct mirror_plane {
 bool mirrors_continue_crack_end(const struct mirror_plane *mirror, int mirrors, const struct crack *c, const real *end,
                                 real tolerance);
 
-/* Cracks; of[k]: index of the crack of which crack k is a part or an image. */
+/* Parts and mirror images of cracks. of[k]: index of the original crack of which crack[k] is a part or an image. */
 struct crack_list {
     int n;
     struct crack *crack;
@@ -127,7 +127,7 @@ struct crack_list {
 void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int cracks,
                                const struct mirror_plane *mirror, int mirrors, real reach, real tolerance);
 
-/* Releases the cracks. */
+/* Releases the cracks of the list l. */
 void crack_list_free(struct crack_list *l);
 
 /* Returns the distance of the point `point` from the segment between the points `from` and `to` (dim components each

@@ -16,7 +16,7 @@
 enum scatter_of { SCATTER_STRENGTH, SCATTER_STRETCH, SCATTER_TOUGHNESS, SCATTER_ENERGY };
 enum scatter_form { SCATTER_WEIBULL, SCATTER_LOGNORMAL };
 
-/* Parameters of the random field. */
+/* Parameters of the random field of strength of one material. */
 struct strength_scatter {
     bool given;
     enum scatter_of of; /* quantity with this distribution; G_c is proportional to the square of the others */
@@ -27,16 +27,18 @@ struct strength_scatter {
     uint64_t seed;
 };
 
-/* Returns the value at the position X [m] of a Gaussian random field with mean 0, variance 1 and the correlation length
- * s->length [1]. Without a correlation length the value depends only on the seed and on particle_id, the number of the
- * particle. */
+/* Returns the value at the position X (dim components [m]) of a Gaussian random field with mean 0, variance 1 and the
+ * correlation length s->length [1]. Without a correlation length the value depends only on the seed and on particle_id,
+ * the number of the particle. */
 real scatter_gaussian_field(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id);
 
-/* Returns the random factor on the critical stretch of a particle at the position X [m] [1], from the distribution s; 1
- * if the scene gives no distribution. particle_id: number of the particle, used only without a correlation length. */
+/* Returns the random factor on the critical stretch of a particle at the position X (dim components [m]) [1], from the
+ * distribution s; 1 if the scene gives no distribution. particle_id: number of the particle, used only without a
+ * correlation length. */
 real scatter_strength_factor(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id);
 
-/* Returns the `probability`-quantile of the standard normal distribution, 0 < `probability` < 1. */
+/* Returns the number that a standard normal variable does not exceed with probability `probability`, 0 < `probability`
+ * < 1. */
 real normal_distribution_quantile(real probability);
 
 #endif

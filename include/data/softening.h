@@ -21,7 +21,9 @@
 #define SOFTENING_LEAST 1e-6   /* least relative distance of onset and critical stretch; closer, a bond is brittle */
 enum { SOFTENING_PIECES = 8 }; /* largest number of straight pieces of a curve */
 
-/* The curve G(x), the largest of `pieces` straight lines and 0. */
+/* A softening curve G(x) from G(0) = 1 to G(1) = 0, the largest of `pieces` straight lines and 0. The force of a bond
+ * of stretch k over its largest force is G((k - s_0)/(s_f - s_0)), with the stretches s_0 and s_f at which it begins to
+ * soften and breaks. */
 struct softening_curve {
     int pieces;
     real level[SOFTENING_PIECES], slope[SOFTENING_PIECES]; /* piece k: level - slope x [1] */
@@ -29,16 +31,17 @@ struct softening_curve {
     real area;                                             /* integral of G from 0 to 1 [1] */
 };
 
-/* Softening of the bonds between two materials. onset: s_0, INFINITY: they are brittle [1]; strength_scatters: a random
- * strength scales s_0 alone, else the critical stretch, too; surface: a strength surface starts them, whose share the
- * strength scales in place of s_0; rate: how s_0 grows with the strain rate, NULL: it does not. */
+/* Softening of the bonds between two materials. onset: stretch s_0 at which it begins, INFINITY for brittle bonds [1];
+ * strength_scatters: true if the random strength factor scales s_0 alone, false if it scales the critical stretch, too;
+ * surface: true if a strength surface starts the softening, the factor then scales the limit of its share in place of
+ * s_0; rate: how s_0 increases with the strain rate, NULL if it does not. */
 struct softening_pair {
     real onset;
     bool strength_scatters, surface;
     const struct strength_rate *rate;
 };
 
-/* Stretches at which a bond begins to soften and ends [1]; equal if it is brittle. */
+/* Stretches at which a bond begins to soften (onset) and breaks (end) [1]; equal if it is brittle. */
 struct softening_range {
     real onset, end;
 };
@@ -50,25 +53,27 @@ struct softening_strength {
     real tension, biaxial, shear;
 };
 
-/* Returns the curve of a softening law. */
+/* Returns the softening curve G(x) of one of the softening laws. */
 struct softening_curve softening_curve_of(enum softening law);
 
-/* Returns the stretch s_f at which a bond ends that dissipates as much as a brittle one of critical stretch `critical`
- * [1]. onset: s_0, at most `critical` [1]. */
+/* Returns the stretch s_f at which a softening bond breaks that dissipates the same energy as a brittle bond of
+ * critical stretch `critical` [1]. c: softening curve; onset: stretch s_0 at which softening begins, at most `critical`
+ * [1]. */
 static inline real softening_end_stretch(const struct softening_curve *c, real onset, real critical)
 {
     return onset + (square(critical) - square(onset)) / (2 * onset * c->area);
 }
 
-/* Returns onset and end of a bond that begins to soften at the stretch `onset`, and whose energy is that of a brittle
- * one of critical stretch `critical` [1]. */
+/* Returns the stretches at which a bond begins to soften and breaks [1], such that it dissipates the same energy as a
+ * brittle bond of critical stretch `critical`. onset: stretch at which it begins to soften; if this is not below
+ * `critical`, the bond is brittle and both are `critical`. */
 static inline struct softening_range softening_range_of(const struct softening_curve *c, real onset, real critical)
 {
     if (!(onset < critical * (1 - SOFTENING_LEAST))) return (struct softening_range){critical, critical};
     return (struct softening_range){onset, softening_end_stretch(c, onset, critical)};
 }
 
-/* Returns G(x) [1]. */
+/* Returns the value G(x) of a softening curve, x >= 0 [1]. */
 static inline real softening_curve_value(const struct softening_curve *c, real x)
 {
     real level = 0;
@@ -76,36 +81,40 @@ static inline real softening_curve_value(const struct softening_curve *c, real x
     return level;
 }
 
-/* Returns 1 - d(k), the share of its stiffness that a bond keeps in tension [1]. largest_stretch: its largest stretch
- * k, at least the onset [1]. */
+/* Returns the share of its stiffness that a softening bond keeps in tension [1]. onset, end: stretches at which it
+ * begins to soften and breaks; largest_stretch: its largest stretch so far, at least the onset [1]. */
 static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset, real end,
                                                           real largest_stretch)
 {
     return onset * softening_curve_value(c, (largest_stretch - onset) / (end - onset)) / largest_stretch;
 }
 
-/* Returns the energy that a bond has dissipated, over stiffness, weight and length [1]. largest_stretch: as in
- * softening_remaining_stiffness_fraction. */
+/* Returns the energy that a softening bond has dissipated, divided by stiffness, weight and length [1]. onset, end:
+ * stretches at which it begins to soften and breaks; largest_stretch: its largest stretch so far, at least the onset
+ * [1]. */
 real softening_dissipated_energy(const struct softening_curve *c, real onset, real end, real largest_stretch);
 
-/* Computes the peaks of stress of uniformly strained bonds of all directions, over s_0 E', from the curve, by
- * quadrature over directions. squared_ratio: square of the ratio of critical stretch to onset [1]. Each bond is taken
- * to be at its largest stretch. */
+/* Computes the largest stresses that bonds of all directions with the softening curve c reach under growing uniform
+ * strain, over s_0 E', by quadrature over directions. s_0: stretch at which bonds begin to soften; E': modulus of
+ * uniaxial tension; squared_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_curve_strength(const struct softening_curve *c, enum space space,
                                                    real squared_ratio);
 
-/* Returns the onset s_0 at which the tensile strength of bonds is m->tensile_strength [1], by fixed-point iteration:
- * s_0 = strength/(E' tension(kappa)). m->critical_stretch must be set. The result exceeds m->critical_stretch where the
- * horizon is too large for this strength. */
+/* Returns the stretch s_0 from which on bonds must soften for the tensile strength m->tensile_strength [1], by
+ * fixed-point iteration of s_0 = strength/(E' tension(kappa)) with kappa = (critical stretch/s_0)^2
+ * (softening_curve_strength). m->critical_stretch must be set. The result exceeds it if the horizon is too large for
+ * this strength. */
 real softening_onset_from_strength(const struct material *m, enum space space);
 
-/* Share of the slow onset from which on strain rates are measured [1]. */
+/* Strain rates are measured from this share of the stretch on at which bonds soften in slow loading [1]. */
 #define RATE_FROM 0.5
 
-/* Smallest ratio kappa = (critical stretch/onset)^2 to which a strain rate lets a bond's strength grow [1]. */
+/* Smallest ratio kappa = (critical stretch/onset)^2 to which the increase of strength with the strain rate reduces that
+ * of a bond [1]. */
 #define RATE_LEAST_RATIO 1.2
 
-/* Returns the value at the strain rate `rate` [1/s] of a quantity that is value[k] at the k-th rate of the table. */
+/* Interpolates a quantity that is value[k] at the rate r->rate[k] at the strain rate `rate` [1/s]: linear in the
+ * logarithm of the rate, constant beyond the table. */
 real strength_rate_interpolate(const struct strength_rate *r, const real *value, real rate);
 
 /* Returns E', the modulus of uniaxial tension: E, in plane strain E/(1 - nu^2) [Pa]. */

@@ -5,22 +5,27 @@
 
 #include "data/softening.h"
 
-/* Model of a family: moduli A and B of a state-based model over E' [1], and whether bonds resist the displacement that
- * remains without the rotation of the particle, or only extension. B = 0: bond-based. */
+/* Peridynamic model of a family. A, B: moduli of a state-based model over the modulus E' of uniaxial tension [1], B = 0
+ * for bond-based models; rotates: bonds resist all of their deformation apart from the rotation of the particle, else
+ * only their extension. */
 struct softening_model {
     real A, B;
     bool rotates;
 };
 
-/* Does what softening_curve_strength does, for a family of the given model. */
+/* Computes the largest stresses over s_0 E' that bonds with the softening curve c reach under growing uniform strain,
+ * as softening_curve_strength does, but for a family of the given bond-based or state-based model. squared_ratio:
+ * (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_model_strength(const struct softening_curve *c, enum space space,
                                                    real squared_ratio, const struct softening_model *model);
 
-/* Does what softening_onset_from_strength does, for a family of the given model. */
+/* Returns the stretch from which on bonds must soften for the tensile strength m->tensile_strength [1], as
+ * softening_onset_from_strength does, but for a family of the given bond-based or state-based model. */
 real softening_model_onset(const struct material *m, enum space space, const struct softening_model *model);
 
-/* Computes m->rate.onset, the onset stretches at the strengths of the table over m->onset_stretch. Returns the least
- * kappa = (critical stretch/onset)^2 at any of them [1]. */
+/* Computes m->rate.onset: for each rate of the table, the factor on m->onset_stretch, the stretch at which bonds begin
+ * to soften, that gives the strength at this rate. Returns the smallest ratio (critical stretch/onset)^2 over all rates
+ * [1]. */
 real strength_rate_compute_onsets(struct material *m, enum space space, const struct softening_model *model);
 
 #endif

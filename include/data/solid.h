@@ -27,7 +27,7 @@ enum solid_kind {
     SOLID_KINDS
 };
 
-/* A motion that copies are made by; each acts on all copies made by previous motions. */
+/* Kinds of motions by which copies of a solid are placed; each motion acts on all copies made by previous motions. */
 enum motion_kind { MOTION_MOVE, MOTION_ROTATE, MOTION_MIRROR, MOTION_GRID, MOTION_RING };
 struct solid_motion {
     enum motion_kind kind;
@@ -153,7 +153,7 @@ static inline real solid_distance_bound_from_level(real level) { return level > 
  * the solids of a group, and the edges of a polygon. */
 real solid_query_cost(const struct solid *s);
 
-/* Releases all that the solid owns. */
+/* Releases the arrays, polygon and regions that the solid owns. */
 void solid_free(struct solid *s);
 
 /* Faults of a polygon: edge of no length, no area, crossing edges, edges too short for the corner radius. */

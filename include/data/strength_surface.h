@@ -12,7 +12,7 @@
 
 #include "base/base.h"
 
-/* A surface; g0 = 0: none. */
+/* A strength surface of Drucker and Prager: U = (sqrt(J2) + g1 I1)/g0 = 1. g0 = 0: the material has none. */
 struct strength_surface {
     real g0, g1; /* [Pa] [1] */
 };
@@ -27,17 +27,17 @@ struct strength_surface surface_of_hydrostatic(real tension, real hydrostatic);
  * tension. */
 struct strength_surface surface_of_biaxial(real tension, real biaxial);
 
-/* Returns the share of the surface at a stress of components xx, yy, zz and the sum of the squares of its shear
- * stresses xy, yz, zx [Pa] [Pa^2]. */
+/* Returns the share U of the strength surface s that a stress has reached [1], 1 on the surface. xx, yy, zz: normal
+ * stresses [Pa]; shear_squares: sum of the squares of the shear stresses xy, yz, zx [Pa^2]. */
 static inline real surface_share(const struct strength_surface *s, real xx, real yy, real zz, real shear_squares)
 {
     const real J2 = (square(xx - yy) + square(yy - zz) + square(zz - xx)) / 6 + shear_squares;
     return (sqrt(J2) + s->g1 * (xx + yy + zz)) / s->g0;
 }
 
-/* Returns the share of the surface at a stress of symmetric components stress[dim (dim + 1)/2] [Pa]. across: in 2D, the
- * stress normal to the plane over the sum of the normal stresses in it: Poisson's ratio in plane strain, 0 in plane
- * stress [1]. */
+/* Returns the share U of the strength surface s that a stress has reached [1], 1 on the surface. stress: dim (dim +
+ * 1)/2 symmetric components [Pa]. across: in 2D, the stress normal to the plane over the sum of the normal stresses in
+ * it: Poisson's ratio in plane strain, 0 in plane stress [1]. */
 static inline real surface_share_of_components(const struct strength_surface *s, const real *stress, real across,
                                                const int dim)
 {
@@ -47,8 +47,8 @@ static inline real surface_share_of_components(const struct strength_surface *s,
     return surface_share(s, stress[0], stress[1], zz, shear_squares);
 }
 
-/* Returns the strength for proportional stresses with the principal values of `direction`: the factor on these at which
- * the surface is reached [Pa], INFINITY if it never is. */
+/* Returns the strength under stresses that grow in proportion: the factor on the three principal values direction[3]
+ * [1] at which the strength surface is reached [Pa], INFINITY if it never is. */
 real surface_strength(const struct strength_surface *s, const real *direction);
 
 #endif

@@ -5,11 +5,11 @@
 #include "grid.h"
 #include "particles.h"
 
-/* Grid cells are grouped in blocks, BLOCK_LENGTH cells long in x, along which particles are consecutive in memory, and
- * BLOCK_EDGE wide in the other directions. A block has one of 2^dim colours, and blocks of one colour share no node for
- * any shape function here (support reaches one cell below and two above), so threads may scatter them in parallel.
- * Colours are processed in order, and a block by one thread: equal bits on any number of threads. Blocks are counted
- * from the grid's absolute node 0, so that a growing grid keeps them. */
+/* Grid cells are grouped in blocks. A block is BLOCK_LENGTH cells long in x, the direction in which particles are
+ * consecutive in memory, and BLOCK_EDGE cells wide in the other directions. A block has one of 2^dim colours, and
+ * blocks of one colour share no node for any shape function here (support reaches one cell below and two above), so
+ * threads may scatter them in parallel. Colours are processed in order, and a block by one thread: equal bits on any
+ * number of threads. Blocks are counted from the grid's absolute node 0, so that a growing grid keeps them. */
 enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 
 /* Padding of the order in entries, so that prefetching may read beyond its end. */
@@ -18,7 +18,7 @@ enum { ORDER_AHEAD = 64 };
 /* Returns the length of a block in direction `axis` [cells]. */
 static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 
-/* The order. All arrays are owned. */
+/* The order in which particles on the grid are processed. All arrays are owned. */
 struct transfer_order {
     int64_t n, room;                /* particles on the grid; capacity */
     int32_t *particle;              /* sorted by colour, then block, then cell, then index */
@@ -40,7 +40,7 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
  * that grows are lost. Does not change o->n, o->blocks and o->cells. */
 void transfer_order_reserve(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells);
 
-/* Releases all arrays. */
+/* Releases all arrays of o. */
 void transfer_order_free(struct transfer_order *o);
 
 #endif

@@ -24,7 +24,8 @@ struct turning_run {
     int32_t first, n;
 };
 
-/* One group of particles. Sums are over its points on the grid. */
+/* One group of neighbouring particles that rotate together. Sums are over its material points on the grid. The root of
+ * a group is the group that it has joined, or itself. */
 struct turning_group {
     int64_t place[DIM_MAX];     /* position of the group [group edges] */
     int32_t body, points;       /* body; points on the grid now */
@@ -45,7 +46,7 @@ struct turning_group {
     real gain[3], spin[3];        /* of a root: gain of spin by the lack of its points, spin [1/s] */
 };
 
-/* All groups. All arrays are owned. */
+/* All groups of particles that rotate together. All arrays are owned. */
 struct rotation_groups {
     int32_t groups;              /* number of groups; 0: points do not rotate in groups */
     struct turning_group *group; /* ascending by body and position */
@@ -61,7 +62,7 @@ struct rotation_groups {
 void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing, const real *origin,
                           const int *joined_to, const bool *supported);
 
-/* Releases all arrays. */
+/* Releases all arrays of t. */
 void rotation_groups_free(struct rotation_groups *t);
 
 #endif

@@ -7,7 +7,7 @@
 #include "data/particles.h"
 #include "data/region.h"
 
-/* Marks of a particle in voids.near. */
+/* Marks of a particle in voids.near, to be added. */
 enum {
     VOID_NEAR = 1,  /* a void hides a particle within reach */
     VOID_ACROSS = 2 /* ... and the faces on both sides of the void face each other */
@@ -55,7 +55,7 @@ real voids_surface_distance_bound(const struct voids *v, const struct particles 
  * NULL if no body has voids; the result is then false. */
 static inline bool particle_is_beside_void(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
-/* Releases all arrays. */
+/* Releases the arrays of v that it owns; shapes and mirrors stay with their owners. */
 void voids_free(struct voids *v);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* Grey values. The array is owned. */
+/* A grid of pixels (2D) or voxels (3D) with their grey values. The array is owned. */
 struct voxels {
     int dim;
     int64_t n[DIM_MAX]; /* voxels along x, y, z; 1 in absent directions */
@@ -15,7 +15,7 @@ struct voxels {
 
 enum { GREY_MAX = UINT16_MAX, VOXELS_MAX = INT32_MAX };
 
-/* Releases the array. */
+/* Releases the grey values of v. */
 void voxels_free(struct voxels *v);
 
 /* Returns the grey value of the voxel that contains the point X (dim components [m]), or -1 outside the image. A point
@@ -28,7 +28,8 @@ struct grey_range {
 };
 enum { GREY_RANGES_MAX = 64 };
 
-/* The voxels with certain grey values, as a solid. `level` has one more voxel on each side, which is outside. */
+/* A solid that consists of the voxels of `of` whose grey values are in one of `ranges` ranges. The array `level` has
+ * one more voxel on each side of the image; these voxels are outside. */
 struct voxel_part {
     const struct voxels *of;
     int ranges;
@@ -42,7 +43,7 @@ struct voxel_part {
  * must be set before. Release with voxel_part_free. */
 void voxel_part_make(struct voxel_part *p);
 
-/* Releases the distances. */
+/* Releases the distances p->level. */
 void voxel_part_free(struct voxel_part *p);
 
 /* Returns the signed distance of the point X [m] from the surface of the solid, negative inside [m]. Its sign is exact;
