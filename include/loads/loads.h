@@ -23,8 +23,7 @@ enum boundary_kind {
     BOUNDARY_PRESSURE    /* on every free face, against its outward normal (loads_pressure.c) [Pa] */
 };
 
-/* Factor on a body force as a function of the reference position X: 1 (uniform) or sin(2 pi (X - origin) .
- * direction/(wavelength |direction|)). */
+/* Factor on a body force at X: 1, or sin(2 pi (X - origin) . direction/(wavelength |direction|)). */
 enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
 struct profile {
     enum profile_kind kind;
@@ -33,8 +32,7 @@ struct profile {
     real direction[DIM_MAX]; /* of any length [1] */
 };
 
-/* One boundary condition as given in the scene. Words in capitals tell for which kinds (enum boundary_kind) a member is
- * used. */
+/* One boundary condition as given in the scene. Capitals: kinds (boundary_kind) that use a member. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
     char place[PLACE_LENGTH]; /* position in the scene file */
@@ -123,8 +121,7 @@ static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
 }
 
-/* A constrained velocity component of a node, and the number of the boundary condition that constrains it. Node indices
- * are valid until the grid covers another box of nodes. */
+/* A constrained velocity component of a node, and the load that constrains it; valid until the grid's box changes. */
 struct held {
     int32_t node;
     uint8_t component, load;
@@ -194,8 +191,7 @@ bool load_mark_particles_in_region(const struct boundary *b, const struct partic
 void load_set_particles(struct load *l, const uint8_t *selected, struct particles *p);
 
 /* Areas of the particles on an exposed face, for tractions (loads_columns.c). In each column of particles along the
- * normal, the outermost particle receives the area of the column. Tangential areas may be extrapolated to the face: 3/2
- * of the area for the outermost particle, -1/2 for the next one. */
+ * normal, the outermost one gets the area; extrapolated tangential areas are 3/2 of it there, -1/2 on the next one. */
 struct exposed_face {
     real *normal, *along; /* [particles] area for the normal component, and for the tangential ones [m^2] */
 };
@@ -291,8 +287,7 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads with equal lists of particles (sets load.leader), so that each list is traversed once. The last part
- * of loads_make. */
+/* Combines loads with equal lists of particles, so that each list is traversed once; last part of loads_make. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
 /* Releases the shares (areas, volumes, masses) of all loads, also those that several loads have in common. */
@@ -367,8 +362,7 @@ void load_displacement_of_particle(const struct load *l, const struct particles 
  * formula of t), so that its displacements are unknown; else OK. */
 status boundary_check_displacement_known(const struct boundary *b);
 
-/* Motion that a boundary of kind VELOCITY prescribes in a time step from t - dt/2 to t + dt/2, prepared for evaluation
- * at many positions (loads_driving.c). */
+/* Motion that a boundary of kind VELOCITY prescribes in a time step from t - dt/2 to t + dt/2 (loads_driving.c). */
 struct prescribed_motion {
     const struct boundary *boundary;
     int dim;
@@ -381,8 +375,8 @@ struct prescribed_motion {
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
 /* Returns the motion that boundary number `number` of l prescribes in the step of size dt about t [s], as
- * prescribed_motion_make. After the last step of a run (l->ended) a prescribed displacement continues at the velocity
- * of the previous step, so that a change of motion beyond the end does not enter the work of the run. */
+ * prescribed_motion_make. After the last step (l->ended) a prescribed displacement continues at its previous velocity,
+ * so that a change of motion beyond the end enters no work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int number, int dim, real t, real dt);
 
 /* Returns component `component` of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for
@@ -399,8 +393,7 @@ static inline bool boundary_motion_varies_in_space(const struct boundary *b)
 }
 
 /* Returns the largest speed of the displacement that load l prescribes between the times 0 and `t_end` [s] [m/s],
- * INFINITY if the displacement jumps. Formulas are sampled at a fixed number of times and at some of the load's
- * particles. */
+ * INFINITY if the displacement jumps. Formulas are sampled at some times and at some particles. */
 real load_largest_displacement_speed(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest difference between the velocity that load l prescribes between the times 0 and `t_end` [s] and
@@ -424,8 +417,7 @@ real load_largest_velocity_change(const struct load *l, const struct particles *
 real loads_largest_velocity_difference(const struct load *a, const struct load *b, const struct particles *p,
                                        real t_end);
 
-/* Tolerance by which a particle may be outside a region and still belong to it, so that particles on the border do
- * [spacings]. */
+/* Distance up to which a particle outside a region counts as inside, so that particles on its border do [spacings]. */
 #define LOADS_TOLERANCE ON_SURFACE
 
 /* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */
@@ -523,11 +515,11 @@ void loads_collect_static_reactions(struct loads *l, struct particles *p);
  * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */
 void loads_compute_static_work(struct loads *l, const struct particles *p);
 
-/* Saves the impulse and work of the loads since the start, and displacement and reaction of each load, to the archive
- * `a` if a->saving, else restores them from it. Returns FAILED if an entry is missing or its size differs. */
+/* Saves impulse and work so far, displacement and reaction of each load to `a` if a->saving, else restores them.
+ * Returns FAILED if an entry is missing or its size differs. */
 status loads_save_or_load(struct loads *l, struct archive *a);
 
-/* Largest number of boundary conditions in a scene: their indices are stored as bytes (struct held, struct image). */
+/* Largest number of boundary conditions, since indices are stored as bytes (struct held, struct image). */
 enum { BOUNDARIES_MAX = 255 };
 
 #endif
