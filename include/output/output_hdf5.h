@@ -14,7 +14,7 @@ enum hdf_type { HDF_F32, HDF_F64, HDF_U8, HDF_I32, HDF_I64 };
 /* Returns the size of one number of the given type [byte]. */
 size_t hdf_type_size(enum hdf_type type);
 
-/* An open HDF5 file and its first fault. */
+/* An open HDF5 file, and whether a call on it has failed. */
 struct hdf {
     hid_t file;
     bool compress; /* gzip the tables of hdf_write_rows_zero_padded */
@@ -33,8 +33,8 @@ void hdf_open(struct hdf *f, const char *path);
 /* Closes the HDF5 file of *f and all its objects. A failure is stored in f->failed. */
 void hdf_close(struct hdf *f);
 
-/* Closes a file that was created under the temporary name of `path`. If HDF5 has failed, removes the incomplete file,
- * sets *broken to true and returns FAILED. */
+/* Closes a file that was created under the temporary name of `path`, PATH.cleave.tmp. If a call of HDF5 on the file has
+ * failed, removes the incomplete file, sets *broken to true and returns FAILED, with a message. */
 status hdf_close_written(struct hdf *f, const char *path, bool *broken);
 
 /* Creates the group `name`, a path within the file. A failure is stored in f->failed. */
@@ -96,15 +96,16 @@ void hdf_write_scalar_attribute(struct hdf *f, const char *group, const char *na
  * group or dataset. A failure is stored in f->failed. */
 void hdf_write_text_attribute(struct hdf *f, const char *group, const char *name, const char *text);
 
-/* Returns the number of numbers in the dataset `name`, or -1 if the file has no such dataset, which is not a failure.
- */
+/* Returns how many numbers the dataset `name` has, over all its dimensions, or -1 if the file has no such dataset,
+ * which is not a failure. */
 int64_t hdf_dataset_size(struct hdf *f, const char *name);
 
 /* Reads the dataset `name`, which must hold exactly `count` numbers, and converts them to the given type in
  * data[count]. Another size or a failed read is stored in f->failed. */
 void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t count, void *data);
 
-/* Returns true if the group or dataset has an attribute `name`. A failure is stored in f->failed. */
+/* Returns true if the group or dataset at the path `group` of the file has an attribute `name`. A failure is stored in
+ * f->failed. */
 bool hdf_has_attribute(struct hdf *f, const char *group, const char *name);
 
 /* Reads the attribute `name` of a group or dataset, which must be one number, and converts it to the given type in
@@ -113,15 +114,16 @@ void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum
 
 /* ---- files of other programs, by HDF5's own handles -------------------------------------------------------------- */
 
-/* Returns true if `name` is a soft or external link of the file or group; does not follow the link. */
+/* Returns true if `name` is a soft or external link in the file or group with the handle `file`; does not follow the
+ * link. */
 bool hdf_is_link(hid_t file, const char *name);
 
 /* Returns true if the data of the dataset are stored in its file, neither in an external file nor as a virtual
  * dataset. */
 bool hdf_dataset_is_in_its_file(hid_t dataset);
 
-/* Reads the attribute `name` of the dataset or group `object` as text of at most `capacity` bytes; "" if there is no
- * such text. */
+/* Reads the attribute `name` of the dataset or group at the path `object` of the file into text[capacity]; "" if there
+ * is no such attribute or it is no text. */
 void hdf_read_text_attribute(hid_t file, const char *object, const char *name, char *text, size_t capacity);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* An open lock file. */
+/* Lock of a folder: the descriptor `fd` of its open lock file, -1 if the folder is not locked. */
 struct folder_lock {
     int fd;
 }; /* -1: not locked */

@@ -4,14 +4,16 @@
 
 #include "base/base.h"
 
-/* Name of the page in the folder of a run or a study; first characters of every page. */
+/* PAGE_NAME: name of the page in the folder of a run or a study; PAGE_BEGINNING: first characters of every page, by
+ * which it is recognised. */
 #define PAGE_NAME "report.html"
 #define PAGE_BEGINNING "<!doctype html>\n<!-- page of cleave report -->\n"
 
-/* Returns true if the regular file `path` begins as a page does. */
+/* Returns true if the regular file `path` begins with PAGE_BEGINNING, i.e. is a page that Cleave wrote. */
 bool page_file_is_from_cleave(const char *path);
 
-/* Removes the page in the folder of a run that is overwritten; a file of this name that is no page stays. */
+/* Removes the page report.html from `folder`, the folder of a run that is to be overwritten. A file of this name that
+ * Cleave did not write stays. */
 void page_file_remove(const char *folder);
 
 #endif

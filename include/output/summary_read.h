@@ -11,7 +11,7 @@ status summary_read_number(const char *folder, const char *dotted_key, double *v
 
 /* Reads one string from the file summary.json of the folder of a run into text[size], cut to size - 1 bytes.
  * dotted_key: as in summary_read_number. Escapes other than \" and \\ are not decoded. Returns FAILED, with an empty
- * text, in the cases of summary_read_number. */
+ * text, if there is no such file or string, or if any part of the file is not valid JSON. */
 status summary_read_string(const char *folder, const char *dotted_key, char *text, size_t size);
 
 /* Type of a function that receives one number of summary.json and its dotted key. context: argument of the same name of
