@@ -24,7 +24,8 @@ enum colour_table {
 };
 #define COLOUR_TABLE_WORDS "usual|viridis|cividis|inferno|magma|grey|diverging"
 
-/* Returns the colour at a position of a table, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
+/* Returns the colour at `position`, 0 .. 1, of the colour table `table`; values outside are clamped, NaN and infinity
+ * count as 1. */
 struct colour colour_from_table(enum colour_table table, double position);
 
 /* Returns a colour of the sequential scale, which goes from dark at 0 to light at 1 with uniformly increasing
@@ -50,8 +51,8 @@ struct colour colour_of_material_points(void);
  * bonds. */
 struct colour fragment_colour(int32_t fragment);
 
-/* Returns the colour of the material or body with index k >= 0. The colours are light, so that symbols drawn on top
- * are visible, and repeat after nine. */
+/* Returns the colour of the material or body with the index `index` >= 0. The colours are light, so that symbols drawn
+ * on top are visible, and repeat after nine. */
 struct colour part_colour(int index);
 
 /* Mixes the colour c with white. weight: weight of c, 1 for c itself, 0 for white. */

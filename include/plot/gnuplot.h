@@ -13,7 +13,7 @@ extern const char *const picture_ending[PICTURE_FORMATS];
 /* Returns true for the formats of films (plot/film.h), whose single pictures are PNG files. */
 static inline bool picture_is_film(enum picture_format format) { return format >= PICTURE_MP4; }
 
-/* A running gnuplot. */
+/* A running gnuplot process that draws one picture. */
 struct gnuplot {
     FILE *to;         /* standard input of gnuplot */
     FILE *complaints; /* standard error of gnuplot */
@@ -27,7 +27,7 @@ struct gnuplot {
 enum { CURVE_COLOURS = 7 };
 extern const char *const curve_colour[CURVE_COLOURS];
 
-/* Size of the pictures of a process. */
+/* Size of all pictures that this process draws. */
 struct picture_size {
     int width, height; /* [pixel]; 0: the usual size of each picture */
     double dpi;        /* pixels of a PNG per inch, at PICTURE_DPI pixels of its size */
@@ -36,19 +36,18 @@ enum {
     PICTURE_DPI = 144
 }; /* a picture of 1000 pixels is as wide as a text page, with letters of the size of the text */
 
-/* Sets the size of all pictures that follow. */
+/* Sets the size of all pictures that this process draws from now on. */
 void picture_size_set(struct picture_size size);
 struct picture_size picture_size_get(void);
 
-/* Starts gnuplot to draw the picture `path` of width x height pixels, or of the size of
- * picture_size_set, and sends the style common to all pictures: thin
- * grey axes at the bottom and left, sans-serif font, key outside on the right. Stores the process in *g. Returns
- * REFUSED if the path has control characters or the file must not be replaced (file_check_replaceable), FAILED if
- * gnuplot cannot be started. Close with gnuplot_close. */
+/* Starts gnuplot to draw the picture `path` of width x height pixels (the size of picture_size_set, if set, is used
+ * instead), and sends the style common to all pictures: thin grey axes at the bottom and left, sans-serif font, key
+ * outside on the right. Stores the process in *g. Returns REFUSED if the path has control characters or the file must
+ * not be replaced (file_check_replaceable), FAILED if gnuplot cannot be started. Close with gnuplot_close. */
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Starts gnuplot as gnuplot_open does, for a picture laid out for width x height pixels, a multiple of the size of
- * picture_size_set if that is set: letters and lines are as much smaller as the picture is. */
+/* Starts gnuplot as gnuplot_open does, for a picture that is laid out for width x height pixels. If picture_size_set
+ * has set a size, the whole picture, letters and lines included, is scaled from width x height to that size. */
 status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
 /* Returns true if the size of picture_size_set is too narrow for a key beside the panel. */

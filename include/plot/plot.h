@@ -16,7 +16,7 @@
 
 /* ---- requests ---------------------------------------------------------------------------------------------------- */
 
-/* Number of panels of a picture: default, largest. */
+/* Number of panels of a picture: PANELS by default, PANELS_MAX at most. */
 enum { PANELS = 6, PANELS_MAX = 24 };
 
 /* Directions of a view of a solid: right-handed unit vectors to the right, upwards and towards the viewer. */
@@ -24,7 +24,7 @@ struct camera {
     double right[3], up[3], towards[3];
 };
 
-/* Isometric view. */
+/* Directions of an isometric view. */
 extern const struct camera camera_isometric;
 
 /* Returns the directions of a view along the coordinate axis `axis`, 0 .. 2 for x, y, z. side: +1 if the viewer is on
@@ -88,7 +88,7 @@ bool run_has_file(const char *folder, const char *name);
  * be read or is damaged. Release with frame_free. */
 status run_read_frame(struct output_frame *f, const char *folder, int number);
 
-/* The frames of a run and the selected ones. */
+/* All frames of a run, and those selected for a picture. */
 struct run_frames {
     int listed;
     struct listed_frame *list; /* [listed] */
@@ -246,7 +246,8 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
 float *deformation_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
                                   const struct scene *scene);
 
-/* Inverts `matrix`. Returns false, and leaves *inverse undefined, if its determinant is 0 or not a number. */
+/* Computes the inverse of the 3 x 3 matrix `matrix`. Returns false, and leaves *inverse undefined, if its determinant
+ * is 0 or not a number. */
 bool matrix_invert(const double matrix[3][3], double inverse[3][3]);
 
 /* Releases the arrays of *c. */
@@ -281,7 +282,8 @@ struct category {
     char name[NAME_MAX_LENGTH];
 };
 
-/* The named values in a set of clouds; `more` further values are not listed. */
+/* The named values (of bodies, materials and so on) that occur in a picture, of[n]; `more` further values are not
+ * listed. */
 struct categories {
     int n, more;
     struct category of[CATEGORIES_MOST];
@@ -352,7 +354,7 @@ void cubes_paint_particles(struct colour *pixel, int width, int height, const st
 /* Returns the colour of rigid bodies. */
 struct colour rigid_colour(void);
 
-/* Extends the view v towards the rigid bodies of c. */
+/* Extends the rectangle of the view v so that it shows the rigid bodies of c near the particles. */
 void view_show_rigids(struct view *v, const struct plotted_particles *c);
 
 /* Returns true if a rigid body of c is in a picture of the rectangle of v: in outside views always, else if the body
@@ -364,8 +366,9 @@ bool rigids_are_visible(const struct view *v, const struct plotted_particles *c)
 void rigids_paint_flat(struct colour *pixel, int width, int height, const struct view *v,
                        const struct plotted_particles *c);
 
-/* Paints the rigid bodies of c in an outside view where they are nearer to the viewer than depth[height][width], which
- * is updated [m]. share: 1, or less for faded bodies. */
+/* Paints the rigid bodies of c in an outside view into pixel[height][width], row 0 at the bottom, where they are nearer
+ * to the viewer than the depth stored in depth[height][width] [m], which is updated. v: visible rectangle; share:
+ * weight of their colour against white, 1 for the full colour. */
 void rigids_paint_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
                           const struct plotted_particles *c, double share);
 
@@ -397,12 +400,12 @@ struct series {
  * values. */
 double history_largest_magnitude(const struct history *h, int column);
 
-/* Least and largest value. */
+/* Smallest and largest value of a set of numbers. */
 struct value_range {
     double low, high;
 };
 
-/* Returns the extent of the finite values in the columns column[columns] of the history h. */
+/* Returns the smallest and the largest finite value in the columns column[columns] of the history h. */
 struct value_range history_extent(const struct history *h, const int *column, int columns);
 
 /* Writes the time and the columns column[columns] of the history of s, each divided by its factor[columns], to gnuplot
@@ -430,14 +433,14 @@ double curves_layout_inner_height(const struct curves_layout *layout);
  * the first panel [pixel]. */
 void curves_write_panel(FILE *to, const struct curves_layout *layout, double from, double end);
 
-/* Writes the gnuplot command for the position of the key. */
+/* Writes the gnuplot command for the position of the key (legend) in the layout. */
 void curves_write_key(FILE *to, const struct curves_layout *layout);
 
 /* Writes the gnuplot commands for margins and key of a picture with one panel. */
 void curves_write_margins(FILE *to, const struct curves_layout *layout);
 
-/* Edges of an upper and a lower panel, from the upper edge of the first one [pixel]. The lower one has about a fourth
- * of the height. */
+/* Edges of two panels, one above the other, measured from the upper edge of the first one [pixel]. The lower panel has
+ * about a fourth of the height. */
 struct two_panels {
     double upper_end, lower_from, lower_end;
 };
@@ -451,7 +454,8 @@ double tic_distance(double range, double pixels, double apart);
  * whose values extend from `low` to `high`. */
 void curves_write_tics(FILE *to, const char *axis, double low, double high, double pixels);
 
-/* Distance of panels one above another [pixel]; number of letters of a time in a key, as `123.4 µs`. */
+/* PANEL_GAP: distance of panels one above another [pixel]; TIME_LETTERS: number of letters of a time in a key, as
+ * `123.4 µs`. */
 enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 
 /* Writes the gnuplot commands for a heading above the picture: `title`, followed by `what` if it ends in a space. */
@@ -475,8 +479,9 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
 bool run_has_load_steps(const char *folder);
 
 /* Draws the force over the displacement of each support and rigid body that bears a force, with its peak marked, to the
- * file `sheet`. title: heading of the picture; h: history of the run; in_steps: the run has load steps. If there is
- * none or nothing moves, prints that instead, with the probe that is missing. Returns FAILED if gnuplot fails. */
+ * file `sheet`. title: heading of the picture; h: history of the run; in_steps: the run has load steps. If no support
+ * or body carries a force or moves, prints that instead of drawing, and which probe would record it. Returns FAILED if
+ * gnuplot fails. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps);
 
 /* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve), with lines at the
