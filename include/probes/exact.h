@@ -1,5 +1,5 @@
-/* Closed forms of waves in a uniform elastic bar [left, right], with which computed fields are compared.
- * c = sqrt(E/rho) is the wave speed, F the stress at the loaded end, s the distance from that end; tension is positive.
+/* Closed-form solutions for waves in a uniform elastic bar [left, right], with which computed fields are compared. c =
+ * sqrt(E/rho) is the wave speed, F the stress at the loaded end, s the distance from that end; tension is positive.
  * Strain is stress/E unless the bar has yielded.
  *
  *   STEP BAR      a load applied at t = 0 and held, on a bar at rest: d'Alembert's solution with all reflections
@@ -55,9 +55,9 @@ enum { EXACT_FRONTS = 2 };
  * closed form does not apply. */
 int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
-/* Regions in which the exact stress is constant, at a distance from fronts and ends. PLATEAU: behind the last front,
- * at least 0.1 bar lengths from it (0.08 from a plastic front) and from the ends. PRECURSOR: from 0.07 bar lengths
- * behind the precursor to 0.05 ahead of the plastic front. */
+/* Parts of a bar in which the stress of the closed-form solution is constant, at a distance from fronts and ends.
+ * PLATEAU: behind the last front, at least 0.1 bar lengths from it (0.08 from a plastic front) and from the ends.
+ * PRECURSOR: from 0.07 bar lengths behind the precursor to 0.05 ahead of the plastic front. */
 enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
 
 /* Computes the ends *from and *to [m] of a part of the bar in which the stress of the closed-form solution is constant

@@ -17,14 +17,16 @@
 #include "fracture/sif.h"
 #include "fracture/tips.h"
 
-/* Figures of EXACT. All but the last three are computed from the stress by bond flux (probes_parts.h); figures with
- * `_strain` compare E x strain with E x exact strain, with strain by central differences over neighbours in the bar:
+/* Results of a probe of kind EXACT, which compares a bar with a closed-form solution. All but the last three are
+ * computed from the stress by bond flux (probes_parts.h); results with `_strain` compare E x strain with E x exact strain,
+ * with strain by central differences over neighbours in the bar:
  *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
  *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
  *   plateau                 mean stress behind the last front, away from fronts and ends (exact_constant_stress_range)
- * [Pa] strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1] end_displacement of the
- * outermost particle at the loaded end, half a spacing from the end [m] L1_velocity, L2_velocity, L2_displacement as L1
- * and L2, at the time of the velocities */
+ *                           [Pa]
+ *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
+ *   end_displacement        of the outermost particle at the loaded end, half a spacing from the end [m]
+ *   L1_velocity, L2_velocity, L2_displacement    as L1 and L2, at the time of the velocities */
 
 /* Final state of the run on material points alone with which PULSE probes are compared (engine_run_mpm_baseline). */
 struct baseline {
@@ -72,7 +74,7 @@ struct probes {
     real sampled; /* time of the last sample; NAN if none [s] */
 };
 
-/* Time of the velocities at the end of a sample. */
+/* Time of the velocities that are used at the end of a sample, and a factor on velocities. */
 struct velocity_time {
     real t;     /* of the present velocities [s] */
     real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */

@@ -6,7 +6,7 @@
 #include "probes/probes.h"
 #include "run/run.h"
 
-/* The probes of a run and reference values with which they are compared. */
+/* The probes of a run, and reference values with which results of EXACT, PULSE and PATCH probes are compared. */
 struct probing {
     struct probes probes;
     struct wave_pulse *pulse; /* [pulses] pulses of the initial states */
@@ -20,7 +20,8 @@ struct probing {
 /* Returns the largest absolute value of a stress component among all particles [Pa]. */
 real particles_largest_stress(const struct particles *p);
 
-/* Lists the wave pulses among the initial states of a scene in probing->pulse and their number in probing->pulses. */
+/* Stores the wave pulses among the initial states of the scene s in probing->pulse, a new array, and their number in
+ * probing->pulses. */
 void scene_list_pulses(const struct scene *s, struct probing *probing);
 
 /* Extends the cracks with prescribed growth by the growth of one time step, and cuts the bonds that they cross. The
