@@ -16,13 +16,13 @@ status engine_solve_static(struct run *e);
  * an equilibrium is not found or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_run_load_steps(struct run *e);
 
-/* Initialises the solver for one static equilibrium (e->solver) with the loads at the end of the scene's duration, for
- * engine_solve_static. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried by
- * supports. */
+/* Initialises e->solver, the solver by which engine_solve_static finds one static equilibrium, with the loads at the
+ * end of the scene's duration. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried
+ * by supports. */
 status engine_static_solver_make(struct run *e);
 
-/* Checks that load steps support the bodies, loads and supports of a scene. Returns REFUSED, with the reason, if they
- * do not. */
+/* Checks that the solver of load steps can treat the bodies, loads and supports of the scene of run e. Returns REFUSED,
+ * with the reason, if they do not. */
 status statics_check_scene(const struct run *e);
 
 /* Finds the equilibrium at load time t [s] for an estimate of the cost of a run (`cleave check`). The run cannot be
@@ -36,9 +36,9 @@ status engine_find_trial_equilibrium(struct run *e, real t);
  * not found. */
 status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio);
 
-/* Returns the load size at pseudo-time t [s], a measure proportional to the loads: the root of the sum of squares of
- * all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all applied forces [N].
- */
+/* Returns a measure of the size of the loads at pseudo-time t [s], to which it is proportional: the root of the sum of
+ * squares of all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all applied
+ * forces [N]. */
 real statics_load_size(const struct run *e, real t);
 
 /* Returns the reason why the growth direction of cracks cannot be determined from their stress-intensity factors (key
@@ -50,9 +50,9 @@ const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *pla
  * their growth direction cannot be determined (sif_growth_why_impossible). */
 status sif_growth_check(const struct run *e);
 
-/* Saves the state between two load steps to the archive if a->saving is set, else restores it from the archive. If
- * a->scope is ARCHIVE_TRIAL, only the equilibrium is saved or restored. Returns FAILED if an entry is missing or has
- * another size. */
+/* Saves the state between two load steps to the archive `a` if a->saving is set, else restores it from `a`. If a->scope
+ * is ARCHIVE_TRIAL, only the state that a trial equilibrium changes is saved or restored. Returns FAILED if an entry is
+ * missing or has another size. */
 status statics_save_or_load(struct run *e, struct archive *a);
 
 /* Frees the storage of the equilibrium solver. SIF-driven cracks keep their state; sif_cracks_free frees them. */

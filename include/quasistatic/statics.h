@@ -34,7 +34,8 @@ struct break_list {
     struct broken_bond *bond; /* [n] */
 };
 
-/* Energies of a crack increment. */
+/* Energies of a crack increment, a set of bonds that break together. The load size is a measure proportional to the
+ * loads (statics_load_size). */
 struct crack_increment {
     real cost;    /* energy of its bonds at their critical stretch [J]; 0: there is no increment */
     real release; /* energy that the body releases, over the square of the load size (statics_load_size) [J/m^2, J/N^2]
@@ -103,7 +104,8 @@ struct sif_cracks {
     struct path_segment *path; /* [segments] cut so far, in the order of growth */
 };
 
-/* A state of the crack from which a release rate is computed. */
+/* Crack area and released energy at one instant. The energy release rate is the difference of the energies of two
+ * instants over that of the areas. */
 struct release_mark {
     real area;     /* crack area [m^2] */
     real released; /* energy released so far [J] */
