@@ -58,8 +58,8 @@ static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, re
     return r->motion == RIGID_FIXED || far2 <= square(r->radius + reach);
 }
 
-/* Returns the distance of point x [DIM_MAX] from the surface, negative inside [m]; normal: outward unit normal of the
- * nearest surface point. */
+/* Returns the distance of the point x (present position, DIM_MAX components [m]) from the surface of the rigid body,
+ * negative inside [m]. normal: receives the outward unit normal of the nearest surface point. */
 real rigid_distance(const struct rigid_body *r, const real *x, real *normal);
 
 /* Computes the present position x of the material point of the body that was at X at t = 0 [m]. */
@@ -85,8 +85,8 @@ void rigid_move_to_prescribed_position(struct rigid_body *r, real t);
  * step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
 void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
-/* Adds the work that the drive of a driven body has done since the last call to r->work: its displacement times the
- * mean of the contact forces then and now, with opposite sign. */
+/* Adds the work that the drive of a driven body has done since the last call to r->work: minus its displacement since
+ * the last call times the mean of the contact forces at the last call and at present. */
 void rigid_add_drive_work(struct rigid_body *r);
 
 /* Updates r->force_most, the largest contact force on the body so far [N], by the present force. */
@@ -99,13 +99,13 @@ real rigid_total_work(const struct rigid_body *r);
 /* Returns the kinetic energy of a rigid body at its present velocity and angular velocity [J]. */
 real rigid_kinetic_energy(const struct rigid_body *r);
 
-/* Returns the change of the kinetic energy of a free body, to first order, by half a time step dt [s] under the present
- * force, weight and moment [J]; 0 for other bodies. */
+/* Returns by how much the kinetic energy of a free body changes in half a time step under the present force, weight and
+ * moment, to first order [J]; 0 for other bodies. dt: whole time step [s]. */
 real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt);
 
-/* Saves the motion of a rigid body to the archive if a->saving, else restores it. number: number of the body in the
- * scene, by which its entries are named. Returns FAILED if the archive cannot be read or written or a stored size
- * differs. */
+/* Saves the motion of a rigid body to the archive `a` if a->saving, else restores it from it. number: number of the
+ * body in the scene, by which its entries are named. Returns FAILED if the archive cannot be read or written or a
+ * stored size differs. */
 status rigid_save_or_load(struct rigid_body *r, int number, struct archive *a);
 
 #endif

@@ -50,12 +50,12 @@ struct rigid_energy {
     real before, step, last, work;
 };
 
-/* Returns the sums of the energies of all rigid bodies, in the sense of struct rigid_energy, from their present motion
- * and forces [J]. dt: time step [s]. */
+/* Returns the kinetic energies and the work of drives and weights, summed over all rigid bodies, from their present
+ * motion and forces [J]. dt: time step [s]. */
 struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt);
 
-/* Describes the columns of rigid bodies in history.csv; column NULL: counts only. Returns the number of columns: force
- * [N], moment [N m], position of the centre [m] and velocity [m/s] of each body. */
+/* Stores names and units of the columns of rigid bodies in history.csv in the array `column`; NULL: counts them only.
+ * Returns their number: force [N], moment [N m], position of the centre [m] and velocity [m/s] of each body. */
 int rigids_list_columns(const struct run *e, struct column *column);
 
 /* Writes the values of the columns described by rigids_list_columns to `record`: for each rigid body the forces and

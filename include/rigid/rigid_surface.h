@@ -22,18 +22,18 @@ struct rigid_surface {
 void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int dim, const real *low,
                         const real *high);
 
-/* Computes the box in which a rigid body is shown between low[dim] and high[dim] [m]: its bounds, or, if it is
- * unbounded, the box of the particles, wider on all sides by 0.08 of its longest edge and extended to the nearest part
- * of a body that is farther away. low and high hold the box of the particles at the call. Returns true if the body is
- * bounded. */
+/* Computes the box in which a rigid body of shape `shape` is shown. low, high: on entry the lower and upper corner of
+ * the box of the particles, on return those of the box to show, dim components each [m]. A bounded body is shown in its
+ * own bounding box. An unbounded one is cut to the box of the particles, widened on all sides by 0.08 of its longest
+ * edge, and extended to the nearest part of the body if that is farther away. Returns true if the body is bounded. */
 bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high);
 
 /* Releases the arrays of *s. */
 void rigid_surface_free(struct rigid_surface *s);
 
 /* Writes the surfaces of all rigid bodies at their present positions, and their motion, for the last frame of the whole
- * body that was begun, and the index of all these files. part: for the box to which unbounded bodies are cut. Does
- * nothing without rigid bodies and in one dimension. Returns FAILED if a file cannot be written. */
+ * body that was begun, and the index of all these files. part: particles, whose box limits what is written of unbounded
+ * bodies. Does nothing without rigid bodies and in one dimension. Returns FAILED if a file cannot be written. */
 status rigids_write_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part);
 
 /* Position and rotation of a rigid body: a point that was at X at t = 0 is at x + turn (X - centre) [m]. */
@@ -42,7 +42,7 @@ struct rigid_placement {
 };
 
 /* Reads the placements of `rigids` rigid bodies at frame `number` from the folder of a run into placement[rigids].
- * Returns false if there is no such file or it is of another number of bodies. */
+ * Returns false if there is no such file, or if it contains another number of bodies. */
 bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int number);
 
 #endif
