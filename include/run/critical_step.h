@@ -5,7 +5,8 @@
 #include "kernels/kernels.h"
 #include "loads/loads.h"
 
-/* A body of n particles with bonds, as a linear operator on vectors [dim][n]. */
+/* A body of n particles with bonds, as the linear operator M^-1/2 K M^-1/2 on vectors [dim][n], with mass matrix M and
+ * tangent stiffness K. */
 struct bond_operator {
     struct bonds *b; /* rows of all particles of the body */
     struct particles *p;

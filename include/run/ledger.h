@@ -43,13 +43,15 @@ struct energy {
     };
 };
 
-/* A row of the balance. name: of the column and of the key in the summary; label: the name in words. */
+/* A row of the energy balance: one energy, or the work of loads and supports. name: of the column in history.csv and
+ * the key in summary.json; label: name in words; colour: in pictures; column: its number in history.csv. */
 struct ledger_row {
     const char *name, *label, *colour;
     int column;
 };
 
-/* Rows: the energies, then the work of loads and supports. */
+/* Rows of the energy balance: number k < ENERGIES is energy k of ENERGY_ROWS, LEDGER_WORK the work of loads and
+ * supports. */
 enum { LEDGER_WORK = ENERGIES, LEDGER_ROWS };
 extern const struct ledger_row ledger[LEDGER_ROWS];
 

@@ -4,9 +4,9 @@
 
 #include "run/run.h"
 
-/* Lowers the conversion stress (`trigger`) of each material to the smallest one of its particles, if the strength of
- * particles is random (p->strength). Does nothing if strength is uniform. elastic: array of the constants of all
- * materials, changed in place. */
+/* Reduces elastic[m].trigger, the stress at which points of material m convert, to that of its weakest particle, if the
+ * strength of particles is random (p->strength). Does nothing if strength is uniform. elastic: array of the constants
+ * of all materials, changed in place. */
 void conversion_stress_reduce_to_weakest(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials] that the caller frees: for
@@ -27,10 +27,10 @@ real voids_interaction_distance(const struct scene *s, real cutoff);
  * particle list or an image. body: number of the first of the joined bodies. */
 bool joined_bodies_have_exact_surface(const struct scene *s, int body);
 
-/* Computes factors on the weights of bonds near free surfaces (pd.surface: moments) into w and sets source->surface =
- * w; w must therefore outlive `source`. Returns REFUSED, with a message, if particles that can have bonds, mirror
- * images included, are not on one lattice. loads: boundary conditions, so that the message can name the boundary whose
- * mirror plane does not fit the lattice. */
+/* Computes factors on the weights of bonds near free surfaces into w, by moments of the bond weights (key `pd.surface:
+ * moments`), and sets source->surface = w, so that w must outlive `source`. Returns REFUSED, with a message, if
+ * particles that can have bonds, mirror images included, are not on one lattice. loads: boundary conditions, so that
+ * the message can name the boundary whose mirror plane does not fit the lattice. */
 status run_surface_weights_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
                                 const struct loads *loads, const struct scene *s);
 
