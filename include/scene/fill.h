@@ -36,8 +36,8 @@ status fill_check_particle_lists(const struct particles *p, const struct scene *
  * else 1. Does nothing if p->strength is NULL. */
 void fill_strength_factors(struct particles *p, const struct scene *s);
 
-/* Sets the temperature of each particle [K] (fill_strength.c): the room temperature of its material, ROOM_TEMPERATURE
- * if that has none. Does nothing if p->temperature is NULL. */
+/* Sets the temperature of each particle [K] (fill_strength.c): the room temperature that the flow law of its material
+ * gives, or ROOM_TEMPERATURE if it gives none. Does nothing if p->temperature is NULL. */
 void fill_initial_temperature(struct particles *p, const struct scene *s);
 #define ROOM_TEMPERATURE 293.15
 

@@ -35,7 +35,7 @@ struct particle_list_head {
     char note[256];               /* columns that are not read, and defaults of missing ones; "": none */
 };
 
-/* Unit and column names of a list, given by the scene where the file does not name them. */
+/* Unit of length and column names of a particle list, given by the scene for a file that does not state them. */
 struct particle_list_form {
     real scale; /* length that the number 1 is in coordinates without a unit of their own [m], in volumes its cube;
                  * 0: 1 m */
@@ -70,10 +70,11 @@ status particle_list_read(struct particle_list *l, const char *path, const struc
 status particle_list_read_head(struct particle_list_head *head, const char *path, const struct particle_list_form *form,
                                int dim);
 
-/* Returns true if the file name extension is one of a particle list. */
+/* Returns true if the extension of the file name `path` is one of particle lists: .csv, .tsv, .txt, .dat, .h5, .hdf5,
+ * .hdf, or one of Exodus II. */
 bool is_particle_list_name(const char *path);
 
-/* Releases the arrays of a list. */
+/* Releases the arrays of the list l. */
 void particle_list_free(struct particle_list *l);
 
 #endif

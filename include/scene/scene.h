@@ -16,8 +16,8 @@
 #include "particle_list.h"
 #include "requests.h"
 
-/* Words of keys. FRAME_AUTO is resolved when a scene is read. METHOD_AUTO occurs in scene files alone: pilot runs
- * replace it (scene_read.h). SOLVER_STATIC solves load steps. */
+/* Values of keys of a scene: method. METHOD_AUTO occurs in scene files alone, since pilot runs replace it by another
+ * method (scene_read.h). */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
 enum { FILL_AUTO, FILL_ALL, FILL_NEEDED }; /* mpm.fill: which particles are created */
 enum { LEVELS_AUTO = 5 };                  /* mpm.levels: auto */
@@ -27,7 +27,7 @@ enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
 enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
 
-/* Part of a body that consists of another material. */
+/* A region of a body that consists of another material than the body. */
 struct scene_part {
     struct region region;
     int material; /* index into scene.material */
@@ -117,7 +117,7 @@ struct scene_steps {
                     by no more than this share [1] */
 };
 
-/* The place of a key of a scene: file, line and column, or the override that gives it. */
+/* Where a key of a scene is given: `place` has file, line and column, or the override, as text. */
 struct key_place {
     char key[104], place[408];
 };
@@ -230,10 +230,10 @@ struct scene_override {
     const char *key, *value;
 };
 
-/* Returns true if the run integrates in time, false if it solves one equilibrium or load steps. */
+/* Returns true if the run of the scene integrates in time, false if it solves one equilibrium or load steps. */
 static inline bool scene_is_dynamic(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
 
-/* Returns true if the run solves one static equilibrium. */
+/* Returns true if the run of the scene solves a single static equilibrium, without load steps. */
 static inline bool scene_is_single_equilibrium(const struct scene *s)
 {
     return s->solver == SOLVER_RELAXATION || s->solver == SOLVER_CG;
@@ -251,7 +251,7 @@ static inline bool scene_bonds_break(const struct scene *s)
     return breaks;
 }
 
-/* Returns true if a material has bulk viscosity. */
+/* Returns true if at least one material of the scene has bulk viscosity. */
 static inline bool scene_has_viscosity(const struct scene *s)
 {
     bool viscous = false;
@@ -259,7 +259,7 @@ static inline bool scene_has_viscosity(const struct scene *s)
     return viscous;
 }
 
-/* Returns true if the strength of a material scatters in space. */
+/* Returns true if at least one material of the scene has a random strength, which differs between particles. */
 static inline bool scene_strength_scatters(const struct scene *s)
 {
     bool scatters = false;
@@ -315,20 +315,20 @@ bool scene_body_has_material(const struct scene_body *b, int material);
 /* Releases the members of a scene; scene_read.h reads one. */
 void scene_free(struct scene *s);
 
-/* Puts before the message of a refusal the place of what the message begins with: of a body, of a boundary, or of a key
- * or its group, else the path of the scene file. Messages that have a place keep it. Returns `result`; does nothing
- * unless it is REFUSED. */
+/* Prepends a location in the scene file to the stored message of a refusal (status_message), unless it has one: that of
+ * the body, boundary, key or group of keys with which the message begins, else the path of the scene file. Does nothing
+ * unless `result` is REFUSED. Returns `result`. */
 status scene_prepend_location(const struct scene *s, status result);
 
-/* Returns the reason why a body cannot be in the reference frame with the method, solver, coupling and materials of the
- * scene; NULL if it can. The text is static. */
+/* Returns the reason why body number `body` cannot be in the reference frame with the method, solver, coupling and
+ * materials of the scene; NULL if it can. The text is static. */
 const char *scene_why_reference_frame_unsupported(const struct scene *s, int body);
 
 /* Returns true if the material of a body in the reference frame yields and the run makes explicit steps. */
 bool scene_yields_on_mesh(const struct scene *s);
 
-/* Returns the reason why `mpm.frame: auto` does not choose the reference frame for a body; NULL if it does. The text is
- * static. */
+/* Returns the reason why `mpm.frame: auto` does not choose the reference frame for body number `body`; NULL if it does.
+ * The text is static. */
 const char *scene_why_reference_frame_not_auto(const struct scene *s, int body);
 
 /* Returns the reason why `mpm.frame: reference` is no remedy for a body on the grid of the current frame: that of
@@ -342,16 +342,16 @@ status scene_print_help(FILE *out, const char *key);
 /* Returns true if `key` is the name of a key of scenes, or a prefix to which several keys belong. */
 bool scene_has_key(const char *key);
 
-/* Prints the units of numbers. */
+/* Prints the units that numbers in scenes may have to `out`. */
 void scene_print_units(FILE *out);
 
-/* Prints a JSON schema of scenes, for editors. */
+/* Prints a JSON schema of scene files to `out`, for editors. Returns FAILED if that is not possible. */
 status scene_print_schema(FILE *out);
 
-/* Prints the functions, operators and variables of expressions. */
+/* Prints the functions, operators and variables that expressions in scenes may contain to `out`. */
 void scene_print_expressions(FILE *out);
 
-/* Writes the keys for the manual page (troff). */
+/* Writes the keys of scenes to `out` in troff, for the manual page. */
 void scene_print_manual_keys(FILE *out);
 
 /* Writes to `out` the names of all keys that the option `-s` can set, one per line, for completion by a shell; an item
