@@ -117,7 +117,7 @@ struct scene_steps {
                     by no more than this share [1] */
 };
 
-/* Where a key of a scene is given: `place` has file, line and column, or the override, as text. */
+/* A key of a scene and, as text, where it is given: file, line and column, or the override. */
 struct key_place {
     char key[104], place[408];
 };

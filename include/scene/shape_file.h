@@ -7,7 +7,7 @@
 
 enum shape_kind { SHAPE_STL, SHAPE_MESH, SHAPE_IMAGE };
 
-/* An item of a linked list of files. */
+/* A file, or a stack of image files, from which solids are read, with its contents; an item of a linked list. */
 struct shape_file {
     struct shape_file *next;
     enum shape_kind kind;
@@ -23,7 +23,7 @@ struct shape_file {
     struct voxel_part **part; /* [parts] ranges of grey values that solids use */
 };
 
-/* Releases all items of the list. */
+/* Releases all items of the list that begins with `first`. */
 void shape_files_free(struct shape_file *first);
 
 #endif
