@@ -18,8 +18,8 @@
 #include "fracture/tips.h"
 
 /* Results of a probe of kind EXACT, which compares a bar with a closed-form solution. All but the last three are
- * computed from the stress by bond flux (probes_parts.h); results with `_strain` compare E x strain with E x exact strain,
- * with strain by central differences over neighbours in the bar:
+ * computed from the stress by bond flux (probes_parts.h); results with `_strain` compare E x strain with E x exact
+ * strain, with strain by central differences over neighbours in the bar:
  *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
  *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
  *   plateau                 mean stress behind the last front, away from fronts and ends (exact_constant_stress_range)
