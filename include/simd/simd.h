@@ -7,7 +7,7 @@
 
 #include "base/base.h"
 
-/* A set of kernels. */
+/* A set of kernels, the hot loops compiled for one set of vector instructions. */
 struct simd_set {
     const char *name;    /* name in CLEAVE_SIMD */
     const char *meaning; /* the instructions, in words */
@@ -15,7 +15,7 @@ struct simd_set {
     const struct kernel_set *kernels;
 };
 
-/* All sets, the widest first. */
+/* All sets of kernels in this program, the one with the widest vectors first. */
 extern const struct simd_set simd_sets[];
 extern const int simd_set_count;
 
