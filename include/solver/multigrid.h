@@ -6,7 +6,8 @@
 
 #include "base/base.h"
 
-/* A symmetric matrix of dim x dim blocks, one row of blocks for each node. */
+/* A sparse symmetric matrix of dim x dim blocks, one row of blocks for each node: block k, first[i] <= k < first[i +
+ * 1], is in row i and column column[k]. */
 struct block_matrix {
     int dim;         /* space dimension, 1 to 3 */
     int64_t n;       /* number of nodes */

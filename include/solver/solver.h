@@ -37,7 +37,7 @@ struct static_solver {
     int stalls;                 /* successive restarts that did not halve the residual */
 };
 
-/* The body to solve for; all pointers are borrowed. */
+/* The body whose static equilibrium is computed; all pointers are borrowed. */
 struct static_body {
     struct particles *part;
     struct bonds *bonds;
@@ -63,10 +63,10 @@ void static_solver_iteration_make(struct static_solver *s, const struct static_b
 /* Frees the vectors of s and sets all members to 0. */
 void static_solver_free(struct static_solver *s);
 
-/* Does step number `step` of an iteration for static equilibrium: relaxation_step of dynamic relaxation, cg_step of
- * conjugate gradients. The first step is number 0. body: particles, bonds and loads; *done: receives true if the
- * residual is below body->tolerance. Returns FAILED, with a message, if the iteration stalls or a part of the body
- * moves without resistance. */
+/* Does step number `step` of an iteration for static equilibrium. relaxation_step: a step of dynamic relaxation;
+ * cg_step: a step of conjugate gradients. The first step is number 0. body: particles, bonds and loads; *done: receives
+ * true if the residual is below body->tolerance. Returns FAILED, with a message, if the iteration stalls or a part of
+ * the body moves without resistance. */
 typedef status static_solver_step_fn(struct static_solver *s, const struct static_body *body, int64_t step, bool *done);
 static_solver_step_fn relaxation_step, cg_step;
 
@@ -78,8 +78,8 @@ real field_largest_component(const struct field *v, int dim, int64_t n);
  * [N]; unbalanced: norm of the forces on free components, which vanish in equilibrium [N]. */
 void static_solver_set_residual(struct static_solver *s, real reaction, real unbalanced);
 
-/* Saves the state of a static iteration to the archive if a->saving, else restores it. Returns FAILED if the archive
- * cannot be read or written or a stored size differs. */
+/* Saves the state of a static iteration to the archive `a` if a->saving, else restores it from it. Returns FAILED if
+ * the archive cannot be read or written or a stored size differs. */
 status static_solver_save_or_load(struct static_solver *s, struct archive *a);
 
 #endif
