@@ -4,8 +4,9 @@
 #include "kernels/kernels.h"
 #include "loads/loads.h"
 
-/* Velocities of particles [0] and of nodes of the reference frame [1] before the kick of the current step [n, m/s].
- * They are set in every step, so that checkpoints do not contain them. */
+/* Velocities before the velocity update of the current step [m/s]: before[0][d][i] is component d of particle i,
+ * before[1][d][k] that of node k of the mesh in the reference frame. They are set in every step, so that checkpoints do
+ * not contain them. */
 struct damping_state {
     real *before[2][DIM_MAX];
 };

@@ -11,7 +11,8 @@ struct point_pair {
     int32_t a, b;
 };
 
-/* Neighbouring material points of the grid that can come apart, found when they are first compared. */
+/* Pairs of neighbouring material points on the grid of the current frame that can come apart. made: the pairs have been
+ * found; this is done at the first comparison. */
 struct point_pairs {
     bool made;
     bool pulled; /* the warning that pulled points bear too little has been printed */

@@ -28,7 +28,7 @@ struct error_bar {
 };
 enum { ERROR_BARS_MOST = 128 };
 
-/* Wall-clock times of a run; what is neither set-up nor loop is the writing of files [s]. */
+/* Wall-clock times of a run [s]; the rest, wall - setup - loop, is the writing of files. */
 struct run_seconds {
     double wall;  /* of all, from the scene as read */
     double setup; /* before the first step, without files */

@@ -5,7 +5,7 @@
 #include "run/run.h"
 #include "step/parted.h"
 
-/* State of the stability checks (stability.c). */
+/* State of the checks for runs that become unstable (stability.c). */
 struct stability {
     struct growth_samples speed,
         excess;       /* records of the largest squared speed [m^2/s^2], and of energy without a source [J] */

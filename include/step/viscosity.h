@@ -11,8 +11,8 @@
 
 #include "run/run.h"
 
-/* Viscous forces of the last step; the arrays are NULL if no material is viscous. The work of a step is that of the
- * mean force of two successive steps, along the motion between them, as in leap-frog. */
+/* Viscous forces of the last step; the arrays are NULL if no material is viscous. The work in a step is the mean of the
+ * forces of two successive steps times the motion between them, as leap-frog requires. */
 struct viscosity {
     real *bonds[DIM_MAX];  /* [n] viscous forces of bonds on particles [N] */
     real *nodes[DIM_MAX];  /* [mesh.grid.n] viscous forces of cells on nodes [N] */
