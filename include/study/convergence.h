@@ -4,7 +4,8 @@
 
 #include "study/study.h"
 
-/* Fewest and most spacing levels; most runs. */
+/* LEVELS_LEAST, LEVELS_MOST: smallest and largest number of spacing levels of a convergence study; RUNS_MOST: largest
+ * number of runs of one level. */
 enum { LEVELS_LEAST = 3, LEVELS_MOST = 6, RUNS_MOST = 15 };
 
 /* Statistics of the runs of one level, which have about the same spacing. */
@@ -15,7 +16,7 @@ struct level_figures {
     int runs;
 };
 
-/* Behaviour of a figure under refinement. */
+/* Behaviour of a figure (a scalar result) as the particle spacing decreases. */
 enum verdict {
     VERDICT_CONVERGES,  /* converges with an observed order of 0.5 or more */
     VERDICT_SCATTERS,   /* differences between levels, or their order, are smaller than the scatter of the runs */
@@ -28,7 +29,8 @@ enum verdict {
 /* Word for each verdict, for tables. */
 extern const char *const verdict_name[VERDICTS];
 
-/* Convergence of a figure. Level 0 is the finest. All members but orders are in units of the figure. */
+/* Convergence of a figure (a scalar result) over spacing levels; level 0 is the finest. All members but the orders are
+ * in units of the figure. */
 struct convergence {
     struct level_figures level[LEVELS_MOST];
     int levels;

@@ -46,7 +46,7 @@ struct convergence_study {
     struct study_table table;
 };
 
-/* Convergence of one figure. */
+/* Convergence of one figure (a scalar result), and its sensitivity to parameters of the discretisation. */
 struct scalar_result_study {
     const char *name;
     char unit[UNIT_ROOM]; /* SI unit; "": none */

@@ -6,7 +6,8 @@
 
 #include "study/study.h"
 
-/* Most chosen keys; capacity of a key or value [byte]. */
+/* CHOSEN_MOST: largest number of keys that pilot runs choose; CHOSEN_ROOM: capacity of the text of such a key or value
+ * [byte]. */
 enum { CHOSEN_MOST = 8, CHOSEN_ROOM = 64 };
 
 /* Overrides with which a scene is read: those of the user, then the chosen ones. */

@@ -16,7 +16,8 @@ struct varied_key {
     int values;
 };
 
-/* State of a run. CASE_SAME: its scene equals that of another run, whose results are used. */
+/* State of a run of a study. CASE_DONE_BEFORE: an earlier study left its results in the folder; CASE_STOPPED: stopped
+ * before its end; CASE_SAME: its scene equals that of another run, whose results are used. */
 enum case_state { CASE_WAITING, CASE_RUNNING, CASE_DONE, CASE_DONE_BEFORE, CASE_FAILED, CASE_STOPPED, CASE_SAME };
 
 #define STUDY_SCENE "study.yaml" /* file in the folder of a study: its scene without the varied keys */
@@ -149,7 +150,7 @@ struct path study_case_folder(const struct study *s, const struct study_case *c)
 
 /* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */
 
-/* Options of studies. */
+/* Options of the execution of studies. */
 struct study_options {
     int jobs, threads;                 /* parallel runs; threads of each run; 0: determined from the number of cores */
     bool overwrite, quiet;             /* replace older runs; print nothing */
@@ -176,7 +177,8 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
 
 /* ---- results (study_table.c, study_draw.c) ----------------------------------------------------------------------- */
 
-/* All numbers in the summaries of the runs: value[figure][case]; NAN if the run has no such figure. */
+/* All numbers in the summaries of the runs of a study. figure: [figures] their names; value: [figures][cases] value of
+ * a figure in a run, NAN if the run has no such figure. */
 struct study_table {
     char **figure;
     double **value;
