@@ -10,9 +10,9 @@
 
 /* ---- check_cost.c ------------------------------------------------------------------------------------------------ */
 
-/* Basis of the estimated run time. TRIED: all steps, measured. SCALED: the first steps, times the ratio of all steps to
- * the first ones in an equal scene with larger particles. FIRST: the first steps alone, an underestimate if many
- * particles convert. */
+/* What the estimated run time is based on. COST_TRIED: all steps were done and measured. COST_SCALED: the first steps
+ * were measured, and the growth of the time of later steps in an equal scene with larger particles. COST_FIRST: the
+ * first steps alone, which underestimates the time if many particles convert. */
 enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
 /* Quartiles of measured times [s]. */
@@ -46,14 +46,15 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct
 
 /* ---- check_strength.c -------------------------------------------------------------------------------------------- */
 
-/* Prints strengths, law and limits of the horizon of a material whose bonds soften; nothing for others. */
+/* Prints, for a material m whose bonds soften, its strengths, its softening law and the limits that they set to the
+ * horizon. Prints nothing for other materials. */
 void print_softening(const struct scene *s, const struct material *m);
 
 /* Prints the strength that brittle bonds of material m have at the horizon of the scene, as a clause; nothing where
  * bonds are not known to have one. */
 void print_brittle_strength(const struct scene *s, const struct material *m);
 
-/* Size of a part or a crack below which faces or tips affect each other [horizons] */
+/* Size of a part or a crack below which its faces or tips affect each other [horizons]. */
 #define FEATURE 4
 
 /* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
@@ -75,18 +76,22 @@ void hint_precrack_ends(const struct run *e, struct warnings *to);
 /* Prints the solver of load steps and the rule by which cracks grow. */
 void print_load_steps(const struct run *e);
 
-/* Writes a line for each loss of accuracy of load steps: loads, supports, lengths of cracks. */
+/* Writes a line to `out` for each setting that reduces the accuracy of load steps: loads, supports, lengths of
+ * cracks. */
 void print_load_step_advice(const struct run *e, FILE *out);
 
-/* Estimates the cost of load steps by the first equilibrium. Returns FAILED if none is found. */
+/* Estimates the cost of a run with load steps from the time of its first equilibrium, into *c. The run cannot be used
+ * afterwards. Returns FAILED if no equilibrium is found. */
 status cost_load_steps(struct cost *c, struct run *run);
 
-/* Prints the run time of load steps, and a line if nothing will break. */
+/* Prints the estimated run time of load steps with `threads` threads, and a line if no bond will break. cost: result of
+ * cost_load_steps. */
 void print_load_steps_cost(const struct run *e, const struct cost *cost, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
-/* Prints for each file of a solid whether its surface is closed, and the volume that it encloses. */
+/* Prints for each file from which the scene reads a solid whether its surface is closed, and the volume that the
+ * surface encloses. */
 void print_shapes(const struct run *e);
 
 /* Prints the bodies that consist of several pieces without bonds between them (check_pieces.c). */
@@ -104,7 +109,7 @@ real solid_smallest_edge(const struct run *e, const struct solid *a);
  * joined to one of a lower number. */
 double count_thin_layers(const struct run *e, int body, double max_layers);
 
-/* Writes a line for each nearly incompressible body whose particles or cells are too stiff. */
+/* Writes a line to `out` for each nearly incompressible body whose particles or cells are too stiff. */
 void print_incompressible_advice(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
@@ -112,13 +117,14 @@ void print_incompressible_advice(const struct run *e, FILE *out);
 /* Prints size and number of coarse cells, and why they are used or not. */
 void print_levels(const struct run *e);
 
-/* Prints the memory and time that coarse cells save. */
+/* Prints the memory and time that coarse cells of the mesh save. cost: measured cost of the run. */
 void print_levels_saving(const struct run *e, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
-/* Writes a line for each narrow part of a body whose cross-sections hold more or fewer particles than width over
- * spacing, with the nearest spacings of which the width is a whole multiple. */
+/* Writes a line to `out` for each narrow part of a body whose width is no whole number of spacings, so that it is
+ * represented by a part that is too wide or too narrow. The line has the nearest spacings of which the width is a whole
+ * multiple. */
 void print_section_advice(const struct run *e, FILE *out);
 
 /* Text of a length, returned by value. */
@@ -126,7 +132,8 @@ struct length_text {
     char text[32];
 };
 
-/* Returns a length [m] as text with `digits` digits, in the largest unit in which the spacing [m] is not below 0.1. */
+/* Returns `length` [m] as text with `digits` digits, in the largest unit (m, mm, ...) in which the number for `spacing`
+ * [m] is at least 0.1. */
 struct length_text length_with_unit(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
@@ -151,7 +158,7 @@ void hint_idle_keys(const struct scene *s, struct warnings *to);
 
 /* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
 
-/* Adds a line for each load whose sign, and for each setting whose size, is seldom meant. */
+/* Adds a line to *to for each load whose sign, and for each setting whose size, is probably not intended. */
 void hint_signs(const struct run *e, struct warnings *to);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
@@ -169,11 +176,12 @@ void cost_hints_list(const struct run *e, struct warnings *to);
  * faces. */
 void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layers, FILE *out);
 
-/* Writes a line for each body from a list that is no lattice and has thin parts (check_lists.c). */
+/* Writes a line to `out` for each body from a particle list whose particles form no lattice and that has thin parts
+ * (check_lists.c). */
 void print_particle_list_advice(const struct run *e, FILE *out);
 
-/* Returns true if the scene equals its mirror image in the plane across `axis` through the middle of its particles, at
- * *at [m] (check_symmetry.c). */
+/* Returns true if the scene equals its mirror image in the plane normal to axis `axis` through the middle of its
+ * particles. *at receives the position of this plane along the axis [m] (check_symmetry.c). */
 bool scene_is_symmetric(const struct run *e, int axis, real *at);
 
 #endif

@@ -8,8 +8,8 @@
 
 #include "base/base.h"
 
-/* A command. words: the form of its arguments, from which usage, manual and completion are made. Names in capitals
- * denote values; an option is followed by its value. */
+/* A command of the program: name, form of its arguments (`words`), meaning in words, and function. Usage line, manual
+ * and completion are made from `words`, in which names in capitals stand for values. */
 struct command {
     const char *name, *words, *meaning;
     status (*call)(int argc, char **argv);
@@ -50,23 +50,24 @@ status command_export(int argc, char **argv);
 status command_help(int argc, char **argv);
 status command_info(int argc, char **argv);
 
-/* Finds the command of this name. REFUSED with the nearest name in the message. */
+/* Finds the command called `name` and stores a pointer to its entry of `commands` in *found. Returns REFUSED, with the
+ * most similar name in the message, if there is none. */
 status command_find(const char *name, const struct command **found);
 
 /* Installs handlers for signals that request the end of the program. Returns the flag that they set; a second interrupt
  * ends the program at once. */
 const volatile sig_atomic_t *stop_signals_install(void);
 
-/* Prints one line: version and commit. */
+/* Prints one line with the version of the program and the commit of its source to `out`. */
 void version_print(FILE *out);
 
-/* Prints `cleave --help`. */
+/* Prints the text of `cleave --help` to `out`. */
 void usage_print(FILE *out);
 
-/* Prints `cleave COMMAND --help`. */
+/* Prints the text of `cleave COMMAND --help` for the command c to `out`. */
 void usage_print_of(FILE *out, const struct command *c);
 
-/* Returns true for -h and --help. */
+/* Returns true if `word`, a word of the command line, is -h or --help. */
 static inline bool wants_help(const char *word)
 {
     return (word[0] == '-' && word[1] == 'h' && !word[2]) || __builtin_strcmp(word, "--help") == 0;
@@ -89,11 +90,11 @@ status manual_print(FILE *out);
  * false if there is none (schema_path.c). */
 bool schema_path(char *path, size_t capacity);
 
-/* Prints the kinds of `cleave new`, separated by blanks. */
+/* Prints the kinds of scenes that `cleave new` can write to `out`, separated by blanks. */
 void new_scene_kinds_print(FILE *out);
 
-/* Prints a script that completes commands, options, keys and words in the shell `bash` or `zsh`. REFUSED for another
- * shell. */
+/* Prints a script to `out` by which the shell `shell`, bash or zsh, completes commands, options, keys and words.
+ * Returns REFUSED for another shell. */
 status completion_print(FILE *out, const char *shell);
 
 #endif

@@ -16,7 +16,8 @@ status lammps_frames_list(const char *folder, int *n, struct listed_frame **list
  * the run cannot be read or is damaged. Release with frame_free. */
 status lammps_run_read_frame(struct output_frame *f, const char *folder, int number);
 
-/* Prints the differences from the state of Cleave in check.csv; nothing if the folder has no check.csv. */
+/* Prints the differences between the run of LAMMPS in a folder and the state that Cleave has computed, which the export
+ * wrote to check.csv. Prints nothing if the folder has no check.csv. Returns FAILED if a file cannot be read. */
 status lammps_check_print_differences(const char *folder);
 
 #endif
