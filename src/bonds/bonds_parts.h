@@ -19,8 +19,8 @@ struct row {
     real family_volume, cut_volume; /* volume of the family; of neighbours behind cut or broken bonds [m^3] */
 };
 
-/* Micro-modulus of bonds between two materials, divided by that between particles of material 0: ratio[a * materials +
- * b] for the materials a and b [1]. */
+/* Micro-moduli of bonds between pairs of materials: ratio[a * materials + b] is that of bonds between the materials a
+ * and b, divided by that of bonds within material 0 [1]. */
 struct pair_table {
     real *ratio;
     int materials;
@@ -40,7 +40,7 @@ void row_buffer_free(struct row *row);
 int particle_find_neighbours(const struct site_map *map, const struct bond_source *source, const struct particles *p,
                              int32_t i, int32_t *found, int capacity);
 
-/* Inputs from which rows (all bonds of one particle each) are made. */
+/* Inputs from which rows are made; a row holds all bonds of one particle. */
 struct row_maker {
     struct bonds *old; /* previous rows; NULL: none */
     const struct bond_source *source;
@@ -51,28 +51,32 @@ struct row_maker {
     int room;                   /* largest number of bonds of a row */
 };
 
-/* Allocates what belongs to the rows b of bonds that soften. previous: rows before a rebuild; NULL: none. Does nothing
- * if all bonds are brittle. */
+/* Allocates the softening data of the bonds b. previous: bonds before a rebuild, NULL if there are none; source: inputs
+ * of the bonds. Does nothing if all bonds are brittle. */
 void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                               const struct particles *p);
 
-/* Sets the softening of the bonds of `row`, found by row_find_neighbours, of particle i: that of the previous row of
- * the particle, if there is one, else none has begun. */
+/* Sets the softening state of the bonds in `row`, the row of particle i, whose neighbours have been found: copied from
+ * the previous row of the particle in maker->old, or, for bonds that are not in it, that of bonds that have not begun
+ * to soften. */
 void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i);
 
-/* Returns true if a row (all bonds of one particle) has an intact bond that has not begun to soften. */
+/* Returns true if row number `row` (all bonds of one particle) has an intact bond that has not begun to soften. */
 bool row_has_closed(const struct bonds *b, int64_t row);
 
-/* Share of the least strain on a strength surface from which on stretches are near the surface (bonds_strength.c). */
+/* Stretches above this share of the smallest stretch on a strength surface count as near the surface [1]
+ * (bonds_strength.c). */
 #define SURFACE_NEAR 0.8
 
-/* Copies the softening of row `from` of the rows `previous` to row `row` of b. new_index: index in the particles p of
- * each particle of `previous`, images included; -1: none. limit: of the bonds. */
+/* Copies the softening state of the bonds in row `from` of `previous` to row `row` of b, the row of the same particle.
+ * new_index: index in p of each particle and image of `previous`, -1 if it is not in p; limit: critical stretches and
+ * softening by pair of materials. */
 void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
                               const struct bonds *previous, int64_t from, const int32_t *new_index);
 
-/* Saves or restores which row blocks have begun to soften or are due, and the state of their bonds. Call it after
- * the columns of changed row blocks are restored. */
+/* Saves the softening state of all bonds, and which row blocks (bonds of eight particles) have begun to soften or are
+ * due for examination, to the archive `a` if a->saving, else restores them from it. To be called after the columns of
+ * changed row blocks are restored. Returns FAILED if an entry is missing or its size differs. */
 status softening_save_or_load(struct bonds *b, struct archive *a);
 
 /* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
@@ -100,7 +104,8 @@ int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *
  * and the columns unless b has taken over the column arrays of `previous`. */
 void row_block_copy_unchanged(struct bonds *b, const struct bonds *previous, int64_t row_block, int64_t from);
 
-/* Neighbours found for the rows of a row block, kept between the two passes. */
+/* Neighbours of the rows of a row block (bonds of eight particles), stored between the pass that counts columns and the
+ * pass that fills them. */
 struct row_block_found {
     real family_volume[LANES]; /* [m^3] */
     int32_t n[LANES], nbr[];   /* number of neighbours of each row; neighbours, row after row */
@@ -278,7 +283,7 @@ const struct stencil *stencil_find_or_add(struct stencils *all, const struct ste
 
 /* Sets the stencil of row block `row_block` to that of the row block that contains particle `cached`, so that
  * `row_block` needs no stored columns; its breaking limits and family volumes are copied, too. cached = -1: uses the
- * stencil that row block g already has. Returns false, without a change, if there is no stencil. */
+ * stencil that `row_block` already has. Returns false, without a change, if there is no stencil. */
 bool row_block_use_stencil(struct bonds *b, int64_t row_block, int64_t cached);
 
 /* Writes the eight bonds `from` to column number `column` of the bond arrays. */

@@ -80,9 +80,9 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
     return b->whole[j < b->p->n ? j : image_source_particle(b->p, b->source->image, j)];
 }
 
-/* Returns the offset number of a bond in reverse direction. offset: offset number of the bond at its first particle;
- * to: other particle of the bond, at which the reverse offset is listed; if it is seen through mirrors, the reverse
- * offset is reflected in them. */
+/* Returns the number of the offset (relative position of a neighbour) of a bond as seen from its other particle.
+ * offset: offset number of the bond at its first particle; to: other particle of the bond, at which the reverse offset
+ * is listed; if it is seen through mirrors, the reverse offset is reflected in them. */
 int near_faces_reverse_offset(const struct near_faces *b, const struct seen *to, int offset);
 
 /* Lists the particles near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a
@@ -143,17 +143,19 @@ static inline int32_t bond_class_neighbour(const struct bond_classes *a, const s
 /* Releases all arrays of a. */
 void bond_classes_free(struct bond_classes *a);
 
-/* Third moments of a bond in space and in the plane, and fourth moments, each padded to an even number. */
+/* Number of third and fourth moments of a bond in space, and in the plane (_2D), each padded to an even number. */
 enum { THIRDS = 10, FOURTHS = 16, THIRDS_2D = 4, FOURTHS_2D = 6, MOMENTS = THIRDS + FOURTHS };
 
-/* A class of particles in the fit: inverse of the quadratic form of its third and of its fourth moments, times its
- * members, and the goal of the moments of its bonds that may change. */
+/* Data of a class of particles in the least-squares fit. third, fourth: inverses of the quadratic forms of its third
+ * and fourth moments, times the number of its particles; goal: required sum of the moments of those bonds whose factors
+ * may change. */
 struct class_fit {
     real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
 };
 
-/* The least-squares problem of the factors f: sum over classes of (M - goal) Q (M - goal), M being the sum of f times
- * the moments of the bonds of the class, plus sum prior (f - 1)^2, within bounds. */
+/* The least-squares problem for the factors f of groups of bonds: minimise the sum over classes of (M - goal) Q (M -
+ * goal) plus the sum over groups of prior (f - 1)^2 with low <= f <= high. M: sum of f times the moments over the bonds
+ * of a class; Q: quadratic form of the class. */
 struct surface_fit_problem {
     const struct bond_classes *alike;
     int offsets, thirds, fourths; /* neighbours of a full family; third and fourth moments of a bond */
@@ -163,12 +165,13 @@ struct surface_fit_problem {
     real *prior, *low, *high;     /* [groups] weight of (f - 1)^2; bounds of f, equal if f is given */
 };
 
-/* Largest number of products of surface_fit_solve; most bodies take 60 to 250, thin ones with cracks in space 700. */
+/* Largest number of matrix products in the solution of the least-squares problem (surface_fit_solve). Most bodies need
+ * 60 to 250, thin bodies with cracks in 3D 700. */
 enum { SURFACE_PRODUCTS = 1000 };
 
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
  * the factors [groups]. products: largest number of products with the matrix of the dual problem, fewer in large
- * bodies. Returns the residual that is left, over that of factors of 1 [1]. */
+ * bodies. Returns the remaining residual over the residual with all factors 1 [1]. */
 real surface_fit_solve(const struct surface_fit_problem *q, real *factor, int products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
