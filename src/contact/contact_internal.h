@@ -6,17 +6,17 @@
 
 #include "contact/contact.h"
 
-/* Lengths of contact: range within which a particle contributes to the density of a face [mean spacings]; distance
- * added to the contact distance in searches for pairs [spacings], larger in an equilibrium, whose corrections move
- * particles further. With the rule of LAMMPS a pair touches at the smaller of FAR_LAMMPS mean spacings and NEAR_LAMMPS
- * times its reference distance. */
+/* Lengths of contact. CONTACT_REACH: range within which a particle contributes to the density of a face. CONTACT_SKIN,
+ * STATIC_SKIN: distance by which the list of pairs extends beyond the contact distance, larger for equilibria, whose
+ * corrections move particles further. By the rule of LAMMPS, contact of a pair begins at the smaller of FAR_LAMMPS mean
+ * spacings and NEAR_LAMMPS times its reference distance. */
 #define CONTACT_REACH 2.0 /* range of the field of a face [mean spacings] */
 #define CONTACT_SKIN 0.3  /* skin of the list beyond the contact distance [spacings] */
 #define STATIC_SKIN 1.5   /* skin for the corrections of an equilibrium [spacings] */
 #define FAR_LAMMPS 1.35   /* largest distance of pairs by the rule of LAMMPS [mean spacings] and ... */
 #define NEAR_LAMMPS 0.9   /* ... [distance in the reference configuration] */
-/* Largest reduction of a gap over the largest displacement of any particle [1]: 2, because both faces move, and a
- * margin for the curvature of the density field. */
+/* Largest ratio of the reduction of a gap to the largest displacement of a particle [1]: 2 because both faces move,
+ * plus a margin for the curvature of the density field. */
 #define CONTACT_FLATNESS 3
 
 /* State of a row (a particle of the contact list) until the next search. ROW_FAR: too far from all faces. ROW_NEAR: may
@@ -193,8 +193,9 @@ void contact_face_set_onset_height(struct contact *c, const struct contact *prev
  * call; otherwise the last force is returned again. */
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool advance);
 
-/* Returns the state with which contact_balance starts for a contact on a new list. gap: present gap; previous: state of
- * the contact on the previous list, whose account of energy errors is continued; NULL if the contact was not listed. */
+/* Returns the initial state of the energy correction (contact_energy_correction_force) of a contact on a new list of
+ * pairs. gap: present gap; previous: state of the contact on the previous list, whose account of energy errors is
+ * continued; NULL if the contact was not listed. */
 struct contact_balance contact_energy_correction_begin(const struct contact_balance *previous, real gap);
 
 /* Contribution of particle l of a face to the density of the face at particle k (form `surface`): weight [1];
@@ -247,7 +248,7 @@ void contact_friction_transfer_work(struct contact *c, const struct contact *pre
 void contact_rigid_list_particles(struct contact *c, const struct contact *previous, const struct particles *p,
                                   real skin);
 
-/* Frees the lists of particles near rigid bodies. */
+/* Frees the lists of particles near rigid bodies, c->near. */
 void contact_rigid_free(struct contact *c);
 
 /* Returns true if some point of a rigid body has been displaced by `distance` [m] or more since the last search for
