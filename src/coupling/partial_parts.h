@@ -5,12 +5,12 @@
 
 #include "bonds/bonds.h"
 
-/* Returns the share of the length of the segment from a to b that is inside a cube [1]. X: middle of the cube;
- * half_edge: half of its edge [m]. */
+/* Returns the share of the length of the segment from a to b (dim components [m]) that is inside a square or cube [1].
+ * X: middle of the cube; half_edge: half of its edge [m]. */
 real segment_fraction_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim);
 
-/* Reflection that maps the particle `root` of the body to one of its mirror images, by one or several mirrors: X'_d =
- * sign_d X_d + offset_d. */
+/* Reflection that maps the particle `root` of the body, at X, to one of its mirror images, at X', by one or several
+ * mirrors: X'_d = sign_d X_d + offset_d. */
 struct reflection {
     real sign[DIM_MAX], offset[DIM_MAX];
     int64_t root;
@@ -47,25 +47,27 @@ bool partial_tensor_limit_state_based(real *tensor, real *mean_strain_derivative
 
 /* Limits the tensor `tensor` of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its
  * cell, so that no eigenvalue of V C - `tensor` is negative. V, C: volume and elastic tensor of the point. Otherwise
- * the cell would be unstable with any time step. The limit acts only for irregular particles or bonds stiffer than the
- * material. */
+ * the cell would be unstable with any time step. The limit has an effect only if particles are not on a lattice or
+ * bonds are stiffer than the material. */
 void partial_tensor_limit_bond_based(real *tensor, const struct particles *p, const struct bond_source *source,
                                      int64_t i);
 
-/* Returns half the edge of the cell of a particle [m]. */
+/* Returns half the edge of the square or cubic cell of particle i, from its volume [m]. */
 real particle_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);
 
-/* Table from which T of a point follows quickly if particles are on a lattice (partial_table.c): the share of every
- * bond vector inside every cell that it crosses. Empty if particles are not on lattices. */
+/* Table for particles on a lattice (partial_table.c): the share of every bond vector inside every cell that it crosses.
+ * From it the tensor T follows quickly, by which bonds reduce the stiffness of the cell of a material point. Empty if
+ * particles are not on lattices. */
 struct partial_table;
 
-/* Creates the table for the particles p. size: number of values of one tensor T. Release with partial_table_free. */
+/* Creates the table of the shares of bonds inside cells for the particles p, empty if they are not on lattices. size:
+ * number of values of one tensor T, by which bonds reduce the stiffness of a cell. Release with partial_table_free. */
 struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *source, int size);
 
-/* Releases the table. */
+/* Releases the table t. */
 void partial_table_free(struct partial_table *t);
 
-/* Returns true if the table is not empty. */
+/* Returns true if the table t is not empty, i.e. if particles are on lattices. */
 bool partial_table_is_filled(const struct partial_table *t);
 
 /* Returns true if the table can be used for every particle: all have the volume of a lattice cell. */
@@ -74,13 +76,13 @@ bool partial_table_covers_all(const struct partial_table *t);
 /* Returns true if particle i has the volume of a lattice cell, so that the table can be used for it. */
 bool partial_table_applies_to(const struct particles *p, const struct bond_source *source, int64_t i);
 
-/* Recomputes the responses (struct response) of the bonds of n material points listed in `list`, or, if it is NULL, of
- * all material points. Responses of other points are kept. */
+/* Recomputes the stored strain responses (struct response) of the bonds of the n material points `list`, or of all
+ * material points if `list` is NULL. Responses of other points are kept. */
 void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *source, const int32_t *list, int64_t n);
 
-/* Computes the tensor `tensor` of point i [J] from the table and the stored responses of the bonds of the material
- * points around it. near: working memory. */
+/* Computes the tensor `tensor` of material point i [J], by which bonds reduce the stiffness of its cell, from the table
+ * and the stored strain responses of the bonds of the material points around it. near: working memory. */
 void partial_table_sum_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                               const struct bond_source *source, int64_t i, struct neighbour_list *near, real *tensor);
 
