@@ -5,7 +5,7 @@
 
 #include "data/solid.h"
 
-/* Functions of a kind of solid. */
+/* Functions of one kind of solid, for a solid without its copies. */
 struct solid_type {
     real (*distance)(const struct solid *s, const real *X, int dim, real *normal); /* as solid_distance */
     real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level_set_value; NULL: the distance */
@@ -15,8 +15,9 @@ struct solid_type {
 };
 extern const struct solid_type solid_types[SOLID_KINDS];
 
-/* Position of a point relative to a cylinder axis: length of the axis; coordinate of the point along it, from its
- * middle, and distance from it [m]; unit vectors of both directions. */
+/* Position of a point relative to the axis of a cylinder. length: of the axis [m]; along: coordinate of the point along
+ * the axis, from its middle [m]; across: distance from the axis [m]; axis, out: unit vectors along the axis and from it
+ * to the point. */
 struct axis_place {
     real length, along, across, axis[DIM_MAX], out[DIM_MAX];
 };
@@ -25,7 +26,8 @@ struct axis_place {
  * outward unit normal at the nearest point, two components. */
 real polygon_distance(const struct polygon *p, const real *X, real *normal);
 
-/* Returns the largest scalar product X . along over the points X of a polygon (support function). */
+/* Returns the largest scalar product X . along over the points X of a polygon (support function). along: two
+ * components, of any length. */
 real polygon_support_function(const struct polygon *p, const real *along);
 
 /* Returns the signed distance of the point X from the surface of an ellipsoid, negative inside [m]. dim: 2 for an
