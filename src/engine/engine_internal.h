@@ -11,7 +11,7 @@ void run_parts_make(struct run *e);
 /* Releases all parts of a run and what they own. Parts that were not created are skipped. */
 void run_parts_free(struct run *e);
 
-/* A run that is replaced by one with other particles. */
+/* A run that is replaced by a run of the same scene with other particles. */
 struct predecessor {
     struct run *run;
     int32_t *now; /* [particles and images of `run`] their indices in the new run; -1: not in the new run */
@@ -42,7 +42,8 @@ void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
  * size. */
 status parts_save_or_load(struct run *e, struct archive *a);
 
-/* Adds warnings to *to about bodies with particles that have no neighbours. */
+/* Adds warnings to *to about bodies with particles that have no neighbours within the horizon. cells: search over
+ * reference positions. */
 void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
                                        const struct particles *p, struct warnings *to);
 
