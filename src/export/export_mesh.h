@@ -5,7 +5,8 @@
 #include "engine/engine.h"
 #include "export/export.h"
 
-/* Particles by material, then by id; the sets on which loads act. */
+/* The particles of a scene or run, sorted by material, then by id, for meshes of other programs. Each load is a set of
+ * them. */
 struct export_mesh {
     struct scene scene;
     struct run *e;
@@ -19,7 +20,7 @@ struct export_mesh {
  * the scene is faulty. Release *m with export_mesh_free, also after a failure. */
 status export_mesh_make(struct export_mesh *m, const struct export_request *request);
 
-/* Name of a set. */
+/* Name of a set of nodes, returned by value. */
 struct set_name {
     char text[NAME_MAX_LENGTH];
 };
@@ -27,7 +28,8 @@ struct set_name {
 /* Returns the name of the set of load k: that of its boundary, or nodelist_N (N = k + 1) if an earlier load has it. */
 struct set_name export_set_name(const struct export_mesh *m, int k);
 
-/* Returns, allocated, the positions (counted from 1, ascending) of the particles of load k; as many as it has. */
+/* Returns a new array of the positions in m of the particles of load k, counted from 1, ascending; it has as many
+ * entries as the load has particles. The caller releases it with memory_free. */
 int32_t *export_set_nodes(const struct export_mesh *m, int k);
 
 /* Releases the memory of *m. */

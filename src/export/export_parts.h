@@ -20,7 +20,7 @@ struct lammps_setting {
 };
 enum { SETTINGS_MOST = 16 };
 
-/* List of such keys. */
+/* List of keys whose values differ from what LAMMPS does. */
 struct lammps_settings {
     int n;
     struct lammps_setting of[SETTINGS_MOST];
@@ -37,8 +37,9 @@ bool lammps_normalisation_differs(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */
 
-/* Particles that LAMMPS would connect by a bond that the scene does not have. Neighbours of particle k: entries
- * first[k] .. first[k + 1] - 1 of near, as indices into this list; cut: this bond must be cut. */
+/* List of particles that LAMMPS would connect by bonds that the scene does not have. near: neighbours of list entry k
+ * are near[first[k]] .. near[first[k + 1] - 1], as indices into the list; cut: 1 if the bond to this neighbour must be
+ * cut. */
 struct touched {
     int64_t n;
     int32_t *particle; /* [n] */
@@ -72,7 +73,7 @@ struct lammps_column {
 };
 enum { LOADS_MOST = 28, COLUMNS_MOST = DIM_MAX * (LOADS_MOST + 1) }; /* LAMMPS has 32 groups */
 
-/* State of an export. */
+/* State of an export of a scene to LAMMPS. */
 struct exported {
     const struct scene *s;
     struct run *e;
@@ -92,7 +93,8 @@ struct exported {
  * would lack a bond of the scene or give it another weight. Release *t with touched_free. */
 status lammps_find_cut_bonds(struct touched *t, struct exported *exported);
 
-/* Types of particles: one for each combination of material and loads, and more where bonds are cut. */
+/* Types of particles in LAMMPS: one for each combination of material and loads, and further ones to exclude pairs of
+ * particles whose bond must be cut. */
 struct lammps_types {
     int n;
     int32_t *of;             /* [particles] type, from 1 */

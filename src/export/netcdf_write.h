@@ -25,14 +25,14 @@ struct netcdf_array {
     const char *attribute, *text; /* an attribute; NULL: none */
 };
 
-/* An attribute of the file: text, or a number of `type`. */
+/* An attribute of the whole file: the text `text`, or, if `text` is NULL, the number `value` of type `type`. */
 struct netcdf_attribute {
     const char *name, *text; /* borrowed */
     enum netcdf_type type;
     real value;
 };
 
-/* A file that is written. */
+/* A netCDF file that is being written: its definitions, and the state of writing. */
 struct netcdf_writer {
     FILE *to;
     int dimensions, arrays, attributes;
@@ -45,25 +45,31 @@ struct netcdf_writer {
     int64_t pending; /* bytes of the array that is written */
 };
 
-/* Defines a dimension that is called `name` followed by `number` (0: without a number). Returns its index. */
+/* Defines a dimension of `length` entries (0: the dimension of records) that is called `name` followed by `number` (0:
+ * without a number). Returns its index, for netcdf_define_array. */
 int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int number, int64_t length);
 
-/* Defines an array that is called `name` followed by `number` over `ranks` dimensions. attribute, text: name and text
- * of its attribute, kept by reference; NULL: none. */
+/* Defines an array of numbers of type `type` that is called `name` followed by `number` (0: without a number).
+ * dimension: [ranks] indices of its dimensions; attribute, text: name and text of its only attribute, kept by
+ * reference, NULL for none. */
 void netcdf_define_array(struct netcdf_writer *w, const char *name, int number, enum netcdf_type type, int ranks,
                          const int *dimension, const char *attribute, const char *text);
 
-/* Writes the header to w->to. */
+/* Writes the header of the file, which follows from the definitions, to w->to. To be called after all definitions and
+ * before the arrays are written. */
 void netcdf_write_header(struct netcdf_writer *w);
 
-/* Writes the next n numbers of an array of reals or of whole numbers. */
+/* Writes the next n numbers value[n] of the present array; netcdf_write_reals for arrays of reals,
+ * netcdf_write_integers for whole numbers. */
 void netcdf_write_reals(struct netcdf_writer *w, int64_t n, const real *value);
 void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *value);
 
-/* Writes the next row of an array of letters, cut or filled up to `width` bytes. */
+/* Writes `text` as the next row of the present array, an array of letters with rows of `width` bytes; the text is cut
+ * or filled up to that length. */
 void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int width);
 
-/* Ends an array. */
+/* Ends the present array, or its part of one record, by the padding that the format requires; the next numbers belong
+ * to the next array. */
 void netcdf_end_array(struct netcdf_writer *w);
 
 /* Releases the memory of *w. */
