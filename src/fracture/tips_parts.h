@@ -25,9 +25,9 @@ static inline int64_t tip_list_piece_end(const struct particles *p, int64_t firs
  * of consecutive particles are tested eight at a time. */
 static inline bool particles_are_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
 
-/* Extent of a crack: largest distance of its particles from its start [m]; position of its end, the middle of the
- * farthest particles (of one group, if they form several); number of separate groups of farthest particles; number of
- * particles. */
+/* Extent of a crack. farthest: largest distance of its particles from its start [m]; place: position of its end, the
+ * middle of the farthest particles (of one group, if they form several) [m]; ends: number of separate groups of
+ * farthest particles; particles: number of particles of the crack. */
 struct tip_reach {
     real farthest, place[DIM_MAX];
     int64_t ends, particles;
