@@ -18,14 +18,14 @@ enum element_kind {
     ELEMENT_KINDS
 };
 
-/* By kind: number of corners, dimension, and number of middle nodes. A second-order element has first the middle nodes
- * of its edges, ordered as in element_edges, then those of its sides, ordered as in element_sides; the last one of a
- * triangle or quadrilateral belongs to the element itself. */
+/* For each kind of element: number of corners, dimension (0 to 3), and number of middle nodes. A second-order element
+ * has first the middle nodes of its edges, ordered as in element_edges, then those of its sides, ordered as in
+ * element_sides; the last one of a triangle or quadrilateral belongs to the element itself. */
 extern const int element_corners[ELEMENT_KINDS], element_dim[ELEMENT_KINDS], element_middles[ELEMENT_KINDS];
 
 enum { ELEMENT_CORNERS_MAX = 8, ELEMENT_SIDES_MAX = 6, ELEMENT_EDGES_MAX = 12, ELEMENT_MIDDLES_MAX = 18 };
 
-/* An element and its nodes. */
+/* An element of a finite-element mesh, and its nodes. */
 struct element {
     enum element_kind kind;
     int32_t node[ELEMENT_CORNERS_MAX]; /* indices of its corners in the mesh's `node` */
@@ -113,7 +113,7 @@ struct label_map {
     struct label_entry *entry;
 };
 
-/* A label and its index. */
+/* A label (number of a node or element in a file) and its index. */
 struct label_entry {
     int64_t label, index;
 };
@@ -159,14 +159,14 @@ status geometry_from_elements(struct geometry *g, struct element_mesh *m, const 
 
 /* ---- faces of a surface (elements_curved.c) ---- */
 
-/* A side of an element: n = 1 to 4 corners, middle nodes of its edges (edge k starts at corner k) and its own middle
- * node. */
+/* A side of an element with n = 1 to 4 corners. middle[k]: middle node of its edge that starts at corner k; centre:
+ * middle node of the side itself. */
 struct patch {
     int n;
     int32_t corner[4], middle[4], centre; /* node indices; -1: none */
 };
 
-/* Collects the faces of a surface. */
+/* A surface under construction, to which faces are appended. */
 struct surface_builder {
     struct element_mesh *m;
     int dim, body_dim; /* dimension of space; dimension of the elements that make up the body */

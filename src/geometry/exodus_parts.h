@@ -4,13 +4,13 @@
 
 #include "geometry/exodus_file.h"
 
-/* A dimension of a classic file; length 0: that of records. */
+/* A dimension of a classic netCDF file. length: number of entries, 0 for the dimension of records. */
 struct exodus_dimension {
     char name[NAME_MAX_LENGTH];
     int64_t length;
 };
 
-/* Types of numbers as classic files number them. */
+/* Types of numbers, with the codes that classic netCDF files have for them. */
 enum exodus_type {
     EXODUS_BYTE = 1,
     EXODUS_CHAR,
@@ -26,7 +26,7 @@ enum exodus_type {
     EXODUS_TYPES
 };
 
-/* An array of one or two dimensions. */
+/* An array of a netCDF file, with one or two dimensions. */
 struct exodus_array {
     char name[NAME_MAX_LENGTH], elements[NAME_MAX_LENGTH]; /* its attribute elem_type; "": none */
     enum exodus_type type; /* of HDF5 files: EXODUS_CHAR, EXODUS_INT64 or EXODUS_DOUBLE */
@@ -34,7 +34,7 @@ struct exodus_array {
     int64_t at;            /* position in a classic file [byte] */
 };
 
-/* Removes blanks at the end of a text of the file and replaces control characters. */
+/* Removes the blanks at the end of `text`, a text read from the file, and replaces its control characters by `?`. */
 static inline void exodus_text_clean(char *text)
 {
     for (size_t end = strlen(text); end > 0 && text[end - 1] == ' '; end--) text[end - 1] = '\0';
@@ -49,21 +49,22 @@ status exodus_classic_open(struct exodus_file *f);
 void exodus_classic_read(const struct exodus_file *f, const struct exodus_array *a, int64_t n, real *real_value,
                          int64_t *whole_value);
 
-/* Opens a netCDF-4 file by its path. Returns REFUSED, with a message, if HDF5 cannot read it. */
+/* Opens the netCDF-4 file f->path with HDF5 and stores its handle in f. Returns REFUSED, with a message, if HDF5 cannot
+ * read it. */
 status exodus_hdf5_open(struct exodus_file *f);
 
-/* Closes a netCDF-4 file. */
+/* Closes the netCDF-4 file of f, opened by exodus_hdf5_open. */
 void exodus_hdf5_close(struct exodus_file *f);
 
-/* Returns the length of a dimension of a netCDF-4 file, or 0 if there is none of this name. */
+/* Returns the length of the dimension called `name` of a netCDF-4 file, or 0 if there is none of this name. */
 int64_t exodus_hdf5_dimension(const struct exodus_file *f, const char *name);
 
-/* Finds an array of a netCDF-4 file. Returns false if there is none of this name, if it has other than one or two
- * dimensions, or if its numbers are not in the file. */
+/* Finds the array called `name` of a netCDF-4 file, and stores its properties in *a. Returns false if there is none of
+ * this name, if it has other than one or two dimensions, or if its numbers are not in the file. */
 bool exodus_hdf5_find(const struct exodus_file *f, const char *name, struct exodus_array *a);
 
-/* Reads all numbers of the array `a` of a netCDF-4 file into real_value, or whole_value, or letters: that which is not
- * NULL. Returns false if HDF5 cannot read them. */
+/* Reads all numbers of the array `a` of a netCDF-4 file into real_value, whole_value or letters, of which the caller
+ * passes one and NULL for the others. Returns false if HDF5 cannot read them. */
 bool exodus_hdf5_read(const struct exodus_file *f, const struct exodus_array *a, real *real_value, int64_t *whole_value,
                       char *letters);
 

@@ -5,7 +5,7 @@
 #include "data/voxels.h"
 #include "source.h"
 
-/* Pages of equal size. */
+/* Pages of an image or image stack as grey values, all of equal size. */
 struct pages {
     int64_t width, height, n; /* pixels per row; rows; number of pages */
     uint16_t *grey;           /* [n][height][width], top row first */
@@ -16,7 +16,8 @@ struct pages {
  * file of this length (compressed at most 1100-fold) or for the memory. */
 status pages_add(struct pages *p, const struct source *file, int64_t width, int64_t height, uint16_t **page);
 
-/* Returns the grey value of a colour by the weights of Rec. 709, in the range of the arguments. */
+/* Returns the grey value of a colour by the weights of ITU-R Rec. 709, on the scale of its components `red`, `green`,
+ * `blue`. */
 int luminance(int red, int green, int blue);
 
 /* Appends the image in the PNG file to p. Returns REFUSED, with a message, if the file is malformed or of an

@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* Content of a file and the reading position. */
+/* Content of a file in memory, and the reading position in it. */
 struct source {
     const char *path;
     char *text; /* content, followed by a zero byte */
