@@ -11,7 +11,7 @@ struct surface_face {
     int8_t side;
 };
 
-/* List of free faces. */
+/* List of free faces of particles. */
 struct surface_faces {
     int64_t n;
     struct surface_face *face;
@@ -29,7 +29,7 @@ status load_surface_make(struct load *l, const struct surface_faces *faces, cons
  * particle positions. area: [dim][number of particles of the load] [m^2]. */
 void surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area);
 
-/* Releases all arrays of the surface and the surface itself. */
+/* Releases all arrays of the surface s and s itself. */
 void surface_free(struct surface *s);
 
 #endif
