@@ -5,8 +5,9 @@
 #include "base/memory.h"
 #include "mesh/mesh_make.h"
 
-/* Kinds of cells: without points; whole (all points, one material); partial (missing points, partial stresses, several
- * materials or doubled nodes); replaced by a coarse cell. */
+/* Kinds of cells of a mesh. CELL_EMPTY: without material points; CELL_WHOLE: with all points, of one material;
+ * CELL_PARTIAL: with missing points, partial stresses, several materials or doubled nodes; CELL_COARSE: replaced by a
+ * coarse cell. */
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
 /* Partial cells and their stiffness, moved out of a mesh by mesh_partial_detach_all before its cells are classified
@@ -95,8 +96,8 @@ void mesh_node_spans_make(struct mesh *mesh);
 /* Makes the blocks of nodes next to cells active, i.e. included in computations, and all others inactive. */
 void mesh_activate_blocks_at_cells(struct mesh *mesh);
 
-/* Returns true if the deformation has turned a cell of the mesh inside out: the determinant of the deformation
- * gradient is 0 or negative at one of its quarter points. */
+/* Returns true if the deformation has turned a cell of the mesh inside out: the determinant of the deformation gradient
+ * is 0 or negative at one of its 2^dim points at a quarter or three quarters of each edge. */
 bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
 
 /* Allocates all arrays of a mesh that covers the box between the corners `lower` and `upper` [m], without points or
