@@ -5,14 +5,15 @@
 #include "output/output.h"
 #include "output/output_hdf5.h"
 
-/* Source of the values of a frame. */
+/* Sources of the values of a frame: the particles, and quantities that particles do not store. */
 struct frame_source {
     const struct particles *p;
     struct frame_extra extra;
 };
 
-/* Components of a row that are stored: all of them, the first dim ones of a vector, those of a symmetric tensor in
- * VTK's order that the space has (xx; xx yy zz xy; all). The others are 0, the fill value of the dataset. */
+/* Which components of a row are stored. ROW_WHOLE: all; ROW_VECTOR: the first dim ones; ROW_TENSOR: those of a
+ * symmetric tensor in VTK's order that exist in the space, xx in 1D, xx yy zz xy in 2D, all in 3D. The others are 0,
+ * the fill value of the dataset. */
 enum row_kind { ROW_WHOLE, ROW_VECTOR, ROW_TENSOR };
 
 /* Describes a dataset with one row per particle (or material point of a coarse cell). */
@@ -27,7 +28,8 @@ struct frame_field {
     void (*copy)(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows);
 };
 
-/* Index of the positions and of the contact forces in the table; size of the table. */
+/* Indices in the table frame_fields: of the positions (FIELD_POINTS) and of the contact forces (FIELD_CONTACT);
+ * FRAME_FIELDS: number of its entries. */
 enum { FIELD_POINTS, FIELD_CONTACT = 6, FRAME_FIELDS = 26 };
 
 /* Table of all fields, in the order of their bits. */

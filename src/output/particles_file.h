@@ -10,7 +10,7 @@
 #include "output_fields.h"
 #include "output/output_files.h"
 
-/* Contents of a particles file, copied from the particles. */
+/* Contents of a particles file, the fields that do not change between frames, copied from the particles. */
 struct particles_file {
     struct path path;
     int64_t n; /* number of rows */
