@@ -4,7 +4,7 @@
 
 #include "plot/plot.h"
 
-/* Arrangement of the panels of a picture. */
+/* Size of a picture with panels in rows and columns, and where the panels are in it. */
 struct layout {
     int columns, rows;
     int panel_width, panel_height; /* [pixel] */

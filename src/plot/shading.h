@@ -2,8 +2,8 @@
 #ifndef CLEAVE_PLOT_SHADING
 #define CLEAVE_PLOT_SHADING
 
-/* Brightness of faces with normal x, y, z. In a view along an axis the only visible face has full brightness, as the
- * colour bar. */
+/* Factor on the colour of faces with normal along x, y, z in outside views [1]. In a view along an axis the only
+ * visible face has full brightness instead, as the colour bar. */
 static const double FACE_BRIGHTNESS[3] = {0.74, 0.87, 1};
 
 #endif
