@@ -58,8 +58,8 @@ struct probe {
 
 /* ---- readings of a single particle: POINT and LINE --------------------------------------------------------------- */
 
-/* Readings of a particle: displacement, velocity, stress (in plane strain also zz), damage; where materials
- * yield also plastic strain, and temperature if they heat. */
+/* Largest number of values that a POINT or LINE probe reports of a particle: components of displacement, velocity and
+ * stress (in plane strain also zz), damage, plastic strain and temperature. */
 enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 3 };
 
 /* Returns the number of values that a POINT or LINE probe reports of a particle: components of displacement, velocity
@@ -170,7 +170,8 @@ void spall_probe_sample(struct probe *q, const struct observed_run *o);
  * *speed_rest [m/s]. */
 void spall_probe_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
 
-/* Tip position and length of a growing crack, its speed, and the equivalent factor K_eq that controls it. */
+/* Number of quantities that a GROWTH probe reports of a growing crack: tip position, length, speed, equivalent
+ * stress-intensity factor K_eq. */
 enum { GROWTH_FIGURES = 5 };
 extern const struct column growth_figure[GROWTH_FIGURES];
 
@@ -242,7 +243,7 @@ void bar_measure_fields(struct bar *b, const struct observed_run *o);
  * particles are included. Material points have their Cauchy stress instead. */
 void bar_compute_bond_flux_stress(const struct bar *b, const struct observed_run *o, real *flux);
 
-/* Figures of a bar in a fixed order; they are columns of the history, too. */
+/* Largest number of quantities that an EXACT probe reports of a bar; they are also columns of history.csv. */
 enum { BAR_FIGURES_MAX = 16 };
 
 /* Returns the number of quantities that an EXACT probe reports for the closed-form solution `form`. */
@@ -256,7 +257,7 @@ struct column bar_result_column(enum exact_form form, int number);
  * the reported quantities in value[bar_result_count], in the order of bar_result_column. */
 void bar_compute_results(struct bar *b, const struct observed_run *o, real *value);
 
-/* Columns of a bar's profile. */
+/* Number of columns of the profile of a bar, with their names and units in bar_reading. */
 enum { BAR_READINGS = 12 };
 extern const struct column bar_reading[BAR_READINGS];
 
