@@ -43,7 +43,7 @@ void statics_contact_choose_laws(void *engine, bool settled);
  * forces. */
 real statics_contact_end(struct run *e, real work, real lost);
 
-/* Updates the largest contact forces of the n rigid bodies for the present equilibrium. */
+/* Updates the largest contact force so far of each of the n rigid bodies by that of the present equilibrium. */
 void rigid_forces_note(struct rigid_set *rigid, int n);
 
 /* Warns of those of the n rigid bodies that are driven and whose largest contact force is at most `least` [N]: they

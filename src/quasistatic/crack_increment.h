@@ -6,11 +6,12 @@
 #include "run/run.h"
 
 /* Returns the share of the crack area whose energy belongs to the body [1]: 1/2 if all cracks t lie on planes of
- * symmetry, else 1. d: only planes perpendicular to axis d are considered; -1: all planes. */
+ * symmetry, else 1. source: planes of symmetry; d: only planes perpendicular to axis d are considered, -1: all
+ * planes. */
 real crack_symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d);
 
-/* Returns the area by which the cracks grow one spacing along their whole fronts [m^2], halved on planes of symmetry.
- * Without a pre-crack the front in space is the shortest side of the body. */
+/* Returns the crack area that is created if all cracks grow by one spacing along their whole fronts [m^2], halved on
+ * planes of symmetry. Without a pre-crack the front in space is the shortest side of the body. */
 real crack_area_of_spacing(const struct run *e);
 
 /* Determines the next crack increment from trial equilibria, unless it is already known. Stores its bonds in

@@ -7,8 +7,8 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the pseudo-time at which the load size (statics_load_size) equals `size` [s], found by the secant method
- * from the present pseudo-time. The load size is in [m] or [N]. */
+/* Returns the pseudo-time [s] at which the load size, a measure proportional to the loads (statics_load_size), equals
+ * `size` [m or N]. It is found by the secant method from the present pseudo-time. */
 real statics_time_of_load_size(const struct run *e, real size);
 
 /* Returns the load size at which the crack increments a and b together release as much energy as they cost,
@@ -19,9 +19,9 @@ real increments_energy_balance_load(const struct crack_increment *a, const struc
  * has no cost or releases no energy. */
 real increment_energy_balance_load(const struct crack_increment *a);
 
-/* Returns a fictitious increment that precedes the first one, as if the pre-crack had grown to its present length by
- * it. Its cost equals that of *first; its release is extrapolated linearly from the first two increments and is at
- * least 0. */
+/* Returns a fictitious crack increment before the first one, by which the pre-crack would have grown to its initial
+ * length. Its cost equals that of *first. Its release is extrapolated linearly from the first two increments, *first
+ * and *second, and is at least 0. */
 struct crack_increment increment_extrapolate_previous(const struct crack_increment *first,
                                                       const struct crack_increment *second);
 

@@ -5,8 +5,9 @@
 
 #include "bonds/bonds.h"
 
-/* A directed bond that softens, or may do so. energy: 1/2 c V V w r, the energy of its row at stretch 1 over stretch
- * squared [J]. */
+/* A directed bond that softens, or may begin to. settled: largest stretch k of the last equilibrium, at least the
+ * onset; onset, end: stretches at which it begins to soften and breaks [1]; energy: 1/2 c V V w r, the share of its row
+ * in its energy at stretch 1 [J]. */
 struct softening_bond {
     int64_t entry;                    /* in the bond storage */
     real stretch;                     /* of the body at a factor of 1 [1] */
@@ -19,28 +20,31 @@ struct softening_list {
     const struct softening_curve *curve;
 };
 
-/* Lists the intact bonds that soften, in the order of rows. factor: by which the present displacements are scaled [1];
- * stretches are divided by it. Replaces the former contents of *l; free l->bond with memory_free. */
+/* Lists in l the intact bonds that soften, in the order of rows. factor: factor by which the present displacements are
+ * scaled [1]; the stored stretches are those at a factor of 1. Replaces the former contents of *l; free l->bond with
+ * memory_free. */
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p, real factor);
 
-/* Returns the energy that the bonds would dissipate since the last equilibrium, if the displacements grew by `factor`
- * [J]. */
+/* Returns the energy that the bonds of the list would have dissipated since the last equilibrium if their stretches
+ * were `factor` times those stored in the list [J]. */
 real softening_list_spent(const struct softening_list *l, real factor);
 
-/* Returns the smallest factor, between 0 and `high`, at which softening_list_spent is `wanted` [J]; at `high` it must
- * be at least that. */
+/* Returns the smallest factor on the stretches of the list, between 0 and `high`, at which the bonds have dissipated
+ * the energy `wanted` since the last equilibrium [J] (softening_list_spent). At the factor `high` they must have
+ * dissipated at least `wanted`. */
 real softening_list_factor(const struct softening_list *l, real wanted, real high);
 
 /* Sets the largest stretch k of each bond of the list to the larger one of that of the last equilibrium and `factor`
  * times its stretch. */
 void softening_list_store(const struct softening_list *l, struct bonds *b, real factor);
 
-/* Makes the present largest stretches those of an equilibrium, from which later ones start. Bonds that have not passed
- * their onset begin anew, so that the stress across them is examined again. limit: of the bonds. Allocates the storage
- * of load steps in b->soft on its first call: from then on forces are those of the stored stretches. */
+/* Stores the present largest stretches of bonds as those of the last equilibrium, from which later solutions start.
+ * Bonds that have not exceeded their onset count as not begun again, so that the stress across them is examined again.
+ * limit: of the bonds. Allocates the storage of load steps in b->soft on its first call: from then on forces are those
+ * of the stored stretches. */
 void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
-/* Sets the largest stretches to those of the last equilibrium. */
+/* Resets the largest stretches of all softening bonds to those of the last equilibrium (softening_settle). */
 void softening_undo(struct bonds *b);
 
 #endif
