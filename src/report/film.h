@@ -8,7 +8,7 @@
 
 enum { FILM_FIELDS_MOST = 24, FILM_LEVELS = 3 };
 
-/* A field of the frames, stored with 8 bits per particle (fragments: 16). */
+/* A field of the frames as the page stores it, with 8 bits per particle (fragments: 16). */
 struct film_field {
     const struct plot_field *of;
     bool extra;         /* left out first where the budget is short */
@@ -35,7 +35,7 @@ struct film_set {
     bool *hidden;             /* [groups] */
 };
 
-/* A frame of the film. */
+/* A frame of a run that a page shows. */
 struct film_frame {
     struct listed_frame listed;
     int64_t step;
@@ -43,7 +43,7 @@ struct film_frame {
     bool used;
 };
 
-/* Frames, particle sets and fields of a page. */
+/* The frames of a run as a page shows them: selected frames, particle sets that frames share, and fields. */
 struct film {
     const char *folder;
     const struct scene *scene; /* of the run, for its rigid bodies; NULL: not known */
@@ -68,10 +68,12 @@ struct film {
  * film_free; `scene` must exist until then. */
 status film_read(struct film *f, const char *folder, const struct scene *scene);
 
-/* Selects frames, fields and groups so that the film takes at most `budget` bytes. */
+/* Selects the frames, fields and groups of particles that are shown, so that the film needs at most `budget` bytes on
+ * the page. */
 void film_fit_to_budget(struct film *f, int64_t budget);
 
-/* Writes the film to the page as the entry `film`. Returns FAILED if a frame cannot be read again. */
+/* Writes the selected frames and fields of f to the page p as the entry `film` of its JSON. Returns FAILED if a frame
+ * cannot be read again. */
 status film_write(struct page *p, const struct film *f);
 
 /* Releases the memory of *f. */
@@ -81,7 +83,8 @@ void film_free(struct film *f);
  * are not busy, and have the same kind and fragment in every frame, become one group. */
 void film_set_form_groups(struct film_set *s, const struct film *f);
 
-/* Returns the size of group `group` [m]. */
+/* Returns the edge of group number `group` of s, the spacing of a particle or the edge of a merged cell of particles
+ * [m]. */
 double film_group_size(const struct film_set *s, const struct film *f, int64_t group);
 
 /* Fills the table of fields that a run of this dimension may have (film_fields.c). */
@@ -90,13 +93,15 @@ void film_fields_list(struct film *f);
 /* Updates ranges and samples of all fields from the frame `frame`, read from the file `path`. */
 void film_fields_scan(struct film *f, const struct output_frame *frame, const char *path);
 
-/* Chooses the ranges that are stored, and drops fields that are the same everywhere. */
+/* Chooses for each field the range of values that its 8 or 16 bits represent, and drops fields with the same value in
+ * all frames at all particles. */
 void film_fields_choose_ranges(struct film *f);
 
 /* Returns the number of bytes of all stored fields that change, for one group in one frame. */
 int film_fields_bytes(const struct film *f);
 
-/* Returns true if a field is written to the page. */
+/* Returns true if the field is written to the page: it differs between particles or frames, and is not left out because
+ * of the budget. */
 bool film_field_is_shown(const struct film *f, const struct film_field *field);
 
 /* Writes the values of one field, means over the groups of s, as an array. frame: read from the file `path`. */

@@ -7,10 +7,11 @@
 
 #include "output/json.h"
 
-/* Types of the elements of arrays, little-endian. */
+/* Types of the elements of arrays in a page, all little-endian; PAGE_PNG: bytes of a PNG file. */
 enum page_type { PAGE_U8, PAGE_U16, PAGE_I16, PAGE_F32, PAGE_PNG, PAGE_TYPES };
 
-/* The parts of a page, collected in memory. */
+/* A page of HTML while it is composed in memory: a JSON text that describes it, and arrays of numbers to which the JSON
+ * refers. */
 struct page {
     struct json json; /* describes the page; its file is a stream in memory */
     char *text;       /* of the JSON */
@@ -21,9 +22,8 @@ struct page {
     int count; /* number of arrays */
 };
 
-/* Begins an empty page, with an open JSON object. Returns FAILED if there is no memory for it. Release with
- * page_release.
- */
+/* Initialises an empty page in memory, with an open JSON object to which entries are added. Returns FAILED if there is
+ * no memory for it. Release with page_release. */
 status page_make(struct page *p);
 
 /* Adds an array of `n` elements of the given type from `values` on to the page, and a reference {array, type, length}
