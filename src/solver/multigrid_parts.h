@@ -6,7 +6,8 @@
 
 enum { LEVELS_MOST = 12, WIDTH_MOST = 6 };
 
-/* A sparse matrix between the nodes of a level and those of the next coarser level. */
+/* A sparse matrix of blocks between the nodes of a level and those of the next coarser level: the prolongation or its
+ * transpose, the restriction. */
 struct transfer {
     int64_t *first;  /* [rows + 1] */
     int32_t *column; /* [first[rows]] ascending in a row */
@@ -35,7 +36,8 @@ struct multigrid_level {
     real *b, *x, *y, *d, *t;  /* [n][width] load, solution, buffer of the solution, correction, residual */
 };
 
-/* The coarsest level: U'DU factorisation of its matrix; n is 0 if there is none. */
+/* The matrix of the coarsest level, factorised as U'DU with the unit upper triangle U and the diagonal D; n is 0 if the
+ * level has no matrix. */
 struct dense {
     int64_t n;     /* number of unknowns */
     real *upper;   /* [n][n] unit upper triangle, row major [1] */
@@ -70,16 +72,19 @@ static ALWAYS_INLINE void multigrid_matrix_entry(const struct multigrid_level *l
                                : l->block[q * w * w + k];
 }
 
-/* Number of rows above which a parallel loop is faster than a serial one. */
+/* Number of rows above which a loop on all threads is faster than one in a single thread. */
 enum { ROWS_MANY = 200 };
 
-/* Loops over N rows. The loop is expanded in the caller, so that widths are literals in CALL. */
+/* Executes CALL for the rows i = 0 .. N - 1, on all threads if there are many. The loop is expanded in the caller, so
+ * that the compiler knows constant arguments of CALL. */
 #define ROWS(N, CALL)                                                                                                  \
     do {                                                                                                               \
         TEAM_LOOP((N) > ROWS_MANY, for (int64_t i = 0; i < (N); i++) CALL;);                                           \
     } while (0)
 
-/* Loops over N rows of NAME with the widths of `l` and of the next level as last two arguments, as literals. */
+/* Calls NAME(..., w, m) in a loop over N rows with l->width = w and l->modes = m, the numbers of components of a node
+ * of level l and of the next coarser level. Both are passed as constants (1 1, 2 3, 3 6, 3 3 or 6 6), for which the
+ * compiler unrolls loops. */
 #define BY_WIDTHS(N, NAME, ...)                                                                                        \
     do {                                                                                                               \
         const int kind_ = 10 * l->width + l->modes;                                                                    \

@@ -4,8 +4,8 @@
 
 #include "solver/solver.h"
 
-/* Computes the bond forces at the present positions of the particles, mirror images updated first, into part.f [N]. No
- * bond breaks. */
+/* Computes the bond forces at the present positions of the particles into body->part->f [N], after an update of the
+ * mirror images. No bond breaks. */
 void static_body_compute_bond_forces(const struct static_body *body);
 
 /* Computes out = K in, the product of the tangent stiffness K of the bonds at the reference positions with a
