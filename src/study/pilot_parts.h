@@ -15,7 +15,7 @@ enum {
 }; /* runs at each spacing and spacings of the first study of a
     * method */
 
-/* A method applicable to the scene, and the results of its runs. */
+/* A method (with a model) by which the scene can be computed, and the results of its pilot runs. */
 struct pilot_candidate {
     const char *name, *method, *model; /* name of its folder; values of the keys `method` and `model`, model NULL if
                                         * there is none */
@@ -29,7 +29,7 @@ struct pilot_candidate {
     bool unknown;                      /* the runs have no figure of the requested name */
 };
 
-/* State of the choice of a method. */
+/* State of the choice of method and spacing by pilot runs. */
 struct pilot_search {
     const char *scene;
     const struct scene_override *override; /* [overrides] of the user; borrowed */

@@ -4,7 +4,7 @@
 
 #include "study/study.h"
 
-/* Begin of the second line of STUDY_SCENE, which has the options of the study. */
+/* Beginning of the second line of the file STUDY_SCENE; the options of the study follow in this line. */
 #define STUDY_OPTIONS_MARK "# options: "
 
 /* ---- names (study_names.c) --------------------------------------------------------------------------------------- */
@@ -37,11 +37,11 @@ void study_name_compose(char *name, const struct varied_key *key, int keys, cons
 
 /* ---- labels of pictures (study_labels.c) ------------------------------------------------------------------------- */
 
-/* Capacity of a label [byte]. */
+/* Capacity of the label of a value in a picture [byte]. */
 enum { LABEL_ROOM = 40 };
 
-/* Writes the label of the value with index `value` of a key to text[LABEL_ROOM]. If the values are long, the beginning
- * and end that all of them share are left out. */
+/* Writes the label that a picture has for value number `value` of a varied key to text[LABEL_ROOM]. If the values are
+ * long, the beginning and end that all of them share are left out. */
 void study_value_label(char *text, const struct varied_key *key, int value);
 
 /* Returns the number of characters of the longest label of the values of a key. */
@@ -57,7 +57,8 @@ void study_picture_name(char *name, const char *key);
  * into at most `max_intervals` intervals. */
 double axis_tick_distance(double range, int max_intervals);
 
-/* Returns true if all values of the key are numbers with the same unit, and stores a pointer to the unit in *unit. */
+/* Returns true if all values of the varied key are numbers with the same unit, and then stores a pointer to the text of
+ * the unit in *unit. */
 bool varied_key_is_number(const struct varied_key *key, const char **unit);
 
 #endif
