@@ -17,10 +17,11 @@ struct csv_file {
     char text[CSV_LINE_LENGTH];
 };
 
-/* Opens a CSV file; csv_close closes it. REFUSED if it cannot be read. */
+/* Opens the CSV file `path` for reading. contents: what a line of it contains, in words for messages; kept by reference
+ * as `path`. Returns REFUSED, with a message, if the file cannot be read. Close with csv_close. */
 status csv_open(struct csv_file *c, const char *path, const char *contents);
 
-/* Closes the file. */
+/* Closes the CSV file c. */
 void csv_close(struct csv_file *c);
 
 /* Reads the next line that is not blank into c->text. Sets *more to false at the end of the file, and *comment to true
@@ -33,14 +34,16 @@ status csv_read_data_line(struct csv_file *c, bool *more);
 /* Sets the separator of the file from the current line: a semicolon or a tab if the line contains one, else a comma. */
 void csv_detect_separator(struct csv_file *c);
 
-/* Cuts the next field off *rest and returns it without surrounding blanks and double quotes; quoted text may contain
- * separators. Returns NULL at the end of the line. */
+/* Cuts the next field off the line *rest and returns it, a part of the same memory, without surrounding blanks and
+ * double quotes; quoted text may contain separators. *rest receives the rest of the line, NULL after the last field.
+ * Returns NULL if *rest is NULL. */
 char *csv_cut_field(const struct csv_file *c, char **rest);
 
 /* Cuts the unit off the name of a column, as in `time [us]` or `time (us)`, and returns it; "" if there is none. */
 char *csv_cut_unit(char *name);
 
-/* Returns REFUSED with a message that begins with `file:line:column: ` of a field of the current line. */
+/* Returns REFUSED with the message `file:line:column: TEXT`. field: a field of the current line of c, whose location
+ * the message gives; format: TEXT as in printf. */
 status csv_report_fault(const struct csv_file *c, const char *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -18,13 +18,15 @@ struct particle_draft {
     int32_t *id;
 };
 
-/* Appends a particle at X [dim, m] with a volume [m^3]. REFUSED beyond PARTICLES_MAX particles. */
+/* Appends a particle at the position X (dim components [m]) to d. volume: of the particle [m^3]; material, body: their
+ * indices. Returns REFUSED, with a message, if there would be more than PARTICLES_MAX particles. */
 status particle_draft_add(struct particle_draft *d, const real *X, real volume, int material, int body);
 
-/* Returns REFUSED with a message that names the body and ends with `why`. */
+/* Returns REFUSED with a message that names body number `body` and ends with the text `why`. */
 status particle_draft_refuse_body(const struct particle_draft *d, int body, const char *why);
 
-/* Appends the particles of a body from its list. REFUSED if the list cannot be read or is invalid. */
+/* Appends the particles of body number `body` from its particle list to d. Returns REFUSED, with a message, if the list
+ * cannot be read or is invalid. */
 status particle_draft_add_list(struct particle_draft *d, int body);
 
 #endif

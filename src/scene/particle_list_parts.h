@@ -23,20 +23,22 @@ enum list_column {
     COLUMNS,
     COLUMN_NONE
 };
-/* Name and kind of unit of a column. */
+/* Name and kind of unit of a column of a particle list. */
 struct list_quantity {
     const char *name;
     enum unit unit;
 };
 extern const struct list_quantity list_quantity[COLUMNS];
 
-/* Returns the member of l that holds the array of a column. */
+/* Returns a pointer to the member of l, such as &l->volume, that stores the values of column `column` (enum
+ * list_column). */
 real **particle_list_column_array(struct particle_list *l, int column);
 
 /* Returns true for a component of position or velocity along an axis that a space of `dim` dimensions does not have. */
 bool particle_list_column_is_unused(int column, int dim);
 
-/* Returns the fault of a value in a column, as the end of a sentence, or NULL if the value is valid. */
+/* Returns why `value` [SI] is invalid in column `column`, as the end of a sentence (a static text), or NULL if it is
+ * valid. */
 const char *particle_list_value_fault(int column, real value);
 
 /* Computes the factor that converts a number in `unit` to SI units; 1 if `unit` is empty. expected: kind of unit. If
@@ -54,7 +56,8 @@ void particle_list_note_append(struct particle_list_head *head, const char *betw
  * columns to its note. has[COLUMNS]: true for each column that the file has. */
 void particle_list_note_columns(struct particle_list_head *head, const bool *has);
 
-/* REFUSED if n particles of a run need more memory than the machine has. */
+/* Returns REFUSED, with a message that names the file `path`, if a run with n particles needs more memory than the
+ * machine has. */
 status particle_list_check_memory(const char *path, int64_t n);
 
 /* Reads a particle list from an Exodus II file as particle_list_read does. */

@@ -6,8 +6,8 @@
 
 enum { EXPRESSION_TEXT = 4000 }; /* longest text, variables written out as numbers */
 
-/* An operand on the stack during compilation: its unit, and, if it is constant, its value, which the last step of the
- * program then pushes. */
+/* An operand on the stack during compilation: its unit and, if `constant`, its value. A constant operand is pushed by a
+ * single step. */
 struct operand {
     struct quantity q;
     bool constant;
@@ -34,7 +34,7 @@ bool compile_report_fault(struct compile *c, const char *format, ...) __attribut
 /* Returns the number of the character at `place` in c->text, from 1. */
 int compile_character_number(const struct compile *c, const char *place);
 
-/* Text of a unit, returned by value. */
+/* Text of a unit for a message, returned by value. */
 struct named {
     char text[64];
 };
@@ -45,11 +45,12 @@ struct named quantity_unit_name(const struct quantity *q);
 /* Returns true if q has no dimension. */
 bool quantity_is_dimensionless(const struct quantity *q);
 
-/* Returns the operand `below` entries under the top of the stack. */
+/* Returns the operand that is `below` entries below the top of the stack of c; 0 for the topmost one. */
 struct operand *compile_operand_from_top(struct compile *c, int below);
 
-/* Adds a step that pushes a value: a number, a variable, or a coordinate or the time. The functions add_* return false
- * on failure, with the fault in c->what. */
+/* Adds a step that pushes a value on the stack: a number or variable (op EXPRESSION_NUMBER), a coordinate or the time.
+ * quantity: unit and, for a number, value. Returns false if the expression is too long or the stack too deep, with the
+ * fault in c->what, as do the functions below. */
 bool compile_add_operand(struct compile *c, enum expression_op op, const struct quantity *quantity);
 
 /* Adds a step that applies op to the topmost one or two operands. unit: unit of the result. */
@@ -62,10 +63,12 @@ bool compile_add_negation(struct compile *c);
  * operator in the text, for messages. */
 bool compile_add_sum(struct compile *c, char sign, const char *at);
 
-/* Adds a step that multiplies (sign '*') or divides the two topmost operands, and their units. */
+/* Adds a step that multiplies (sign '*') or divides (sign '/') the two topmost operands and their units. at: position
+ * of the operator in the text, for messages. */
 bool compile_add_product(struct compile *c, char sign, const char *at);
 
-/* Adds a step that raises an operand to the power of the topmost one, which must have no unit. */
+/* Adds a step that raises the second topmost operand to the power of the topmost one, which must have no unit. at:
+ * position of the operator in the text, for messages. */
 bool compile_add_power(struct compile *c, const char *at);
 
 /* Checks that the two topmost operands have one unit; a constant 0 without unit first receives the unit of the other

@@ -30,16 +30,17 @@ void write_quoted(struct writer *w, const char *text);
 /* Writes n numbers as a list in brackets. */
 void write_list(struct writer *w, const real *value, int n);
 
-/* Writes the value of key k, stored at `place`, in the form of its type. */
+/* Writes the value of key k in the form of its type. place: address of the value. */
 void write_value(struct writer *w, const struct key *k, const void *place);
 
 /* Returns the address of the value of key k in `base`, the struct of its group. */
 const void *key_value_address(const struct key *k, const void *base);
 
-/* Writes all keys of a group with their values in the struct `base`, one per line. */
+/* Writes all keys of the group `group`, the path of a key with subkeys, one per line; base: struct with their
+ * values. */
 void write_group(struct writer *w, const char *group, const void *base);
 
-/* Writes `key:` and below it all keys of a group as a mapping. */
+/* Writes `key:` and below it, as a mapping, all keys of the group `group`; base: struct with their values. */
 void write_mapping(struct writer *w, const char *key, const char *group, const void *base);
 
 /* Writes a key with the absolute path of a file, so that the scene runs from any folder, and the checksum of its

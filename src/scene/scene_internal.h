@@ -63,7 +63,7 @@ struct reader {
     real *spacing_most; /* of note_largest_spacing; NULL: strengths that do not suit the spacing are refused */
 };
 
-/* Returns zeroed memory that arena_free releases. */
+/* Returns `size` zeroed bytes of the memory of the reader; arena_free releases them. */
 void *arena_new(struct reader *r, size_t size);
 
 /* Returns a copy of `length` bytes of a text, with a final 0, in the arena. */
@@ -115,7 +115,7 @@ int folder_length(const char *path);
 /* Reads a whole file to *bytes [*length]; the caller releases it with memory_free. */
 status file_read_bytes(const char *path, char **bytes, size_t *length);
 
-/* Applies one more override, as from the command line. An empty value removes the key; REFUSED if it is not there. */
+/* Sets `key` in the tree to `value`, as an override; an empty value removes the key. REFUSED if it is absent then. */
 status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value);
 
 /* Returns the node at a path of keys without lists; NULL if the scene does not give it. */
@@ -139,7 +139,7 @@ status pilot_wish_read(struct reader *r, const struct yaml_node *root, const cha
 /* Writes the shortest text that reads back to identical bits, and returns it. */
 const char *number_write_shortest(char text[32], real value);
 
-/* A number with its unit. */
+/* A number with its unit, which is given by exponents of m, kg and s. */
 struct quantity {
     real value;   /* [SI] */
     int twice[3]; /* twice the exponents of m, kg, s */
@@ -153,8 +153,8 @@ bool quantity_parse(struct quantity *q, const char *text);
  * 0 on failure, with the fault in *fault_text. */
 size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **fault_text);
 
-/* Sets q to 1 of the unit whose symbol is at the beginning of a text. Returns the length of the symbol; 0 if there is
- * none. */
+/* Sets *q to one of the unit whose symbol is at the beginning of `text`. Returns the length of the symbol; 0 if there
+ * is none. */
 size_t quantity_read_unit(struct quantity *q, const char *text);
 
 /* Returns the unit `text` of a temperature or specific heat without its kelvin, such as kJ/kg of kJ/(kg K) or kJ/kg/K,
@@ -271,7 +271,7 @@ struct key {
 extern const struct key keys[];
 extern const int keys_count;
 
-/* Returns the last part of the path of a key. */
+/* Returns the last part of the path of key k, behind the last dot. */
 const char *key_leaf(const struct key *k);
 
 /* Writes the meaning, type, range and default of a key to text[capacity] (scene_help.c). */
@@ -338,19 +338,19 @@ status fault_missing_key(struct reader *r, const struct yaml_node *map, const st
  * that was set last: by an override, else in the scene file. */
 status fault_exclusive_keys(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b);
 
-/* Returns the value of a node as one short, printable line for messages, in the arena or static. */
+/* Returns the value of node n as one short, printable line for messages; memory of the reader or static. */
 const char *node_text(struct reader *r, const struct yaml_node *n);
 
-/* Returns a text as one short, printable line for messages, in the arena. */
+/* Returns `text` as one short, printable line for messages, in memory that arena_free releases. */
 const char *text_for_message(struct reader *r, const char *text);
 
 /* Returns the words a|b|c of a choice as `a, b or c`, in the arena. */
 const char *words_for_message(struct reader *r, const char *words);
 
-/* REFUSED for keys of `map` that are unknown in `group` or given twice. */
+/* Returns REFUSED, with a message, for keys of `map` that are unknown in `group` or given twice; else OK. */
 status check_keys_known(struct reader *r, const struct yaml_node *map, const char *group);
 
-/* REFUSED if n is not of this kind; `what` completes the sentence "... is not ". */
+/* Returns REFUSED if n is not of kind `kind`, with a message "... is not " completed by `what`; else OK. */
 status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what);
 
 /* Reads all keys of a group that the table alone can read into the struct `base`. `map` NULL: defaults only; missing
@@ -370,7 +370,7 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
 /* Returns the space of the points that are being read, in words for messages. */
 const char *space_for_message(const struct reader *r);
 
-/* REFUSED if n is not a list with as many items as the range of k allows. */
+/* Returns REFUSED if n is no list or has not as many items as the range of key k allows. */
 status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Reads a file name: searches the folder of the scene, then the current folder, and computes the checksum of the
@@ -445,13 +445,13 @@ void resolve_safety_factor(struct reader *r, const struct yaml_node *root);
 /* Sets the default of contact.between. REFUSED for contact with a static solver, and for friction without contact. */
 status resolve_contact(struct reader *r, const struct yaml_node *root);
 
-/* REFUSED if the bodies hold more particles than 32-bit indices can count. Call it after the bodies are read. */
+/* Returns REFUSED if bodies have more particles than 32-bit indices can count. Call it after bodies are read. */
 status check_particle_count(struct reader *r, const struct yaml_node *root);
 
 /* Reads the interfaces and joins their bodies (scene_interfaces.c). */
 status read_interfaces(struct reader *r, const struct yaml_node *root);
 
-/* REFUSED for a boundary on one of several joined bodies (scene_interfaces.c). */
+/* Returns REFUSED, with a message, for a boundary on one of several joined bodies (scene_interfaces.c). */
 status check_joined_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns the critical stretch that follows from the energy release rate of a material, for the model, horizon and
@@ -483,13 +483,13 @@ status check_strength_size(struct reader *r, const struct yaml_node *n, const st
  * have one curve. */
 status check_one_softening(struct reader *r, const struct yaml_node *n, int k);
 
-/* REFUSED for friction with a contact law or beside boundaries that do not support it. */
+/* Returns REFUSED for friction with a contact law or beside boundaries that do not support it. */
 status check_friction(struct reader *r, const struct yaml_node *root);
 
-/* REFUSED for absorbing boundaries in a static problem. */
+/* Returns REFUSED, with a message, for absorbing boundaries in a static problem. */
 status check_absorbing(struct reader *r, const struct yaml_node *root);
 
-/* REFUSED for loads that static solvers or irregular lattices do not support. */
+/* Returns REFUSED for loads that static solvers or irregular lattices do not support. */
 status check_supported_loads(struct reader *r, const struct yaml_node *root);
 
 /* Decides the frame of bodies for which the scene leaves it at `auto`: the current frame if the body cannot use the
@@ -501,10 +501,10 @@ void resolve_reference_frames(struct scene *s);
  * depends on that. Call it after the bodies are read. */
 void resolve_particle_lists(struct reader *r, const struct yaml_node *root);
 
-/* REFUSED for keys that the static solvers do not support. Call it after materials and probes are read. */
+/* Returns REFUSED for keys that static solvers do not support. Call it after materials and probes are read. */
 status check_solver(struct reader *r, const struct yaml_node *root);
 
-/* REFUSED for keys that load steps do not support (scene_steps.c). */
+/* Returns REFUSED, with a message, for keys that load steps do not support (scene_steps.c). */
 status check_load_steps(struct reader *r, const struct yaml_node *root);
 
 /* Returns true if the scene has load steps and a material whose bonds soften (scene_steps.c). */
@@ -513,10 +513,10 @@ bool steps_soften(const struct scene *s);
 /* REFUSED for keys of load steps with another solver, unless they all have their defaults (scene_steps.c). */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root);
 
-/* Words of enum space. */
+/* Words of scenes for the values of enum space, in their order. */
 extern const char *const space_names[];
 
-/* Words of enum probe_kind. */
+/* Words of scenes for the values of enum probe_kind, in their order. */
 extern const char *const probe_names[PROBES];
 
 /* Returns the scene as run, in YAML (scene_echo.c); the caller releases it with memory_free. NULL: out of memory. */

@@ -4,29 +4,33 @@
 
 #include "scene_internal.h"
 
-/* Returns true if a material of the scene gives this key. root: tree of the scene. */
+/* Returns true if at least one material of the scene has the key `key`. root: tree of the scene. */
 bool scene_material_gives(const struct yaml_node *root, const char *key);
 
-/* Returns REFUSED for a Poisson's ratio that bonds do not have. n: the ratio; its material has been read. */
+/* Returns REFUSED with the message that bond-based peridynamics cannot have the Poisson's ratio given by the node n,
+ * and a remedy. The material must have been read. */
 status refuse_poisson(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED for a material that yields with a state-based model. n: what says that it yields. */
+/* Returns REFUSED with the message that materials cannot yield with a state-based model, and a remedy. n: node that
+ * makes the material yield. */
 status refuse_state_yield(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED for a law of plasticity with a method other than mpm. n: node of the law. */
+/* Returns REFUSED with the message that the plastic law at node n requires method mpm, and a remedy. */
 status refuse_flow_law(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED for bonds that soften with a method or model that has none. n: the tensile strength. */
+/* Returns REFUSED with the message that bonds cannot soften with the method or model of the scene, and a remedy. n:
+ * node of the tensile strength. */
 status refuse_softening(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED for rigid bodies with method mpm or one static equilibrium. n: list of bodies. */
+/* Returns REFUSED with the message that method mpm, or the solver of one static equilibrium, allows no rigid bodies,
+ * and a remedy. n: list of bodies. */
 status refuse_rigid(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED for interfaces with method adaptive. n: list of interfaces. */
+/* Returns REFUSED with the message that method adaptive allows no interfaces, and a remedy. n: list of interfaces. */
 status refuse_interfaces(struct reader *r, const struct yaml_node *n);
 
-/* Returns the end of a refusal that advises to check units, if a strength needs a horizon [m] that is less than a
- * thousandth of that of the scene; else "". */
+/* Returns a text for the end of a message that advises to check the units of a strength, if the horizon that it
+ * requires, `horizon` [m], is less than a thousandth of the horizon of the scene; else "". The text is static. */
 const char *strength_unit_hint(const struct scene *s, real horizon);
 
 #endif

@@ -5,26 +5,32 @@
 #include "scene/shape_file.h"
 #include "scene_internal.h"
 
-/* Settings of a file other than its name. */
+/* Settings of a file from which a solid is read, other than its name. set: named set of a mesh; contents: hash of the
+ * file as text; scale: length that the number 1 in the file is; within: distance within which points belong to a set of
+ * nodes or faces; pixel, slice, origin: edge of a pixel, distance of slices and lower corner of an image. */
 struct shape_words {
     char set[NAME_MAX_LENGTH], contents[NAME_MAX_LENGTH];
     real scale, within;                 /* [m] */
     real pixel, slice, origin[DIM_MAX]; /* [m] */
 };
 
-/* Reads the length that the number 1 of a file is from the key `unit` of the mapping n into *scale [m], if n has it.
- * REFUSED if it is no unit of length, if n has the key `scale`, too, or, if `required`, neither. */
+/* Reads the unit of length of a file from the key `unit` of the mapping n, and stores in *scale how long the number 1
+ * in the file is [m]. Leaves *scale unchanged if n has no such key. Returns REFUSED, with a message, if the value is no
+ * unit of length, if n also has the key `scale`, or if `required` is true and n has neither key. */
 status read_file_unit(struct reader *r, const struct yaml_node *n, bool required, real *scale);
 
-/* Reads the key `values` into ranges of grey values: a value, a range, or a list of these. */
+/* Reads the value of the key `values`, node n, into the ranges of grey values of `part`: a grey value, a range, or a
+ * list of these. Returns REFUSED, with a message, for an invalid value. */
 status read_grey_values(struct reader *r, const struct yaml_node *n, struct voxel_part *part);
 
-/* Reads all ranges of grey values of `materials` that are not void into `part`. REFUSED if the solid is not the shape
- * of a body, and if a grey value of the image is in no range. */
+/* Reads the mapping `materials`, node n, which assigns ranges of grey values to materials or void, and stores all
+ * ranges that are not void in `part`. v: the image. Returns REFUSED, with a message, if the solid is not the shape of a
+ * body, or if a grey value of the image is in no range. */
 status read_grey_materials(struct reader *r, const struct yaml_node *n, const struct voxels *v,
                            struct voxel_part *part);
 
-/* Compares two file names for sorting; numbers in them are compared by value. */
+/* Compares two file names, char * at a and b, for array_sort; numbers in the names are compared by value, so that
+ * slice_2 precedes slice_10. */
 int compare_paths(const void *a, const void *b);
 
 #endif
