@@ -10,9 +10,9 @@
 
 /* ---- check_cost.c ------------------------------------------------------------------------------------------------ */
 
-/* What the estimated run time is based on. COST_TRIED: all steps were done and measured. COST_SCALED: the first steps
- * were measured, and the growth of the time of later steps in an equal scene with larger particles. COST_FIRST: the
- * first steps alone, which underestimates the time if many particles convert. */
+/* Basis of the estimated run time. COST_TRIED: all steps were done and measured. COST_SCALED: the first steps were
+ * measured, and the growth of the time of later steps in an equal scene with larger particles. COST_FIRST: the first
+ * steps alone, which underestimates the time if many particles convert. */
 enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
 /* Quartiles of measured times [s]. */
@@ -80,8 +80,8 @@ void print_load_steps(const struct run *e);
  * cracks. */
 void print_load_step_advice(const struct run *e, FILE *out);
 
-/* Estimates the cost of a run with load steps from the time of its first equilibrium, into *c. The run cannot be used
- * afterwards. Returns FAILED if no equilibrium is found. */
+/* Estimates the cost of a run with load steps from the time of its first equilibrium, into *c. The run cannot be
+ * continued afterwards. Returns FAILED if no equilibrium is found. */
 status cost_load_steps(struct cost *c, struct run *run);
 
 /* Prints the estimated run time of load steps with `threads` threads, and a line if no bond will break. cost: result of
