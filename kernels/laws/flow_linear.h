@@ -29,7 +29,8 @@ static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, la
     return (law->yield + 0.5 * law->hardening * plastic_strain) * plastic_strain;
 }
 
-/* Returns INFINITY: load steps need no bound of the plastic strain for a law that is linear. */
+/* Returns INFINITY, i.e. no bound of the plastic strain at which the yield stress is `stress`: the iteration of load
+ * steps needs none for a linear law. */
 static ALWAYS_INLINE lanes plastic_strain_bound_linear(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);

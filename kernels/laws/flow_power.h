@@ -33,7 +33,8 @@ static ALWAYS_INLINE lanes flow_stress_integral_power(const struct law *law, lan
     return law->yield * plastic_strain + law->power.coefficient / (n + 1) * lanes_power(plastic_strain, n + 1);
 }
 
-/* Returns the plastic strain at which the yield stress is `stress` [Pa], 0 if `stress` is below the first one. */
+/* Returns the plastic strain at which the yield stress sigma_y + B a^n equals `stress` [Pa]: 0 if `stress` is below the
+ * yield stress sigma_y of plastic strain 0. Temperature has no effect. */
 static ALWAYS_INLINE lanes plastic_strain_bound_power(const struct law *law, lanes stress, lanes temperature)
 {
     (void)temperature;

@@ -6,8 +6,8 @@
 #include "data/law.h"
 #include "lanes_power.h"
 
-/* Returns the yield stresses of eight points, the least of the lines of all segments at the plastic strain [Pa], and
- * stores the slopes of these lines in *slope [Pa]. Temperature has no effect. */
+/* Returns the yield stresses of eight points [Pa]: the least of the lines of all segments of the curve at the plastic
+ * strain. Stores the slope of that line in *slope [Pa]. Temperature has no effect. */
 static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plastic_strain, lanes temperature,
                                              lanes *slope)
 {

@@ -10,19 +10,21 @@
 
 #include "flows.h"
 
-/* Passes of load steps, each with the flow law linearised at the last result: the law is concave, so they increase to
- * the result, quadratically; one is enough for linear hardening. The recall of the back stress is taken from the last
- * pass: its error shrinks by about C/3G a pass. */
+/* Number of passes of a load step, without and with recall of the back stress. Each pass linearises the flow law at the
+ * plastic strain of the pass before. The flow law is concave, so that the plastic strains of the passes increase to the
+ * solution, quadratically; one pass is enough for linear hardening. The recall of the back stress follows from the
+ * plastic strain of the last pass; its error shrinks by about C/3G a pass (C: kinematic modulus, G: shear modulus). */
 enum { PASSES = 10, PASSES_RECALL = 48 };
-/* Newton steps for t in plane stress, from t = 0. For trial stresses from 1e-4 to 1e5 yield stresses beyond the surface
- * two to four reach round-off, up to eight at a Poisson's ratio of -0.9: in 1 - slope t - bound/q(t) = 0 the left side
- * is decreasing and convex, since 1/q is a power mean of two linear functions, which is concave, so that the steps
- * increase to the root. Elsewhere one step is exact. */
+/* Number of Newton steps for t in plane stress, from t = 0, for the equation 1 - slope t - bound/q(t) = 0. Its left
+ * side is decreasing and convex (1/q is a power mean of two linear functions, which is concave), so that the steps
+ * increase to the root. For trial stresses from 1e-4 to 1e5 yield stresses beyond the yield surface two to four steps
+ * reach round-off, up to eight at a Poisson's ratio of -0.9. In other spaces one step is exact. */
 enum { STEPS_PLANE_STRESS = 8 };
-/* Least yield stress over Young's modulus: the quotients of molten points stay finite. */
+/* Least yield stress over Young's modulus [1]: keeps quotients by the yield stress finite at molten points, whose
+ * strength is 0. */
 #define LEAST_YIELD 1e-10
 
-/* Returns the number of independent components of the relative stress in a space (relative_stress). */
+/* Returns the number of components of the relative stress that relative_stress computes in `space`: 6, 4, 3 or 1. */
 static ALWAYS_INLINE int components(const enum space space)
 {
     return space == SPACE_SOLID ? 6 : space == SPACE_PLANE_STRAIN ? 4 : space == SPACE_PLANE_STRESS ? 3 : 1;
@@ -69,15 +71,15 @@ static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes
         for (int c = 0; c < components(space); c++) *odd += (c < 3 ? 1.5 : 3.0) * x[c] * y[c];
 }
 
-/* The equation for t = da/q of eight points, with the increment da of plastic strain: the parts of the squared trial
- * relative stress that shrink by 1/(1 + A t) (even) and by 1/(1 + B t) (odd) [Pa^2], the rates A and B [Pa], and the
- * equivalent stress q at t = 0 [Pa]. */
+/* The equation for t = da/q of eight points, with the increment da of plastic strain and the equivalent relative stress
+ * q: q(t)^2 = even/(1 + A t)^2 + odd/(1 + B t)^2. even, odd: parts of the squared trial relative stress [Pa^2]; A, B:
+ * rates at which they shrink [Pa]; q: equivalent stress at t = 0 [Pa]. */
 struct flow_equation {
     lanes even, odd, A, B, q;
 };
 
-/* Returns the equation for t of eight points, at a factor g of their back stress [1], and stores their relative stress
- * in xi[] [Pa]. stiffness: kinematic modulus that acts over the step [Pa]. */
+/* Returns the equation for t = da/q of eight points, with their back stress multiplied by the factor g [1]. Stores the
+ * relative stress of the points in xi[] [Pa]. stiffness: kinematic modulus that acts over the step [Pa]. */
 static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct law_points *p, lanes g,
                                                       lanes stiffness, lanes *xi, const enum space space)
 {
@@ -90,7 +92,8 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     return e;
 }
 
-/* Returns the rate by which the relative stress shrinks in spaces in which all its components shrink alike [Pa]. */
+/* Returns the rate A or B [Pa] by which the relative stress shrinks, in a space in which all its components shrink at
+ * one rate: A in 1D, B in 3D and plane strain. Not for plane stress. */
 static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
     return space == SPACE_LINE ? e->A : e->B;
@@ -139,14 +142,15 @@ static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct
     return law->kinematic.modulus - law->kinematic.recall * (even + odd) / q;
 }
 
-/* Recall of the back stress X along a constant direction N of flow, d eps_p = N da: X = left X_n + (2/3) C added N da.
- */
+/* Recall of the back stress X in a step along a constant direction N of flow, d eps_p = N da, from X_n at its start: X
+ * = left X_n + (2/3) C added N da, with the kinematic modulus C. */
 struct flow_recall {
     lanes left, added;
 };
 
-/* Returns the recall of the back stress of eight points after an increment `more` of plastic strain [1]: exp(-x) and (1
- * - exp(-x))/x with x = gamma more, below 1e-4 by its series. recall: gamma, > 0 [1]. */
+/* Returns the recall of the back stress of eight points after an increment `more` of plastic strain [1]: left = exp(-x)
+ * and added = (1 - exp(-x))/x with x = recall more; below x = 1e-4 `added` is computed by its series. recall: gamma, >
+ * 0 [1]. */
 static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
 {
     const lanes x = recall * more, left = lanes_exp(-x), least = lanes_max(x, lanes_broadcast(1e-4));
@@ -155,9 +159,9 @@ static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
     return (struct flow_recall){left, lanes_choose(small, series, (1.0 - left) / least)};
 }
 
-/* Returns for eight points the solution w > 0 of w + log w = z, by Newton's method from z above 0.3 and exp z below
- * it: three steps reach a relative error of 2.1e-5 there, of 2e-10 above 3 and below -2. The tangent of linearise_rate
- * squares it. */
+/* Returns for eight points the solution w > 0 of w + log w = z, by three Newton steps, from w = z for z above 0.3 and
+ * from w = exp z below. The relative error is at most 2.1e-5 (near z = 0.3), and 2e-10 above z = 3 and below -2. The
+ * caller linearises once more about w, which squares this error. */
 static ALWAYS_INLINE lanes omega(lanes z)
 {
     const lanes middle = lanes_broadcast(0.3);
@@ -166,13 +170,14 @@ static ALWAYS_INLINE lanes omega(lanes z)
     return w;
 }
 
-/* Replaces the yield stress *bound [Pa] of slow flow at the start of a small step, and its derivative *slope by the
+/* Replaces the yield stress *bound of slow flow at the start of a small step [Pa], and its derivative *slope by the
  * plastic strain [Pa], by the tangent of the yield stress at the plastic strain rate of the step. With the increment da
- * over the duration dt that is
+ * of plastic strain over the duration dt the yield stress is
  *     (bound + slope da)(1 + C log(da/(eps0 dt)))   where da > eps0 dt, else bound + slope da.
- * The tangent is taken at the da at which this stress equals the equivalent stress, which falls linearly with da, by a
- * first estimate (omega). The rate of all strain in its place would fall to 0 where loads reverse, and the plastic
- * strain would depend on the step. trial: equation for da at the start. */
+ * The tangent is taken at the da at which this stress equals the equivalent stress, which falls linearly with da;
+ * `omega` gives a first estimate of it. The rate is that of the plastic strain, not of the total strain: the latter
+ * falls to 0 where loads reverse, and the plastic strain would then depend on the size of the step. trial: equation for
+ * t at the start of the step. */
 static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law_points *p,
                                          const struct flow_equation *trial, lanes *bound, lanes *slope,
                                          const enum space space)
@@ -191,9 +196,9 @@ static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law
     *slope = lanes_choose(fast, rise, *slope);
 }
 
-/* Returns t = da/q of eight points for a small step, by one linearised evaluation. trial, xi: equation and relative
- * stress at the factor 1 of the back stress; bound: yield stress at the start of the step [Pa]; slope: its derivative
- * by the plastic strain [Pa]; *back: receives the recall of the step. */
+/* Returns t = da/q of eight points for a small step, by one linearised evaluation. trial, xi: equation for t and
+ * relative stress [Pa], both with the whole back stress (factor 1); bound: yield stress at the start of the step [Pa];
+ * slope: its derivative by the plastic strain [Pa]; *back: receives the recall of the back stress in the step. */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
@@ -211,7 +216,7 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
 }
 
 /* Returns t = da/q of eight points for a step of any size, to round-off. bound: yield stress at the start of the step
- * [Pa]; *back: receives the recall of the step. */
+ * [Pa]; *back: receives the recall of the back stress in the step. */
 static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound,
                                            struct flow_recall *back, const enum space space)
 {
@@ -234,8 +239,9 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     return t;
 }
 
-/* Computes the increments of plastic strain of eight points, strain[], as 3/2 t xi [1], and applies them to their
- * stress and back stress. xi: relative stress at the end of the step [Pa]; t: da/q; back: recall of the step. */
+/* Computes the increments of plastic strain of eight points, strain[] = 3/2 t xi [1] (components xx yy zz xy yz zx),
+ * and updates their stress p->s and back stress p->back by them. xi: relative stress at the end of the step [Pa],
+ * components as from relative_stress; t: da/q [1/Pa]; back: recall of the back stress in the step. */
 static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
                                      const struct flow_recall *back, lanes *strain, const enum space space)
 {
@@ -256,8 +262,8 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
         p->back[c] = back->left * p->back[c] + back->added * (C * strain[c]);
 }
 
-/* Returns the plastic work of a step per reference volume for eight points [J/m^3], by the trapezoidal rule in stress
- * times volume. strain: increments of plastic strain [1]. */
+/* Returns the plastic work of a step per reference volume for eight points [J/m^3]: the mean of stress times volume at
+ * the start and at the end of the step, times the increments `strain` of plastic strain [1]. */
 static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
 {
     lanes work = lanes_broadcast(0);
@@ -287,8 +293,9 @@ static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_poi
     return work + along * added + C / recall * more * (1.0 - added);
 }
 
-/* Maps the trial stresses of the active points of eight back to the yield surface in one space, by one mode of solution
- * (small explicit steps or load steps), and updates their plastic state. Returns the bits of those that yield. */
+/* Maps the trial stresses of those of eight points that are in p->active back to the yield surface, and updates their
+ * plastic state. space, mode: the space, and whether the step is small and explicit or a load step (both constants).
+ * Returns a bit for each point, set if it yields; points that do not yield are not changed. */
 static ALWAYS_INLINE unsigned points_return(const struct law *law, struct law_points *p, const enum space space,
                                             const enum law_mode mode)
 {

@@ -5,8 +5,8 @@
 #include "mesh_run.h"
 #include "base/team.h"
 
-/* Returns true if the nodes first .. end - 1 have no mass, as most nodes of the finest mesh where coarse cells replace
- * its cells. mass: of each node, or its inverse (0 where there is no mass). */
+/* Returns true if no node of first .. end - 1 has mass. On the finest mesh most nodes have none where coarse cells
+ * replace its cells. mass: mass of each node, or its inverse (0 for a node without mass). */
 static bool none_moves(const real *mass, int64_t first, int64_t end)
 {
     enum { PIECE = 64 };
@@ -44,9 +44,9 @@ real mesh_kinetic(const struct mesh *mesh)
     return sum;
 }
 
-/* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 of a mesh to sum[0], with nodal forces f and masses m
- * [J/s^2]; times dt^2 it is the correction of mesh_kick. Nodes of matched coarse cells have the mass matrix of
- * mesh_inertia.h. A function for reproducible_sums; context: the mesh. */
+/* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 of a mesh to sum[0] [J/s^2], with nodal forces f and masses
+ * m; times dt^2 it is the correction of mesh_kick. Where coarse cells have a blended (lumped and consistent) mass
+ * matrix, this matrix replaces m (mesh_inertia.h). A function for reproducible_sums; context: the mesh. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -92,8 +92,9 @@ static ALWAYS_INLINE real lanes_sum(lanes a)
     return all;
 }
 
-/* Returns the elastic energy of a group of eight partial cells, those with missing points, partial stresses, several
- * materials or doubled nodes [J]. Vector lanes beyond the last cell have no stiffness and contribute 0. */
+/* Returns the elastic energy of group number `group` of eight partial cells [J]: cells with missing points, partial
+ * stresses, several materials or doubled nodes. Vector lanes beyond the last cell have no stiffness and contribute
+ * 0. */
 static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
 {
     const struct mesh *mesh = s->mesh;

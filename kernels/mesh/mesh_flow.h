@@ -22,9 +22,9 @@
  * be NULL: false. */
 static ALWAYS_INLINE bool mesh_points_can_yield(const struct particles *p) { return p && p->plastic_correction[0]; }
 
-/* Computes the trial stress of material point i at the given strain, that at its present plastic state. strain: dim x
- * dim, row by row, of which the symmetric part counts; stress: receives symmetric components [Pa]; m: constants of its
- * material. */
+/* Computes the trial stress of material point i at the given strain and the present plastic state of the point: Hooke's
+ * stress less the plastic stress correction. strain: dim x dim, row by row; only its symmetric part counts; stress:
+ * receives symmetric components [Pa]; m: elastic constants of its material. */
 static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const struct elastic *m, int64_t i,
                                                const real *strain, real *stress, const int dim)
 {
@@ -32,8 +32,9 @@ static ALWAYS_INLINE void point_compute_stress(const struct particles *p, const 
     for (int k = 0; k < symmetric_component_count(dim); k++) stress[k] -= p->plastic_correction[k][i];
 }
 
-/* Returns the stretch of the thickness at point i of a sheet that yields [1]: by Hooke's law, and plastic strain
- * without change of volume; 1 in other spaces. stress: symmetric components [Pa]; m: constants of its material. */
+/* Returns the stretch of the thickness at point i of a sheet (plane stress) that yields [1]: elastic strain by Hooke's
+ * law, and plastic strain without change of volume. Returns 1 in other spaces and for points that cannot yield. stress:
+ * symmetric components [Pa]; m: elastic constants of its material. */
 static ALWAYS_INLINE real thickness_stretch(const struct particles *p, const struct elastic *m, int64_t i,
                                             const real *stress)
 {
@@ -57,8 +58,10 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
 
-/* Replaces value[q] of the points of eight cells by their differences from the means of their cells and materials
- * (cell_subtract_from_mean). cell: eight cell indices, -1 for a lane without cell, whose values become 0. */
+/* Replaces value[q] of point number q of eight cells, one cell per lane, by its difference from the mean over the
+ * points of the same cell and material: mean less value. Values of materials without mean dilatation, and of lanes
+ * without a cell, become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all
+ * materials. */
 static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, const struct particles *p,
                                                    const struct elastic *m, const int32_t *cell,
                                                    lanes value[CORNERS_MAX], const int dim)
@@ -72,9 +75,10 @@ static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, cons
     }
 }
 
-/* Computes by how much the normal strains of the points of eight cells change where the points of a cell have one
- * dilatation. Returns false, without values, if no material has mean dilatation. cell: eight cell indices, -1 for a
- * lane without cell; s: strain of the cells; change: [2^dim]. */
+/* Computes change[q], by how much each normal strain of point number q of eight cells changes [1] if all points of a
+ * cell that have one material get one dilatation, their mean. Returns false, without values, if no point of the cells
+ * has a material with mean dilatation. cell: eight cell indices, -1 for a lane without cell; s: strain of the cells; m:
+ * elastic constants of all materials. */
 static ALWAYS_INLINE bool cells_mean_dilatation_change(const struct mesh *mesh, const struct particles *p,
                                                        const struct elastic *m, const int32_t *cell,
                                                        const struct mesh_cell *s, lanes change[CORNERS_MAX],

@@ -19,8 +19,8 @@ static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
     return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
-/* Defines cells_flow_1, _2 and _3: cells_return_mapping for dimension D. Not inlined, because return mapping point by
- * point (mesh_flow.h) would take registers from elastic cells. */
+/* Defines cells_flow_1, _2 and _3, which call cells_return_mapping for dimension D. They are not inlined, because
+ * return mapping point by point (mesh_flow.h) would use registers that the code for elastic cells needs. */
 #define FLOW(D)                                                                                                        \
     static NEVER_INLINE void cells_flow_##D(const struct mesh *mesh, const struct particles *p,                        \
                                             const struct elastic *m, const int32_t *cell, struct mesh_cell *s)         \
@@ -98,9 +98,10 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
 
-/* Defines for dimension D and strain measure FINITE: the forces of one row of cells that yields, of the rows of a band,
- * and of all bands. Rows that yield have a function of their own, since its code would take registers from elastic
- * rows. The parallel region is inside, where D and FINITE are literals. */
+/* Defines for dimension D and strain measure FINITE (true: finite strain) three functions: forces of one row of cells
+ * that yields, of the rows of one band (a group of layers of cells), and of all bands. Rows that yield have a function
+ * of their own, since its code would use registers that elastic rows need. The parallel region is inside, so that D and
+ * FINITE are compile-time constants in it. */
 #define BANDS(D, FINITE)                                                                                               \
     static NEVER_INLINE void run_flow_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,               \
                                                      struct mesh_run *run, const struct elastic *m)                    \

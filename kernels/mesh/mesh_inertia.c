@@ -3,23 +3,23 @@
 
 #include "kernels/simd/lanes.h"
 
-/* Returns w[-1] + 4 w[0] + w[1] along x at eight nodes from *w on: six times the average S w by the consistent mass
- * matrix of linear cells in 1D, S = (1, 4, 1)/6. */
+/* Returns w[-1] + 4 w[0] + w[1] at eight nodes along x from address w on. This is six times the average S w, with the
+ * consistent mass matrix S = (1, 4, 1)/6 of linear cells in 1D. */
 static ALWAYS_INLINE lanes line_smooth(const real *w)
 {
     return (lanes_load(w - 1) + lanes_load(w + 1)) + 4.0 * lanes_load(w);
 }
 
-/* Returns 36 times the average S w of the nodal values w at eight nodes from *w on, with S = (1, 4, 1)/6 along x and
- * along y. row: index distance of neighbours along y. */
+/* Returns 36 times the average S w of the nodal values w, with the weights S = (1, 4, 1)/6 along x and along y, at
+ * eight nodes from address w on. row: index distance of neighbours along y. */
 static ALWAYS_INLINE lanes plane_smooth(const real *w, int64_t row)
 {
     return (line_smooth(w - row) + line_smooth(w + row)) + 4.0 * line_smooth(w);
 }
 
 /* Returns the average S w of the nodal values w by the consistent mass matrix of linear cells, S = (1, 4, 1)/6 along
- * each axis, at eight nodes from *w on. All cells at these nodes must be matched. row, layer: index distances of
- * neighbours along y and z. */
+ * each axis, at eight nodes from address w on. All cells at these nodes must have the blended mass matrix of
+ * mesh_inertia.h. row, layer: index distances of neighbours along y and z. */
 static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_smooth(w) * (1.0 / 6);
@@ -27,8 +27,8 @@ static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, con
     return ((plane_smooth(w - layer, row) + plane_smooth(w + layer, row)) + 4.0 * plane_smooth(w, row)) * (1.0 / 216);
 }
 
-/* Returns a velocity component of node I from the component w = momentum over mass of all nodes [m/s]. Used where some,
- * but not all cells at the node are matched. */
+/* Returns a velocity component of node I [m/s] from w, the same component of momentum over mass of all nodes [m/s]. For
+ * a node at which some, but not all cells have the blended mass matrix of mesh_inertia.h. */
 static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, int64_t I, const int dim)
 {
     const int corners = 1 << dim;
@@ -43,8 +43,8 @@ static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, 
     return w[I] + mesh->match * mesh->inverse_mass[I] * sum;
 }
 
-/* Computes a velocity component v of the nodes of row r (along x) from the component w = momentum over mass [m/s], for
- * eight nodes at a time. */
+/* Computes a velocity component v of the nodes of row number r (along x) from w, the same component of their momentum
+ * over mass [m/s], for eight nodes at a time. v, w: arrays of all nodes. */
 static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const real *w, real *v, const int dim)
 {
     const int64_t row = dim > 1 ? mesh->corner[2] : 0, layer = dim > 2 ? mesh->corner[4] : 0,

@@ -25,7 +25,8 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Modes, strain and stress of eight cells; in axes that rotate with the cells at finite strain. */
+/* Modes, rotation, strain and stress of eight cells, one cell per lane; at finite strain in axes that rotate with the
+ * cells. */
 struct mesh_cell {
     /* mode: by set of axes and component [1]; force: derivative of the energy per volume by a bending mode [Pa] */
     lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3];
@@ -240,8 +241,8 @@ static ALWAYS_INLINE void cells_strain_at_point(const struct mesh_cell *s, const
         }
 }
 
-/* Replaces the trace of the strain of eight whole cells at a point by that of the mean strain, if the points of the
- * cells have one dilatation. */
+/* Replaces the trace of the strain of eight whole cells at a point by the trace of their mean strain s->e, if the
+ * points of a cell have one dilatation (m->mean_dilatation). strain: dim x dim, changed in place. */
 static ALWAYS_INLINE void cells_use_mean_dilatation(const struct elastic *m, const struct mesh_cell *s,
                                                     lanes strain[3][3], const int dim)
 {
@@ -260,9 +261,10 @@ static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct me
         cell_bending_force(m, s->mode, M, i, dim);
 }
 
-/* Returns an upper bound of sqrt(J2) + g1 I1 (data/strength_surface.h) in eight cells, times the factor by which it
- * reaches m->trigger where material points convert by their strength surface [Pa]. P: stress [Pa]; more: bound of each
- * component of stresses to be added to it, of which sqrt(J2) is at most 2.2 and I1 3 times as much. */
+/* Returns for eight cells an upper bound of sqrt(J2) + g1 I1 (data/strength_surface.h) times m->trigger_mean/m->failure
+ * [Pa], which exceeds m->trigger where points convert by their strength surface. P: stress [Pa]; more: bound of each
+ * component of further stresses that are added to P [Pa]; their sqrt(J2) is at most 2.2 `more`, their I1 at most 3
+ * `more`. */
 static ALWAYS_INLINE lanes cell_surface_bound(const struct elastic *m, const lanes P[3][3], lanes more, const int dim)
 {
     const lanes zz = dim == 3 ? P[2][2] : (m->space == SPACE_PLANE_STRAIN ? m->poisson : 0) * (P[0][0] + P[1][1]);
@@ -274,10 +276,10 @@ static ALWAYS_INLINE lanes cell_surface_bound(const struct elastic *m, const lan
     return (failure + (2.2 + 3 * m->surface.g1) * more) * (m->trigger_mean / m->failure);
 }
 
-/* Returns for each of eight cells an upper bound of the largest principal stress at its material points [Pa]: for the
- * stress P of the mean strain the largest normal stress plus the magnitudes of all shear stresses (Gershgorin), plus a
- * bound on the stress of all bending modes in s; or of what a strength surface makes of it (cell_surface_bound). m:
- * elastic constants. */
+/* Returns for each of eight cells an upper bound of the largest principal stress at its material points [Pa]: the
+ * largest normal stress of P, plus the magnitudes of all its shear stresses (Gershgorin), plus a bound on the stress of
+ * the bending modes in s. With a strength surface the larger of this and of cell_surface_bound is returned. P: stress
+ * of the mean strain [Pa]; m: elastic constants. */
 static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, const struct mesh_cell *s,
                                                        const lanes P[3][3], const int dim)
 {
@@ -306,7 +308,8 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
 
 /* Adds to the stress s->P of eight cells, at finite strain, the antisymmetric part that balances the moments of the
  * stresses and of bonds. moment: moment of bonds at the points of the cell, per volume about each axis [Pa];
- * overwritten with its sum with the axial part of P U^T over all modes, U = 1 + e of the mean strain. */
+ * overwritten with the total moment, to which the axial part of P U^T of all modes is added (U = 1 + e, e: mean
+ * strain). */
 static ALWAYS_INLINE void cell_balance_finite_moments(struct mesh_cell *s, lanes *moment, const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {

@@ -5,8 +5,8 @@
 
 #include "kernels/laws/law_update.h"
 
-/* Returns the particle number of material point `number` of a cell, -1 if it has none. cell: index of the cell, -1: no
- * cell. */
+/* Returns the particle number of material point `number` (0 .. 2^dim - 1) of cell `cell`; -1 if the cell has no such
+ * point or if `cell` is -1. */
 static ALWAYS_INLINE int32_t mesh_point_of_cell(const struct mesh *mesh, int32_t cell, int number, const int dim)
 {
     return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + number];
@@ -47,9 +47,9 @@ static ALWAYS_INLINE void law_points_load(const struct particles *p, const struc
         p->temperature ? lanes_gather_or_zero(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Takes over the result of the return mapping for point i, which is in lane `lane` of *e: adds the trial stress less
- * the returned stress to the plastic correction of the point, replaces the trial stress in this lane of `stress` by the
- * returned one, and stores the plastic state. m: constants of the material. */
+/* Stores the result of the return mapping for particle i, which is in lane `lane` of *e. Adds trial stress less
+ * returned stress to the plastic stress correction of the particle, replaces the trial stress in this lane of `stress`
+ * by the returned one, and stores the plastic state. m: constants of the material. */
 static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const struct elastic *m,
                                                 const struct law_points *e, int lane, int64_t i, lanes *stress,
                                                 const int dim)
@@ -67,9 +67,10 @@ static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const
 }
 
 /* Maps the trial stresses of the points number `number` of eight cells back to their yield surfaces by their flow laws,
- * and updates their plastic state. cell: eight cell indices; yielding_lanes: bits of the lanes whose points have a law;
- * dt: duration of an explicit step [s], 0 in load steps; stress: symmetric components, trial stress on entry [Pa]; m:
- * elastic constants of all materials. Points of several materials: law by law. */
+ * and updates their plastic state; for points of several materials once for each law. cell: eight cell indices;
+ * yielding_lanes: bits of the lanes whose points have a law; dt: duration of an explicit step [s], 0 in load steps;
+ * stress: symmetric components, trial stress on entry, the returned stress on exit [Pa]; m: elastic constants of all
+ * materials. */
 static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const struct particles *p,
                                                const struct elastic *m, const int32_t *cell, int number,
                                                unsigned yielding_lanes, real dt, lanes *stress, int dim)

@@ -5,10 +5,11 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Replaces the force on nodal components with prescribed velocity by mass times the change of that velocity per time.
- * dt_velocity: time over which forces change the velocities [s]. Adds the impulse [N s] and the work [J] that the walls
- * exert to impulse[] and *work, and stores the reaction of each wall [N s]. The walls of one component are consecutive;
- * their sums are added at the end. */
+/* Replaces the force on nodal components with prescribed velocity by mass times the change of that velocity per time,
+ * for all walls (struct wall: a nodal component with a prescribed velocity). Stores the reaction of each wall [N s],
+ * and adds the impulse [N s] and the work [J] of the walls to impulse[] and *work. The walls of one component are
+ * consecutive; the sums of a component are added at its end. dt_velocity: time over which forces change the velocities
+ * [s]. */
 static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;

@@ -10,8 +10,8 @@
 
 #include "mesh_law.h"
 
-/* Loads the displacements u[c][i] of corner c along axis i of the eight cells of a group [m]. group: number of a group
- * of eight partial cells (cells with missing points, partial stresses, several materials or doubled nodes). */
+/* Loads the displacements u[c][i] of corner c along axis i of the eight cells of group number `group` of partial cells
+ * [m]: cells with missing points, partial stresses, several materials or doubled nodes. */
 static ALWAYS_INLINE void mesh_group_load_displacements(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
                                                         const int dim)
 {
@@ -54,7 +54,8 @@ static ALWAYS_INLINE void symmetric_matrix_times_vector(const lanes *K, const la
 
 /* Adds to f the forces of state-based bonds on the modes of the cells of a group of eight partial cells [Pa]: f +=
  * share^T pull for each material point with bonds (struct mesh_end), with the reaction `pull` of its bonds
- * (p->end_pull). f: one value for each mode of cell_strain_vector, one cell per lane. */
+ * (p->end_pull) and the derivatives `share` of its mean strain by the modes. f: one value for each mode of
+ * cell_strain_vector, one cell per lane. */
 static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, const struct particles *p,
                                                        int64_t group, lanes *f, const int dim)
 {

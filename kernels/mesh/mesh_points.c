@@ -6,7 +6,8 @@
 #include "mesh_run.h"
 #include "kernels/pd/rotation.h"
 
-/* Calls X for each number of dimensions: one body for all; the parallel region is inside each instance. */
+/* Calls X for 1, 2 and 3 dimensions, for functions with one body for all; the parallel region is inside each
+ * instance. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
 /* Returns the number of cells that may have points: all cells of the mesh, or those of the list mesh->filled_cell. */
@@ -23,8 +24,8 @@ static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Sets position and velocity of the points of cell I from those of its nodes by linear interpolation, for the point
- * numbers q whose bit q is set in `places`. */
+/* Sets position and velocity of points of cell I from its nodes by linear interpolation. places: bit set of the point
+ * numbers q (0 .. 2^dim - 1) to set. */
 static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -187,8 +188,8 @@ void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 
 /* ---- forces of points -------------------------------------------------------------------------------------------- */
 
-/* Adds the forces p->f of the points of cell I to its nodes with their interpolation weights, for the point numbers q
- * whose bit q is set in `places`. */
+/* Adds the forces p->f on points of cell I to its nodes with their interpolation weights. places: bit set of the point
+ * numbers q (0 .. 2^dim - 1) whose forces are added. */
 static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -216,9 +217,9 @@ void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 
 /* ---- stress ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the Cauchy stress of point i of material m in p: the stress s at the strain e itself at small strain, R sym(s
- * U) R^T/det U at finite strain, with U = 1 + e and the rotation R of the cell; in sheets that yield also divided by
- * the stretch of the thickness. At finite strain stores its volume, too. R, e: dim x dim, row by row. */
+/* Stores the Cauchy stress of point i of material m in p: the stress s at the strain e at small strain; at finite
+ * strain R sym(s U) R^T/det U, with U = 1 + e and the rotation R of the cell, and also the volume of the point. In
+ * sheets that yield the stress is divided by the stretch of the thickness. R, e: dim x dim, row by row. */
 static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R,
                                              const real *e, const int dim, bool finite)
 {
@@ -361,10 +362,9 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Returns an upper bound of the largest principal stress at the points of eight cells [Pa], or of what its strength
- * surface makes of it (cell_surface_bound), computed at each point and hence closer than the bound of mesh_force.
- * there[q]: mask of the cells that have point number q; NULL: all cells have
- * all points. */
+/* Returns for eight cells an upper bound of the largest principal stress at their points [Pa], or, where larger, of
+ * cell_surface_bound. It is computed at each point and so closer than the bound of mesh_force. s: strain; there[q]:
+ * mask of the cells that have point number q; NULL: all cells have all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -392,7 +392,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     }
 DIMENSIONS(TENSION)
 
-/* Returns places_tension for eight cells [Pa]; one function per dimension, not inlined. */
+/* Calls places_tension for eight cells [Pa], by one function per dimension that is not inlined. */
 static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                          const int dim)
 {
@@ -437,8 +437,8 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
     }
 }
 
-/* Sets mark[cell] = 1 for the cells of a row of consecutive cells in which the principal stress of a point may exceed
- * `share` times the conversion stress. */
+/* Sets mark[cell] = 1 for the cells of `run` (a row of consecutive cells) in which the principal stress of a point may
+ * exceed `share` times [1] the conversion stress. mark: [grid.n]. */
 static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                          real share, uint8_t *mark, const int dim, const bool finite)
 {
@@ -450,9 +450,9 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED of the points in a group of eight partial cells whose principal stress exceeds their conversion
- * stress. Points are examined one by one in cells whose bound, with the material of the cell, exceeds it, in cells with
- * several materials, and where points have the mean dilatation of their cell, of which this bound does not hold. */
+/* Sets FLAG_STRESSED of points in a group of eight partial cells whose principal stress exceeds their conversion
+ * stress. Points are examined one by one in cells whose bound (places_tension) exceeds it, and in cells for which this
+ * bound does not hold: those with several materials and those with mean dilatation. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {

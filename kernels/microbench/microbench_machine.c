@@ -16,8 +16,9 @@
 
 enum { STENCIL_MOST = 128, MARGIN = 3 };
 
-/* A lattice of particles and its bonds. Index of a particle: sum of its position times `stride` along each axis, with a
- * margin of particles around the lattice. */
+/* A lattice of particles and its bonds. Index of a particle: sum over the axes of its position (in spacings) times
+ * `stride`, with a margin of particles around the lattice. offset, inverse_length: index distance and inverse reference
+ * length of each neighbour; x, f: positions and forces of all particles. */
 struct microbench_lattice {
     int dim;
     int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all; /* particles, index of the first; all: with margins */

@@ -27,7 +27,7 @@ struct corner {
     real N[CORNERS], gx[CORNERS], gy[CORNERS];
 };
 
-/* Returns weights and slopes of point i at the corners of its cell. cx, cy: position of the cell in the grid. */
+/* Returns weights and slopes of point i at the four corners of its cell. cx, cy: indices of the cell along x and y. */
 static ALWAYS_INLINE struct corner corner_make(const struct microbench_points *p, int64_t i, int cx, int cy)
 {
     const real inverse = 1 / p->h, r = p->x[i] * inverse - cx, s = p->y[i] * inverse - cy;
@@ -45,8 +45,8 @@ static void add_corners(real *field, int cx, int cy, const real *sum)
     for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
 }
 
-/* First map: adds mass, momentum and internal force of the points of cell cx, cy to its four nodes. cx, cy: place of
- * the cell in the grid. */
+/* First map: adds mass, momentum and internal force of the points of a cell to its four nodes. cx, cy: indices of the
+ * cell along x and y. */
 static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;

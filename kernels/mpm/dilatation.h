@@ -12,8 +12,8 @@
 
 #include "kernels/kernels.h"
 
-/* Number of points over which a mean extends at most. A cell with more points, after large compression, has several
- * means, one after the other in the order of its list. A multiple of POINTS. */
+/* Largest number of points over which a mean dilatation extends; a multiple of POINTS. A cell with more points, after
+ * large compression, has several means, one for each MEAN_POINTS points in the order of its list. */
 enum { MEAN_POINTS = 64 };
 
 /* Returns true if points of the materials in t can have the mean dilatation of their cell, in a space of `dim`
@@ -29,7 +29,7 @@ static ALWAYS_INLINE bool points_share_mean_dilatation(const struct particles *p
     return p->material[i] == p->material[j] && p->body[i] == p->body[j];
 }
 
-/* Returns true if the n listed points all share one mean. */
+/* Returns true if the n points in `list` share one mean dilatation: they are of one body and one material. */
 static ALWAYS_INLINE bool mean_of_all(const struct particles *p, const int32_t *list, int n)
 {
     bool same = true;
@@ -37,9 +37,9 @@ static ALWAYS_INLINE bool mean_of_all(const struct particles *p, const int32_t *
     return same;
 }
 
-/* Replaces value[k] of the n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of
- * its body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined,
- * so that the code for other materials contains none of it. */
+/* Replaces value[k] of the n <= MEAN_POINTS points list[k] of a cell by mean less value, with the mean over the points
+ * of the same body and material, weighted by volume. The value becomes 0 for materials without mean dilatation. Not
+ * inlined, so that the code for other materials contains none of it. */
 static NEVER_INLINE void points_subtract_from_mean(const struct particles *p, const struct transfer_data *t,
                                                    const int32_t *list, int n, real *value)
 {

@@ -39,11 +39,11 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
 }
 
 /* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points from their velocity gradients L [1/s], and
- * sets FLAG_STRESSED where they convert at their stress (stress_converts). The volume follows the trace of
- * the strain in the space; in plane stress the elastic strain through the thickness is left out (below 1 % strain it
- * changes the volume by less than 0.5 %), the plastic one is added with the return mapping. m: elastic constants by
- * lane; point: numbers of the points, of which there are `points`. Where materials yield the points go to `due`, too
- * (points_flow.h). */
+ * sets FLAG_STRESSED where they convert at their stress (stress_converts). m: elastic constants by lane; point: numbers
+ * of the points, of which there are `points`; due: receives the points where materials yield, for the return mapping
+ * (points_flow.h). The volume follows the trace of the strain in the space. In plane stress the elastic strain through
+ * the thickness is left out, which changes the volume by less than 0.5 % below 1 % strain; the plastic one is added
+ * with the return mapping. */
 static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, struct flow_points *due,
                                         const struct elastic_points *m, const int32_t *point, int points,
                                         const row_of_points *L, const int dim, const enum shape shape)
@@ -102,7 +102,7 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
 }
 
 /* Returns in each lane -1 if the point moves with the velocities of the second map (remap.h), else 1. Points with bonds
- * do; if momentum_only or second_map is set, all do. point: numbers of the points. */
+ * do so; all points do if t->momentum_only or t->second_map is set. point: numbers of the points. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     const bool all = t->momentum_only || t->second_map;
@@ -146,7 +146,8 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
     }
 }
 
-/* As points_gather for linear shapes in 2D and 3D. */
+/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s of cell c by
+ * interpolation from the nodes, for linear shapes in 2D and 3D. bonded: result of points_bonded. */
 static ALWAYS_INLINE void points_gather_corners(const struct grid *g, const struct cell *c,
                                                 const struct cell_stencil *s, const row_of_points bonded,
                                                 row_of_points *velocity, row_of_points *L, const int dim,
@@ -201,8 +202,9 @@ static ALWAYS_INLINE void points_dilate_more(struct points_motion *m, row_of_poi
     for (int d = 0; d < dim; d++) m->L[d * dim + d] += change * (1.0 / dim);
 }
 
-/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell that differ in body or material. motion:
- * of AT_ONCE points each. */
+/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell that differ in body or material, over
+ * points of the same body and material (dilatation.h). motion: motion of these points, AT_ONCE of them in each entry;
+ * its velocity gradients are changed. */
 static NEVER_INLINE void rates_average_mixed(const struct particles *p, const struct transfer_data *t,
                                              const int32_t *list, struct points_motion *motion, int n, const int dim)
 {
@@ -219,8 +221,8 @@ static NEVER_INLINE void rates_average_mixed(const struct particles *p, const st
     }
 }
 
-/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell (dilatation.h). motion: of AT_ONCE
- * points each. */
+/* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell (dilatation.h). motion: motion of these
+ * points, AT_ONCE of them in each entry; its velocity gradients are changed. */
 static ALWAYS_INLINE void rates_average(const struct particles *p, const struct transfer_data *t, const int32_t *list,
                                         struct points_motion *motion, int n, const int dim)
 {
@@ -258,7 +260,8 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
 }
 
 /* Updates n points (n <= AT_ONCE) of cell c by their motion m: position, stress, volume, stretch, rotation. due:
- * receives the points where materials yield. Returns the number of points that have left the cell. */
+ * receives the points of materials that yield, for the return mapping. Returns the number of points that have left the
+ * cell. */
 static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
                                     int n, const int dim, const enum shape shape)
@@ -294,9 +297,10 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
     if (__builtin_expect(p->temperature != NULL, 0)) prefetch_line(p->temperature + i);
 }
 
-/* Updates the n listed points of one cell. Returns the number of points that have left the cell. The cell is computed
- * again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. averaged: result of
- * transfer_uses_mean_dilatation; up to MEAN_POINTS points are then interpolated before they are updated. */
+/* Updates the n listed points of one cell. due: receives the points of materials that yield, for the return mapping;
+ * averaged: result of transfer_uses_mean_dilatation; if true, up to MEAN_POINTS points are interpolated before they are
+ * updated. Returns the number of points that have left the cell. The cell is computed again for every AT_ONCE points:
+ * most cells need one pass only, so it is not kept in registers. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       struct flow_points *due, const int32_t *list, int n, const int dim,
                                       const enum shape shape, const enum transfer transfer, const bool averaged)
@@ -322,8 +326,8 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
     return moved;
 }
 
-/* Two loops over all cells: points with the mean dilatation of their cells have one of their own, so that the other has
- * no code of it. */
+/* Defines NAME, the loop over all cells for dimension D, shape S and transfer T. Points with the mean dilatation of
+ * their cells have a loop of their own (AVERAGED), so that the other loop contains no code for them. */
 #define CELLS(NAME, D, S, T, AVERAGED)                                                                                 \
     static int64_t NAME(const struct grid *g, struct particles *p, const struct transfer_data *t)                      \
     {                                                                                                                  \

@@ -5,8 +5,8 @@
 #include "kernels/dashpot.h"
 #include "kernels/kernels.h"
 
-/* Calls CALL(I, dimensions) for all nodes I of grid g, with the number of dimensions as a constant: nodes fill the
- * lanes of vectors. */
+/* EACH_NODE(CALL) calls CALL(I, dimensions) for all nodes I of grid g (a variable of the caller), with the number of
+ * dimensions as a constant, so that nodes fill the lanes of vectors. */
 #define NODES_OF(D, CALL)                                                                                              \
     case D:                                                                                                            \
         _Pragma("omp parallel for simd schedule(static)") for (int64_t I = 0; I < g->n; I++) CALL(I, D);               \
@@ -60,8 +60,8 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
  * they are processed in order by one thread. */
 
 /* Adds mass, reflected force and reflected momentum of each mirror node (a node beyond a plane of symmetry) to its
- * image node, and sets them to 0 at the mirror node. Stores in its member `taken` the impulse that the points gave to
- * it [N s]. dt_velocity: time over which forces change the velocities [s]. */
+ * image node, and sets them to 0 at the mirror node. Stores in its member `taken` the impulse that its points gave to
+ * the mirror node [N s]. dt_velocity: time over which forces change the velocities [s]. */
 static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, real dt_velocity)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++) {
@@ -227,8 +227,8 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
     }
 }
 
-/* Recomputes the energy g->absorbed that dashpots take with the velocities in g->momentum, those of the second map to
- * the nodes: in FLIP points receive these, not the velocities on which the dashpots acted. */
+/* Recomputes g->absorbed, the energy absorbed by dashpots, with the nodal velocities of the second map (g->momentum).
+ * In FLIP points receive these velocities, not those on which the dashpots acted. */
 static void grid_absorb_again(struct grid *g)
 {
     for (int64_t k = 0; k < g->dashpots; k++)
@@ -238,9 +238,9 @@ static void grid_absorb_again(struct grid *g)
         }
 }
 
-/* Computes the new velocity of node I from its momentum and force, and its change, which replaces the force; sets the
- * momentum to 0. dt_velocity: time over which forces change the velocities [s]. Nodes lighter than smallest_mass [kg]
- * get none. */
+/* Computes the new velocity of node I from its momentum and force; the change of velocity replaces the force, and the
+ * momentum becomes 0. dt_velocity: time over which forces change the velocities [s]. Nodes lighter than smallest_mass
+ * [kg] get velocity and change 0. */
 static ALWAYS_INLINE void node_advance(struct grid *g, int64_t I, real dt_velocity, real smallest_mass, const int dim)
 {
     const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;

@@ -57,8 +57,8 @@ static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, con
     }
 }
 
-/* Returns true if points extrapolate their velocity to the positions of the nodes, with a velocity gradient: with APIC,
- * and if points rotate in groups. */
+/* Returns true if points extrapolate their velocity to the positions of the nodes with a velocity gradient. They do so
+ * with APIC, and if they rotate in groups (data/turning.h). */
 static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim, const enum transfer transfer)
 {
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
@@ -136,8 +136,8 @@ static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const struct tran
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) prefetch_line(p->gradient[c] + i);
 }
 
-/* Computes by how much the mean stress of n <= MEAN_POINTS listed points of a cell changes by averaging (dilatation.h)
- * [Pa]. change: [MEAN_POINTS]. */
+/* Computes change[k] [Pa], by how much the mean stress of each of n <= MEAN_POINTS listed points of a cell changes if
+ * points of the same body and material get one mean stress (dilatation.h). change: [MEAN_POINTS]. */
 static NEVER_INLINE void means_of_stress(const struct particles *p, const struct transfer_data *t, const int32_t *list,
                                          int n, real *change, const int dim)
 {
@@ -209,7 +209,8 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     }
 }
 
-/* Points with the mean dilatation of their cells have a loop of their own, so that the other one has no code of it. */
+/* Defines the map for dimension D, shape S and transfer T. Points with the mean dilatation of their cells have a loop
+ * of their own, so that the other loop contains no code for them. */
 #define INSTANCE(D, S, T)                                                                                              \
     void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)                \
     {                                                                                                                  \

@@ -5,8 +5,8 @@
 #include "kernels/laws/law_update.h"
 #include "stress.h"
 
-/* Points whose return mapping is due, with what it reads. They are collected from several cells, since a cell has fewer
- * points than a vector has lanes. */
+/* List of points of materials that yield, which wait for their return mapping, with the data that it reads. Points are
+ * collected from several cells until they fill a vector, since a cell has fewer points than a vector has lanes. */
 enum { FLOW_ROOM = LANES + POINTS };
 struct flow_points {
     int n;                                /* fewer than LANES between cells */
@@ -22,7 +22,7 @@ struct flow_motion {
     lanes strain[SYM_MAX], trace, spin[3];
 };
 
-/* Computes the motion of eight points from their velocity gradients L [1/s]. */
+/* Computes the motion of eight points in a step of dt [s] from their velocity gradients L [1/s] into *m. */
 static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, real dt, const int dim)
 {
     const lanes none = lanes_broadcast(0);
@@ -44,7 +44,7 @@ static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, 
     m->trace = m->strain[0] + m->strain[1] + m->strain[2];
 }
 
-/* Returns the entries from[point[l]] of an array. Eight loads take half the time of a gather instruction. */
+/* Returns a vector whose lane l is from[point[l]]. Eight loads take half the time of a gather instruction. */
 static ALWAYS_INLINE lanes flow_pick(const real *from, const int32_t *point)
 {
     return (lanes){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
@@ -83,8 +83,9 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
     if (dim == 2) e->back[2] = -e->back[0] - e->back[1];
 }
 
-/* Loads the state of eight points into e. m: constants of their material; stress, volume: their trial stresses [Pa] and
- * volumes [m^3]; motion: of the step of dt [s]. */
+/* Loads the plastic state and the stresses of eight points into *e, for law_update. point: their numbers; m: constants
+ * of their material; stress, volume: their trial stresses [Pa] and volumes [m^3]; motion: their motion in the step of
+ * dt [s]. */
 static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elastic *m, const int32_t *point,
                                     const lanes *stress, lanes volume, const struct flow_motion *motion, real dt,
                                     struct law_points *e, const int dim)
@@ -110,8 +111,9 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
     e->temperature = p->temperature ? flow_pick(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Clears FLAG_STRESSED of those of the points whose bits `flowed` are set, which have yielded, whose largest principal
- * stress does not exceed the conversion stress. m: their material; e: their state after the return mapping. */
+/* Clears FLAG_STRESSED of points that have yielded and whose largest principal stress does not exceed their conversion
+ * stress. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the return
+ * mapping. */
 static ALWAYS_INLINE void flow_unmark(struct particles *p, const struct elastic *m, const struct law_points *e,
                                       unsigned flowed, const int32_t *point, const int dim)
 {
@@ -125,8 +127,9 @@ static ALWAYS_INLINE void flow_unmark(struct particles *p, const struct elastic 
     }
 }
 
-/* Stores the stress normal to the plane (plane strain) or the volume (plane stress, line) of those of the points
- * point[LANES] whose bits `flowed` are set. m: material of the points; e: their state after the return mapping. */
+/* Stores the stress normal to the plane (plane strain) or the volume (plane stress, 1D) of the points point[LANES] that
+ * have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the
+ * return mapping. */
 static NEVER_INLINE void flow_store_across(struct particles *p, const struct elastic *m, const struct law_points *e,
                                            unsigned flowed, const int32_t *point)
 {
@@ -138,8 +141,9 @@ static NEVER_INLINE void flow_store_across(struct particles *p, const struct ela
             p->volume[point[l]] = e->volume[l] * p->volume0[point[l]];
 }
 
-/* Stores the state of those of n points of material m whose bits `flowed` are set, which have yielded; the others keep
- * theirs. stress[]: receives their stress, component by component [Pa]. */
+/* Stores the state e of the n points point[n] of material m after the return mapping. flowed: bit l is set if point[l]
+ * has yielded; points that have not keep their stress. stress[]: receives the stress of those that have, component by
+ * component [Pa]. */
 static ALWAYS_INLINE void flow_store_lane(struct particles *p, const struct elastic *m, const struct law_points *e,
                                           unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
 {
@@ -151,8 +155,9 @@ static ALWAYS_INLINE void flow_store_lane(struct particles *p, const struct elas
     flow_unmark(p, m, e, flowed, point, dim);
 }
 
-/* Stores the back stresses of eight points in the lanes whose bits are set in lanes_set; their components turn with the
- * points. point: numbers of the points. */
+/* Stores the back stresses of those of eight points whose bits are set in lanes_set. They are stored for all these
+ * points, whether they have yielded or not, since their components rotate with the points. point: numbers of the
+ * points. */
 static NEVER_INLINE void flow_store_back_stress(struct particles *p, const struct law_points *e, unsigned lanes_set,
                                                 const int32_t *point, const int dim)
 {

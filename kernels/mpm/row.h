@@ -114,7 +114,7 @@ static ALWAYS_INLINE real points_sum(row_of_points a)
     return sum;
 }
 
-/* Returns the number of material points processed at once: the usual number per cell, two in 1D. Unused vector entries
+/* Number of material points that are processed at once: the usual number in a cell, in 1D two. Vector entries beyond it
  * repeat the last point. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 

@@ -109,8 +109,8 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define ROWS_Z(dim, shape) ((dim) > 2 && !HAS_CORNERS(dim, shape) ? ACROSS : 1)
 #define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
 
-/* True if only those rows of nodes are visited that a point touches: in 3D for shapes with three nodes per direction.
- * In 2D a weight of zero costs less than finding these rows. */
+/* True if loops visit only those rows of nodes that a point touches. This is so in 3D for shapes with three nodes per
+ * direction; in 2D a weight of zero costs less than finding these rows. */
 #define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
 
 /* Loop over the nodes k of a row; leaves out the two outer nodes of linear shapes, whose weights are 0. */
@@ -212,8 +212,8 @@ static ALWAYS_INLINE row_of_points corners_interpolate(const struct grid *g, con
 
 /* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
 
-/* Weights and slopes of the shape functions of a few points of a cell, one point per lane. Weights of a node are the
- * product of N of its place in the row and the factors A of the row. */
+/* Weights and slopes of the shape functions of a few points of a cell, one point per lane. The weight of a node is N,
+ * which depends on the position of the node in its row, times the factors A of the row. */
 struct cell_stencil {
     int32_t point[POINTS];                       /* padded with the last point */
     row_of_points x[DIM_MAX];                    /* position [m] */
@@ -235,8 +235,8 @@ struct touch {
  * stretched further keeps this width, and numerical fracture begins: with two particles per cell at a stretch of 4. */
 #define HALF_WIDTH_MOST 1
 
-/* Computes the weights and slopes in s of linear shape functions in 2D and 3D, where a row holds the corners of the
- * cell: products of hat functions. inverse: 1/h [1/m]. */
+/* Computes the weights and slopes in s of linear shape functions in 2D and 3D, as products of hat functions. A row
+ * holds all corners of the cell then. inverse: 1/h of the node distance h [1/m]. */
 static ALWAYS_INLINE void stencil_compute_corner_weights(struct cell_stencil *s, real inverse, const int dim)
 {
     for (int k = 0; k < ROW; k++) {
@@ -260,8 +260,8 @@ static ALWAYS_INLINE void stencil_find_touched_rows(struct cell_stencil *s, row_
     s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
-/* Computes weights and slopes of the points of s in direction d (not for linear shapes in 2D and 3D). inverse: 1/h
- * [1/m]; half_width: half the reference edge of a particle [m]. */
+/* Computes weights and slopes of the points of s in direction d (not for linear shapes in 2D and 3D). inverse: 1/h of
+ * the node distance h [1/m]; half_width: half the reference edge of a particle [m]. */
 static ALWAYS_INLINE void stencil_compute_axis_weights(struct cell_stencil *s, const struct particles *p, real inverse,
                                                        real half_width, int d, const int dim, const enum shape shape)
 {

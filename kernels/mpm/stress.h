@@ -222,16 +222,17 @@ static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *
            2 * (points_absolute(stress[3]) + points_absolute(stress[4]) + points_absolute(stress[5]));
 }
 
-/* Returns sqrt(J2) + g1 I1 of a stress, the share of the strength surface of material m times g0
- * (data/strength_surface.h) [Pa]. s: symmetric components. */
+/* Returns sqrt(J2) + g1 I1 of the stress s [Pa], the measure of the strength surface of material m
+ * (data/strength_surface.h). s: symmetric components [Pa]. */
 static ALWAYS_INLINE real stress_failure(const struct elastic *m, const real *s, const int dim)
 {
     const real across = m->space == SPACE_PLANE_STRAIN ? m->poisson : 0;
     return surface_share_of_components(&m->surface, s, across, dim) * m->surface.g0;
 }
 
-/* Returns true if material point i, of material m, converts to a peridynamic particle at the stress s: if its largest
- * principal value exceeds the conversion stress, or the strength surface is as near. s: symmetric components [Pa]. */
+/* Returns true if material point i, of material m, converts to a peridynamic particle at the stress s: if the largest
+ * principal stress exceeds its conversion stress, or if the stress exceeds the strength surface of the material. s:
+ * symmetric components [Pa]. */
 static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct particles *p, int64_t i, const real *s,
                                           const int dim)
 {

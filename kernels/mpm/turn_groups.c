@@ -11,14 +11,14 @@
 #define LEAST_ARM 0.05
 /* Loop over the components c of spins: in 2D z alone. */
 #define FOR_SPINS(c, dim) for (int c = (dim) == 2 ? 2 : 0; c < 3; c++)
-/* Loop over the runs of points of group g. */
+/* Loop over the runs of points of group g: sets of up to eight consecutive particles. */
 #define FOR_RUNS(t, g, run)                                                                                            \
     for (const struct turning_run *run = (t)->run + (g)->first; run < (t)->run + (g)->end; run++)
 
 /* ---- points of a group ------------------------------------------------------------------------------------------- */
 
-/* Returns a bit for each point of a run that is on the grid: that is neither peridynamic nor a point of the mesh. all:
- * all particles are on the grid. */
+/* Returns a bit for each point of a run, set if the point is on the grid: neither peridynamic nor a point of the mesh.
+ * all: true if all particles are on the grid. */
 static ALWAYS_INLINE uint8_t run_on_grid(const struct particles *p, const struct turning_run *run, bool all)
 {
     uint8_t bits = (uint8_t)((1u << run->n) - 1);
@@ -40,7 +40,8 @@ static ALWAYS_INLINE void spin_add(const lanes *moment, const lanes *v, lanes *s
     sum[c] += moment[(c + 1) % 3] * v[(c + 2) % 3] - moment[(c + 2) % 3] * v[(c + 1) % 3];
 }
 
-/* Sums mass, moments and momenta of the points of group g about the position of one of its particles, g->about. */
+/* Sums mass, first and second moments, momentum and angular momentum of the points of group g about g->about, the
+ * position of one of its particles, and stores them in *g. */
 static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -168,14 +169,15 @@ static void few_join(struct rotation_groups *t)
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = group_root(t, g);
 }
 
-/* Returns the determinant of a symmetric tensor given by its lower half. */
+/* Returns the determinant of the symmetric tensor J. Only the lower half of J is read. */
 static real inertia_determinant(const real J[3][3])
 {
     const real d = J[1][0], e = J[2][0], f = J[2][1];
     return J[0][0] * (J[1][1] * J[2][2] - f * f) + d * (e * f - d * J[2][2]) + e * (d * f - J[1][1] * e);
 }
 
-/* Solves J w = sum for a symmetric tensor J given by its lower half. */
+/* Solves J w = sum for w[3]. J: symmetric inertia tensor, of which only the lower half is read; sum: angular momentum;
+ * in 2D (dim = 2) only the component z is solved for, the others become 0. */
 static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
 {
     if (dim == 2) {
@@ -217,9 +219,9 @@ static void spins_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Computes the gain of spin of each root from the angular momentum that its points lack, g->sum, and its spin after
- * they have received it: their angular momentum is then g->angular plus the gain of spin times their inertia, which is
- * g->inertia but for what inertias_find has added to that of thin groups. */
+/* Computes the gain of spin of each root (a group that has joined no other) from g->sum, the angular momentum that its
+ * points have not received: J gain = g->sum with J = g->inertia. Then computes its spin after they have received it: J
+ * spin = g->angular + (J - added) gain, where inertias_find has added g->added to the inertia of a thin group. */
 static void gains_find(struct rotation_groups *t, int dim)
 {
     spins_find(t, dim);
@@ -297,7 +299,8 @@ static void inertias_find(struct rotation_groups *t, real spacing, int dim)
     }
 }
 
-/* Calls SUM for each group, with the number of dimensions as a constant. */
+/* EACH_GROUP(SUM, t, p) calls SUM(t, group, p, dim) for each group of t, in parallel, with the number of dimensions as
+ * a constant. */
 #define EACH_GROUP_OF(SUM, t, p, dim)                                                                                  \
     TEAM_LOOP((t)->groups > 16, for (int32_t g = 0; g < (t)->groups; g++) SUM(t, &(t)->group[g], p, dim);)
 #define EACH_GROUP(SUM, t, p)                                                                                          \

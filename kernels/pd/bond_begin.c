@@ -25,20 +25,21 @@
 #define PULL 1.5   /* see above */
 #define PIVOT 1e-6 /* least pivot of a fit over the sum of its weights [1] */
 
-/* The bonds of a row that are examined: from particle i to j, at the stretch `stretch`, with the range of softening
- * that they would have in slow loading [1]. */
+/* A bond that may begin to soften, from particle i to j: its stretch [1], and the range of softening (onset and end)
+ * that it would have in slow loading [1]. */
 struct candidate {
     struct softening_range range;
     real stretch;
     int32_t i, j;
 };
 
-/* Returns the state (due or not) of row block g while row blocks are examined; other threads may set DUE_DENIED in
- * it. */
+/* Returns the state of row block g (the bonds of eight particles): whether it is due, i.e. has a bond beyond its onset
+ * of softening. The load is atomic, since other threads may set DUE_DENIED in it at the same time. */
 static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
 
-/* Returns true if the bond `bond` of row block g, from particle i, is between its onset and its end, beyond which the
- * sweep breaks it, has not begun to soften, and leads to a row block that is due, too; stores it in *c. */
+/* Returns true if the bond `bond` of row block g, from particle i, may begin to soften, and stores it in *c. Its
+ * stretch must be between its onset and the end, beyond which the sweep breaks it; it must not have begun to soften;
+ * and the row block of its other particle must be due, too (have a bond beyond its onset). */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -52,16 +53,16 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
            (c->stretch <= c->range.end || b->soft.settled || b->soft.whole);
 }
 
-/* Returns the row whose dilatation stands for that of particle or image j: its own, or that of the source of the image;
- * -1 if the row does not hold the whole family (all neighbours of a particle). */
+/* Returns the row from which the dilatation at particle j is taken: its own row, or for a mirror image that of its
+ * source. Returns -1 if this row does not hold the whole family (all neighbours of the particle). */
 static int64_t row_of_dilatation(const struct bonds *b, const struct particles *p, int32_t j)
 {
     const int64_t row = b->row_of[image_source_particle(p, b->soft.image, j)];
     return row >= 0 && b->whole[row] ? row : -1;
 }
 
-/* Marks in b->soft.needed the rows whose dilatation the candidates of row block g need. Several threads
- * may mark one row. */
+/* Marks in b->soft.needed the rows whose dilatation is needed to examine the bonds of row block g that may begin to
+ * soften. Several threads may mark one row. */
 static void mark_needed(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
@@ -74,8 +75,8 @@ static void mark_needed(struct bonds *b, const struct particles *p, const struct
         }
 }
 
-/* Normal equations for the strain eps that fits the stretches of a family (all bonds of one particle) best, n unknowns:
- * A eps = b; and the sums of weights (all) and of weighted stretches (sum). */
+/* Normal equations A eps = b for the strain eps that fits the stretches of a family (all bonds of one particle) best,
+ * with n unknowns. all: sum of the weights of the bonds; sum: sum of their weighted stretches. */
 struct strain_fit {
     int n;
     real A[SYM_MAX][SYM_MAX], b[SYM_MAX], all, sum;
@@ -98,8 +99,8 @@ static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real 
     fit->all += w, fit->sum += w * stretch;
 }
 
-/* Solves the normal equations of a family by elimination and returns the trace of its strain [1]. A family of too few
- * directions, whose pivot is below PIVOT times the sum of weights, has `dim` times its mean stretch. */
+/* Solves the normal equations of a family by elimination and returns the trace of its strain [1]. If its bonds have too
+ * few directions (a pivot below PIVOT times the sum of weights), returns dim times its mean stretch instead. */
 static real fit_trace(struct strain_fit *fit, int dim)
 {
     real trace = 0;
@@ -115,7 +116,7 @@ static real fit_trace(struct strain_fit *fit, int dim)
     return trace;
 }
 
-/* Returns lambda/G of the material of particle i [1]: 1 of bonds. */
+/* Returns lambda/G of the material of particle i, the ratio of Lame's constants [1]; it is 1 in bond-based models. */
 static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t i)
 {
     const real D = p->dim;
@@ -142,9 +143,10 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
     return fit_trace(&fit, p->dim) * lame_ratio(b, p, i);
 }
 
-/* Measures the strain rate of a row, the mean rate at which the largest stretch of its bonds grows from half its onset
- * to the onset, in b->soft.rate, which stays until the stretch is below half the onset again; before the onset is
- * reached it holds minus the stretch of the first step [1]. dt: time step [s]. */
+/* Updates the strain rate of a row in b->soft.rate [1/s]: the mean rate at which the largest stretch of its bonds grows
+ * from half its onset of softening to the onset. It then stays until the stretch is below half the onset again. Until
+ * the onset is reached, the entry holds minus the stretch of the first step beyond half the onset [1]. dt: time step
+ * [s]. */
 static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     const real from = b->trigger[row], onset = from / RATE_FROM;
@@ -164,8 +166,8 @@ static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t
     b->soft.rate[row] = real_max(DBL_MIN, time > 0.5 * dt ? grown / time : (most - from) / dt);
 }
 
-/* Measures the strain rates of all rows that were beyond half their onset in the last step, or are in a row block that
- * is due or softens. */
+/* Updates the strain rates of all rows that were beyond half their onset of softening in the last step, and of those in
+ * row blocks (the bonds of eight particles) that soften or have a bond beyond its onset. dt: time step [s]. */
 static void measure_rates(struct bonds *b, const struct particles *p, real dt)
 {
     bool any = false;
@@ -178,8 +180,9 @@ static void measure_rates(struct bonds *b, const struct particles *p, real dt)
     b->soft.rates_kept = any;
 }
 
-/* Returns true if the stress across the bond of candidate c allows it to soften. Both rows of a bond get the same
- * answer: a bond with a row of half a family, at a material point, has the dilatation of its other particle. */
+/* Returns true if the stress across the bond of candidate c allows it to soften. The dilatation at the bond is the mean
+ * of its two particles; where one of them has only a part of its bonds in its row, as a material point has, it is that
+ * of the other. Both rows of a bond thus get one answer. */
 static bool is_pulled(const struct bonds *b, const struct particles *p, const struct candidate *c)
 {
     const int64_t one = row_of_dilatation(b, p, c->i), two = row_of_dilatation(b, p, c->j);
@@ -189,8 +192,9 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
     return 0.5 * sum + PULL * c->stretch > 0;
 }
 
-/* Moves the range of candidate c to that of the strain rate of its bond; of one row alone where the other does not hold
- * a whole family. Returns true if the bond is beyond its onset there. */
+/* Moves the range of softening of candidate c to that of the strain rate of its bond, the mean of both rows, or the
+ * rate of one row if the other does not hold a whole family. Returns true if the bond is beyond its onset at this
+ * rate. */
 static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               struct candidate *c)
 {
@@ -205,9 +209,9 @@ static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, 
     return c->stretch > c->range.onset;
 }
 
-/* Starts the softening of the bond with index q of a row, the candidate *c. The bond loses some energy at once, which
- * the closed form of its dissipation does not count: adds half of it to the fracture energy of the row, except in load
- * steps and state-based models. dt: time step [s]. */
+/* Starts the softening of the bond with index q of a row, described by candidate *c. The bond loses some energy at
+ * once, which the closed form of its dissipation does not include: half of it is added to the fracture energy of the
+ * row, except in load steps and state-based models. dt: time step [s]. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
 {
@@ -222,8 +226,8 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
-/* Examines the bonds of row block g that may begin to soften (is_candidate): those that the stress allows do. Sets
- * DUE_DENIED in its state if the stress does not allow one. */
+/* Starts the softening of those bonds of row block g that may begin to soften (is_candidate) and that the stress across
+ * them allows to. Sets DUE_DENIED in the state of the row block if the stress does not allow a bond to soften. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     bool denied = false;
@@ -244,8 +248,8 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
 }
 
-/* Returns true if a row block became due in the last sweep. Then all due row blocks are examined, so that both rows of
- * a bond are examined in one step. */
+/* Returns true if a row block became due in the last sweep: a bond of its eight particles went beyond its onset of
+ * softening. Then all due row blocks are examined, so that both rows of a bond are examined in one step. */
 static bool any_new(const struct bonds *b)
 {
     bool found = false;

@@ -47,9 +47,9 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
     if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
 }
 
-/* Recomputes the weighted volume of a row (all bonds of one particle) after a change of the weights of its bonds. Only
- * for state-based models that normalise by the present family, of brittle bonds, and rows that hold the complete
- * family. */
+/* Recomputes the weighted volume of a row (all bonds of one particle) after a change of the weights of its bonds. Does
+ * nothing unless the model is state-based and normalises by the present family, the bonds are brittle, and the row
+ * holds the complete family. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && !b->soft.whole && b->whole[row])
@@ -68,8 +68,8 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
-/* Ends bond q of a row, which has softened until its end and has no force: adds what its softening has dissipated to
- * the fracture energy of the row, and marks it as broken. */
+/* Ends the softening of bond q of a row: adds the energy that its whole softening dissipates to the fracture energy of
+ * the row, and marks the bond as broken. The bond must be at the end of its softening, where it has no force. */
 static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64_t q)
 {
     b->soft.most[q] = b->soft.end[q];
@@ -151,7 +151,8 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
 }
 
 /* Returns true if bond q of a row, from particle i to j, is stretched beyond its limit, at which it breaks. Marks the
- * row block as due if the bond is beyond the onset of softening and has not begun to soften. */
+ * row block as due (to be examined before the next sweep) if the bond is beyond its onset of softening and has not
+ * begun to soften. */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {

@@ -8,10 +8,10 @@
 
 enum { COLUMNS_AHEAD = 40 }; /* prefetch distance in columns: about 200 ns ahead */
 
-/* Kinds of columns, by what their bonds have in common (table in bonds/bond_storage.h). FREE: nothing; SHELL:
- * consecutive neighbours, lengths of one lattice shell; ALIKE: in addition one weight; STENCIL: all but the weights as
- * in other row blocks; WHOLE: weights too; UNIT: weight 1, as inside a body, which saves 5 to 7 % of the time of
- * forces, energy and stress of bonds in 2D. */
+/* Kinds of columns, by what their eight bonds have in common (table in bonds/bond_storage.h). FREE: nothing. SHELL:
+ * consecutive neighbours, and lengths of one lattice shell. ALIKE: also one weight. STENCIL: all data but the weights
+ * equal those of other row blocks. WHOLE: the weights do, too. UNIT: also all weights are 1, as inside a body; this
+ * saves 5 to 7 % of the time of forces, energy and stress of bonds in 2D. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
 /* One column: the k-th bonds of the eight particles of a row block, with indices number * LANES to number * LANES + 7.
@@ -46,7 +46,8 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
     return (struct column){b, number, own + column->offset, column, kind >= COLUMN_WHOLE ? NULL : stencil->w[k], kind};
 }
 
-/* Calls VISIT(column) for every column of a row block that has an intact bond, as one instance per kind of column. */
+/* Calls VISIT(column) for every column of a row block that has an intact bond. The call is compiled once for each kind
+ * of column, with the kind as a constant. */
 #define FOR_COLUMNS(B, ROW_BLOCK, VISIT)                                                                               \
     do {                                                                                                               \
         const struct stencil *stencil_ = (B)->stencil[ROW_BLOCK];                                                      \

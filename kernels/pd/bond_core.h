@@ -23,13 +23,14 @@
 /* |y|/|xi| below which the core acts [1]; empirical */
 #define CORE_FROM 0.7
 
-/* A bond within its core: ratio |y|/|xi| (1 outside the core), K [N], y from i to j [m] and distance |y| [m]. */
+/* A bond within its repulsive core. ratio: present over reference length |y|/|xi| (1 outside the core); K: force of the
+ * bond per stretch [N]; y: vector from i to j [m]; distance: |y| [m]. */
 struct core {
     real ratio, K, y[DIM_MAX], distance;
 };
 
-/* Returns the core of a bond in the row of particle i; its ratio is 1 if the bond is broken or not compressed into its
- * core. */
+/* Returns the repulsive core of `bond` in the row of particle i. Its ratio is 1 if the bond is broken or longer than
+ * CORE_FROM of its reference length. */
 static inline struct core bond_repulsive_core_of(const struct bonds *b, const struct particles *p,
                                                  const struct bond *bond, int32_t i)
 {

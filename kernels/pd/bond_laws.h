@@ -34,9 +34,9 @@ static ALWAYS_INLINE lanes bonds_return_mapping(const struct bonds *b, int64_t f
     return stretch - plastic;
 }
 
-/* Returns the stretch times the share of their stiffness that the eight bonds with indices `first_bond` to `first_bond`
- * + 7 keep, in a row block that softens [1] (data/softening.h). largest_stretch: their largest stretches, the present
- * ones included [1]. */
+/* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
+ * 7, in a row block that softens (data/softening.h). stretch: their present stretches [1]; largest_stretch: their
+ * largest stretches, the present ones included [1]. */
 static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch,
                                                   lanes largest_stretch)
 {
@@ -64,9 +64,9 @@ static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, 
 }
 
 /* Returns the force of the eight bonds with indices `first_bond` to `first_bond` + 7, divided by stiffness and weight
- * [1]. It equals the stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), or its elastic part where bonds
- * yield, or less where they soften; the state of those is updated. stretch: total stretch; w: weights, 0 for broken
- * bonds [1]. */
+ * [1]. It equals the stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), its elastic part where bonds
+ * yield, and stretch times remaining stiffness fraction where they soften. Updates the plastic or softening state.
+ * stretch: total stretch [1]; w: weights, 0 for broken bonds [1]. */
 static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, const struct bonds *b, int64_t first_bond,
                                                   lanes stretch, lanes w)
 {
@@ -89,8 +89,8 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + first_bond) : stretch;
 }
 
-/* Returns the elastic part of the given stretch of bond number `bond` of a row block [1], by the rules of
- * bonds_elastic_stretch. */
+/* Returns the elastic part of the stretch `stretch` of bond number `bond` of a row block [1]: less its plastic stretch
+ * where bonds yield, times its remaining stiffness fraction where they soften. */
 static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     if (b->soft.curve) return stretch * bond_remaining_stiffness_fraction(b, row_block, bond, stretch);

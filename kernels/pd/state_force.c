@@ -57,8 +57,8 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
     rotation_encode(rotation, R, spring, dim);
 }
 
-/* Moduli and weighted volumes Q of the families of eight particles; inverse and share are 0 for families without
- * bonds. */
+/* Moduli and weighted volumes Q = sum w |xi|^2 of the families (all bonds) of eight particles; inverse and share are 0
+ * for families without bonds. */
 struct own_family {
     lanes A, B;    /* moduli [Pa] */
     lanes inverse; /* 1/Q [1/m^2] */
@@ -103,7 +103,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
-/* Returns the mask of those rows of row block g whose particles are material points with bonds, the others being
+/* Returns the mask of those rows of row block g that belong to material points with bonds; the others belong to
  * peridynamic particles. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
@@ -177,8 +177,8 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Computes the states of the families of row block g from their sums and stores them in b->state, material points with
- * bonds included. */
+/* Computes pressure, spring stiffness and rotation of the families of row block g from `sum`, the sums over their
+ * bonds, and stores them in b->state; for material points with bonds, too. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {

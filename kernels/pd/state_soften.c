@@ -17,8 +17,8 @@
 #include "kernels/kernels.h"
 #include "state_last.h"
 
-/* Returns Y/w of a bond in the row of particle i, at the present states of both families [J]. Both rows of a bond get
- * equal bits. */
+/* Returns Y/w, the energy that a bond in the row of particle i would set free per weight and damage, at the present
+ * states of both families [J]. Both rows of a bond get equal bits. */
 static real bond_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     const struct state *t = &b->state;
@@ -47,8 +47,8 @@ static real bond_driving_energy(const struct bonds *b, const struct particles *p
     return r * e * (t->pressure[at[0]] + t->pressure[at[1]]) + 0.5 * (own[0] + own[1]);
 }
 
-/* Sets the damage of the bond with index q of a row, which softens, to that of its largest stretch `most` [1]. Returns
- * 1 if the bond has ended. */
+/* Sets the damage of softening bond q of a row to that of the stretch `most`, its largest so far [1]. Returns 1 if this
+ * is the end of its softening, at which it breaks, else 0. */
 static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, int64_t q, real most)
 {
     const struct softened *soft = &b->soft;
@@ -63,8 +63,9 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
     return 0;
 }
 
-/* Lets the bonds of one row soften. Sets *changed to true if one of them has. Returns the number of bonds that have
- * ended. */
+/* Increases the damage of the softening bonds of one row to that of their present stretches, where this sets energy
+ * free. Sets *changed to true if the damage of a bond has changed. Returns the number of bonds that have broken, at the
+ * end of their softening. */
 static int64_t row_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row,
                           bool *changed)
 {

@@ -26,8 +26,8 @@ struct sweep {
     bool diverged;
 };
 
-/* Returns the part of the list of active row blocks that the calling thread processes, divided as by
- * schedule(static). */
+/* Returns the part of the list of active row blocks that the calling thread processes: the threads of the team get
+ * equal shares in order, as by schedule(static). */
 static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
 {
     const int64_t threads = omp_get_num_threads(), t = omp_get_thread_num(), all = b->active.active;
