@@ -30,9 +30,9 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates the blocks with extra nodes of slits whose positions are in block `near`, because they are neighbours of
- * the nodes there. moves: true if the nodes of `near` move; if they are extra nodes themselves, the blocks at their
- * positions are then activated, too. */
+/* Activates the blocks (of eight nodes along x) of the extra nodes that slits make at the positions of nodes of block
+ * `near`, since they are neighbours of the nodes there. moves: true if the nodes of `near` move; if these are extra
+ * nodes themselves, the blocks at their positions are then activated, too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -79,8 +79,8 @@ static bool nodes_inactive(const struct mesh *mesh, int64_t block)
     return !nodes_moved(mesh, block);
 }
 
-/* Returns true if the wall w, a prescribed velocity of a node, holds the node at rest for the whole run: the wall of a
- * mirror, or of a velocity of 0. */
+/* Returns true if the wall w, a prescribed velocity of a node, holds the node at rest for the whole run: if it belongs
+ * to a mirror, or to a boundary that prescribes the value 0. */
 static bool wall_is_fixed(const struct loads *l, const struct wall *w)
 {
     const struct boundary *b = l->load[w->load].boundary;

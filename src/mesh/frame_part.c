@@ -10,9 +10,9 @@
 
 /* ---- choice of the frame ----------------------------------------------------------------------------------------- */
 
-/* Returns the reason why a body for which the scene does not choose a frame cannot be in the reference frame, as part
- * of a message; NULL if it can. The body must be one piece on one lattice, with two particles per cell and axis.
- * hollow: cells whose particles were not created. */
+/* Returns the reason, as part of a message, why a body for which the scene does not choose a frame cannot be in the
+ * reference frame; NULL if it can. It can if it is one piece on one lattice, with two particles per cell and axis. mpm:
+ * its first grid gives the nodes; hollow: cells whose particles were not created. */
 static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm,
                                   const struct cells_without_particles *hollow)
 {
@@ -81,8 +81,9 @@ bool reference_frame_in_use(const struct reference_frame *r)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the elastic constants of the cells, one entry per material: those of the material, own[materials], or those
- * of its bonds on the lattice if mpm.constants says so. family: family of these bonds. Release it with memory_free. */
+/* Returns the elastic constants of the cells, one entry per material: those of the material, own[materials], or, if
+ * mpm.constants requests it, those of a lattice of its bonds. family: family (neighbours) of these bonds. Release it
+ * with memory_free. */
 static struct elastic *cell_constants(const struct scene *s, const struct elastic *own, const struct family *family)
 {
     struct elastic *cell = NEW("engine.cell_elastic", s->materials, struct elastic);
@@ -158,8 +159,9 @@ void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_
     levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_due_in_step(&r->levels, step));
 }
 
-/* Sets the walls, the prescribed velocities of nodes, of the mesh and of the coarse levels 1 .. due, whose steps are
- * 2^level times as long. middle: time in the middle of the step of the mesh [s]; dt: its length [s]. */
+/* Sets the walls (prescribed velocities of nodes) of the mesh and of the levels 1 .. due of coarse cells. A step of
+ * level k is 2^k times as long as one of the mesh. middle: time in the middle of the step of the mesh [s]; dt: its
+ * length [s]. */
 static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
     loads_prescribe_mesh_velocities(loads, &r->mesh, middle, dt);
@@ -170,8 +172,9 @@ static void nodes_walls(struct reference_frame *r, const struct loads *loads, re
     }
 }
 
-/* Adds the reactions on the walls, nodes of prescribed velocity, of the mesh and of the coarse levels 1 .. due to their
- * loads. dt_velocity: time over which the nodes of the mesh were accelerated [s]. */
+/* Adds the reactions on the walls (nodes of prescribed velocity) of the mesh and of the levels 1 .. due of coarse cells
+ * to the loads that prescribe them. dt_velocity: time over which the nodes of the mesh were accelerated [s]; for level
+ * k it is 2^k times as long. */
 static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
     loads_add_grid_reactions(loads, &frame->mesh.grid, dt_velocity);

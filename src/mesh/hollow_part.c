@@ -45,8 +45,8 @@ const char *scene_why_all_particles_needed(const struct scene *s)
     return NULL;
 }
 
-/* Computes the box of cells around the first body, with its nodes at those of the body's mesh. Returns REFUSED if it
- * has too many cells. */
+/* Stores in *box the grid of the cells around the first body, with nodes at those of the body's mesh. Returns REFUSED
+ * if it has too many cells. */
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
@@ -90,7 +90,8 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 }
 
 /* Returns true if a load acts on a face of cell I beside which the next cell is not completely inside the body, or on a
- * layer behind such a face that contains the cell. X[dim]: a point of the cell [m]. */
+ * layer of the load's depth behind such a face that contains the cell. h: cells without particles; X[dim]: a point of
+ * the cell [m]. */
 static bool face_loaded(const struct scene *s, const struct cells_without_particles *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -118,7 +119,8 @@ static bool near_probe(const struct scene *s, const struct probe_request *probe,
     return false;
 }
 
-/* Returns true if a probe of the scene uses particles within three cells of X[dim] [m]. h: size of a cell [m]. */
+/* Returns true if X[dim] [m] is in the range of a probe of the scene, from whose particles the probe is evaluated,
+ * extended by three cells. h: edge of a cell [m]. */
 static bool probed(const struct scene *s, const real *X, real h)
 {
     for (int k = 0; k < s->probes; k++) {
@@ -132,8 +134,9 @@ static bool probed(const struct scene *s, const real *X, real h)
     return false;
 }
 
-/* Returns true if cell I must have particles: near pre-cracks and probes, in regions of loads and on loaded faces, and
- * near the region that is peridynamic from the start. source: provides the cutoff of bonds. */
+/* Returns true if cell I must have particles, because it is near a pre-crack or a probe, in the region of a load, on a
+ * loaded face, or near the region that is peridynamic from the start. source: provides the cutoff of bonds; h: grid of
+ * the cells. */
 static bool cell_needed(const struct scene *s, const struct bond_source *source,
                         const struct cells_without_particles *h, int64_t I)
 {
@@ -182,8 +185,8 @@ bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level)
 }
 
 /* Returns flags [box.n] that are 1 for the cells that need no particles: those farther than `ahead` cells from cells of
- * level 0, the finest. level: levels of the cells of the mesh. A coarse cell has all of its particles or none. Release
- * it with memory_free. */
+ * level 0, the finest. A coarse cell has all of its particles or none. level: levels of the cells of the mesh. Release
+ * the flags with memory_free. */
 static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
 {
     const struct cells_without_particles *h = &r->hollow;

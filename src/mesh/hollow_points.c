@@ -4,8 +4,9 @@
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-/* Sets positions, volumes, masses and materials of the points of a cell, one for each of its 2^dim integration points.
- * m: materials of the scene; first: index of the first point in p; point[2^dim]: receives their indices. */
+/* Sets positions, volumes, masses and materials of the points of a cell, one for each of its 2^dim integration points
+ * (at a quarter or three quarters of its edge along each axis). m: materials of the scene; first: index of the first
+ * point in p; point[2^dim]: receives their indices. */
 static void cell_points(struct particles *p, const struct mesh *mesh, const struct material *m, int64_t cell,
                         int64_t first, int32_t *point)
 {
@@ -21,8 +22,9 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
     }
 }
 
-/* Makes the points of the listed cells of a level, cell[cells], from index `first` on, with the motion of the nodes of
- * this level. body: the particles of the run; m: materials of the scene. */
+/* Makes points (only for output) in the listed cells of a level, cell[cells], one for each integration point. Their
+ * indices in r->shown.part begin at `first`, and their motion is that of the nodes of this level. body: the particles
+ * of the run; m: materials of the scene. */
 static void level_points(struct reference_frame *r, const struct particles *body, const struct material *m, int level,
                          const int64_t *cell, int64_t cells, int64_t first)
 {

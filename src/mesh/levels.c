@@ -20,9 +20,9 @@ static void corner_find(struct mesh_levels *l, const struct particles *p)
     }
 }
 
-/* Makes the mesh of a level (cells with the edge of 2^level finest cells), without cells, with the nodes that its cells
- * may have. source: number of materials; density: of each material [kg/m^3]. Returns REFUSED if it has too many
- * nodes. */
+/* Makes the mesh of a level (cells with the edge of 2^level finest cells) with the nodes that its cells may have; the
+ * cells follow later. source: provides the number of materials; density: of each material [kg/m^3]. Returns REFUSED if
+ * the mesh has too many nodes. */
 static status level_make(struct mesh_levels *l, int level, const struct mesh_source *source, const real *density)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -172,8 +172,8 @@ real levels_power_of_forces(const struct mesh_levels *l)
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
-/* Copies the flags `stressed` of the rows of cells of a mesh to marks[runs]: 1 if, in the last computation of forces, a
- * point of the row may have exceeded the stress at which coarse cells are split. */
+/* Copies the flags `stressed` of the rows of cells of a mesh to marks[runs]. A flag is 1 if, in the last computation of
+ * forces, a point of the row may have exceeded the stress at which coarse cells are split. */
 static void stressed_get(const struct mesh *mesh, uint8_t *marks)
 {
     for (int64_t r = 0; r < mesh->runs; r++) marks[r] = mesh->run[r].stressed;
@@ -185,7 +185,7 @@ static void stressed_put(struct mesh *mesh, const uint8_t *marks)
 }
 
 /* Saves the flags of stressed rows of cells of a level (cells with the edge of 2^level finest cells) to the archive a,
- * or restores them. Returns FAILED if the archive does not have them. */
+ * or restores them from it, as the function a->exchange does. Returns FAILED if the archive does not have them. */
 static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 {
     char name[48];
@@ -226,8 +226,8 @@ void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles 
 }
 
 /* Saves displacements, velocities and momenta of the nodes of a level (cells with the edge of 2^level finest cells) and
- * the flags of its stressed cells to the archive a, or restores them. Returns FAILED if the archive does not have
- * them. */
+ * the flags of its stressed cells to the archive a, or restores them from it, as the function a->exchange does. Returns
+ * FAILED if the archive does not have them. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
     real *const *field[] = {mesh->displacement, mesh->grid.velocity, mesh->grid.momentum};

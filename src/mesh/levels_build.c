@@ -46,8 +46,9 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     return acts;
 }
 
-/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) that computes forces contains a node
- * of the next finer level. at: indices of the node, counted from the lower corner of the body. */
+/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) that computes forces contains a
+ * certain node of the next finer level. at: indices of this node along each axis, counted from the lower corner of the
+ * body in cells of the finer level. */
 static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t *at)
 {
     const struct mesh *mesh = &l->at[level].mesh;
@@ -65,16 +66,17 @@ static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t 
     return false;
 }
 
-/* Appends a ghost to the list of level m: node `coarse` of the coarse mesh, whose displacement is that of node `fine`
- * of the finer mesh at the same position. */
+/* Appends a ghost to the list of level m. A ghost is a node of the coarse mesh, `coarse`, whose displacement is that of
+ * the node `fine` of the finer mesh at the same position. */
 static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
 {
     GROW("levels.ghost", m->ghost, m->ghosts + 1);
     m->ghost[m->ghosts++] = (struct mesh_ghost){(int32_t)coarse, (int32_t)fine};
 }
 
-/* Appends node I of the finer mesh to the hanging nodes of level m: it is in the middle of a coarse edge or face along
- * the axes in the bit set `odd`, and its motion is the mean of the nodes at the ends (masters). */
+/* Appends node I of the finer mesh to the hanging nodes of level m. A hanging node is in the middle of a coarse edge or
+ * face along the axes in the bit set `odd`, and its motion is the mean of the nodes at the ends (masters). mesh: the
+ * finer mesh. */
 static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I, unsigned odd)
 {
     struct mesh_hanging h = {.node = (int32_t)I};
@@ -115,8 +117,9 @@ static void interface_find(struct mesh_levels *l, int level)
     }
 }
 
-/* Sets bit c of mesh->matched at each corner c of a whole cell if all neighbours of the cell are whole cells of its
- * material: such cells have matched inertia. */
+/* Sets bit c of mesh->matched at the node at each corner c of a whole cell if all neighbours of the cell are whole
+ * cells of its material. Such cells have a mass matrix blended of lumped and consistent mass
+ * (kernels/mesh/mesh_inertia.h). */
 static void matched_find(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
@@ -144,9 +147,9 @@ void levels_find_interfaces(struct mesh_levels *l)
 /* Adds a share of the value of node i of one mesh to node k of another: to[k] += share * from[i]. */
 static inline void give(const real *from, int64_t i, real *to, int64_t k, real share) { to[k] += share * from[i]; }
 
-/* Transfers the momentum of a hanging node along axis d to its masters, the nodes at the ends of the edge or face of
- * which it is the middle. Each receives its share of the mass times its own velocity, and an equal part of the rest,
- * which is 0 for linear velocities. */
+/* Adds the momentum of hanging node h along axis d to its masters, the nodes at the ends of the edge or face of which
+ * it is the middle, and sets it to 0 at h. Each master receives its share of the mass of h times its own velocity, and
+ * an equal part of the rest, which is 0 if velocities are linear along the edge. */
 static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
 {
     const real *velocity = g->velocity[d], share = g->mass[h->node] / h->masters;

@@ -42,8 +42,8 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     return a;
 }
 
-/* Computes the weights of the 2^dim corners of a cell at the position a->t in the cell, weight[2^dim] [1] (linear along
- * each axis). */
+/* Computes weight[2^dim], the weights of the corners of a cell in the linear interpolation at the position a->t in it
+ * [1]. */
 static void coarse_corner_weights(const struct cell_around *a, int dim, real *weight)
 {
     for (int c = 0; c < 1 << dim; c++) {
@@ -107,8 +107,9 @@ void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all)
 
 /* ---- motion of the nodes of new cells ---------------------------------------------------------------------------- */
 
-/* Computes lumped mass times velocity of every node, before transfers between levels, and displacement, velocity and
- * mass times velocity of coarse nodes from the nodes of level 0 (the finest) at the same positions. */
+/* Samples the motion of the nodes of new cells: computes lumped mass times velocity of every node of level 0 (the
+ * finest), and copies displacement and velocity of coarse nodes from the nodes of level 0 at the same positions, with
+ * mass times velocity. Masses are those before the transfer between levels. */
 static void nodes_sample(struct mesh_levels *l)
 {
     struct mesh *fine = l->fine;
@@ -131,8 +132,8 @@ static void nodes_sample(struct mesh_levels *l)
     }
 }
 
-/* Returns the mean of a nodal field of level 0 over the corners of all cells of level 0 inside a cell of `level` (cells
- * with the edge of 2^level finest cells). first: lowest of these cells. */
+/* Returns the mean of a nodal field of level 0 (the finest) over the corners of all cells of level 0 inside a cell of
+ * `level` (cells with the edge of 2^level finest cells). first: index of the lowest of these cells of level 0. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
     const int dim = l->fine->grid.dim, parts = levels_fine_cells_per_cell(l, level);
@@ -143,9 +144,9 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
     return sum / (real)(parts << dim);
 }
 
-/* Corrects the momentum of the merged cell J of `level` (cells with the edge of 2^level finest cells), which has the
- * indices q: distributes the part that its corners do not have by their sampled velocities to the corners in equal
- * parts. */
+/* Corrects the momentum of the merged cell J of `level` (cells with the edge of 2^level finest cells): the momentum of
+ * its finest cells, less that of its corners by their sampled velocities, is distributed equally to its corners. q:
+ * indices of the cell along each axis. */
 static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -179,8 +180,9 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
     }
 }
 
-/* Computes the velocities of the nodes of all levels from their momenta; sets momenta and forces to 0, and computes the
- * momenta that velocities imply. */
+/* Computes the velocities of the nodes of all levels from their momenta. Then sets all forces and the momenta of level
+ * 0 (the finest) to 0, and the momenta of coarse nodes to those that belong to their velocities by the blended mass
+ * matrix (kernels/mesh/mesh_inertia.h). */
 static void velocities_make(struct mesh_levels *l)
 {
     for (int level = 0; level <= l->n; level++) {
@@ -194,9 +196,9 @@ static void velocities_make(struct mesh_levels *l)
     levels_compute_momenta(l);
 }
 
-/* Iterations of w <- w + v - B w that solve B w = v (kernels/mesh/mesh_inertia.h) to round-off: eigenvalues of B - 1
- * are below 0.48, as match is at most 1/2 and the eigenvalues of consistent over lumped mass are at least 1/27; they
- * are far smaller for long waves. */
+/* Number of iterations w <- w + v - B w that solve B w = v to round-off, with the inverse mass matrix B of
+ * kernels/mesh/mesh_inertia.h. The eigenvalues of B - 1 are below 0.48, since mesh->match is at most 1/2 and the
+ * eigenvalues of consistent over lumped mass are at least 1/27; for long waves they are far smaller. */
 enum { MOMENTA_ROUNDS = 52 };
 #define MOMENTA_TOLERANCE 3e-16 /* tolerance of the residual [largest velocity] */
 

@@ -19,8 +19,8 @@ enum { CARRIED_BY_ANY = 1 }; /* level that carries all loads but pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the shortest rise time of the boundary b, as for a ramp [s]; for prescribed displacements, the rise time of
- * their velocity, which is a pulse or jumps. */
+/* Returns the shortest rise time of the boundary b, as for a ramp [s]: the value over its largest rate. For prescribed
+ * displacements it is that of their velocity, which is a pulse or jumps (0). */
 static real rise_of(const struct boundary *b)
 {
     const struct time_function *f = &b->time;
@@ -36,8 +36,8 @@ static real rise_of(const struct boundary *b)
     return steepest > 0 ? most / steepest : INFINITY;
 }
 
-/* Returns the largest edge of cells that represent waves with the rise r in a body of thickness `across` [spacings].
- * edges: smallest number of cell edges across the body for a rise that is not a pulse. */
+/* Returns the largest edge of cells [spacings] that represent waves with the rise r in a body of thickness `across`
+ * [spacings]. edges: smallest number of cell edges across the body; not used if the rise is that of a pulse. */
 static real edge_for(const struct load_rise *r, real across, real edges)
 {
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
@@ -86,8 +86,9 @@ static struct load_rise sharpest_rise(const struct scene *s, real across)
     return least;
 }
 
-/* Returns the smallest extent of the bodies in 1D and 2D, and the middle one in 3D [spacings]. hollow: cells whose
- * particles were not created; then the extent follows from the shape. */
+/* Returns the thickness of the bodies [spacings]: their smallest extent along an axis in 1D and 2D, the middle one of
+ * three in 3D. hollow: cells whose particles were not created; if there are any, the extent is that of the body's
+ * shape. */
 static real spacings_across(const struct scene *s, const struct particles *p,
                             const struct cells_without_particles *hollow)
 {
@@ -169,8 +170,9 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
                  r->waves);
 }
 
-/* Writes to text[capacity] what cells of `edge` spacings require: a pulse length, or a rise and a body thickness.
- * edges: smallest number of cell edges across the body. */
+/* Writes to text[capacity] what loads cells of `edge` spacings require: a pulse of some length, or a rise over some
+ * length or a body of some thickness. c: choice of levels with the decisive load; edges: smallest number of cell edges
+ * across the body. */
 static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t capacity)
 {
     if (c->rise.pulse)

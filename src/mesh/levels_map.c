@@ -4,7 +4,8 @@
 #include "base/memory.h"
 #include "levels_parts.h"
 
-/* Data of the cells of a level, [nodes of its grid] each. */
+/* Data of the cells of one level (cells with the edge of 2^level finest cells), each array with one entry per node of
+ * the grid of the level. */
 struct level_map {
     uint8_t *ok;               /* a cell of this level, or a part of a coarser one, is admissible */
     uint8_t *some;             /* contains a cell of level 0 with points */
@@ -18,7 +19,7 @@ static struct level_map level_map_make(int64_t n)
 }
 
 /* Initialises the data `to` of the cells of level 0 (the finest). demand: 1 for cells that must be of level 0; limit:
- * largest level of each cell; NULL: no limits. */
+ * largest level allowed for each cell; NULL: all levels are allowed. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {
@@ -53,9 +54,9 @@ static void gather_parts(struct level_map *map, const struct mesh_levels *l, int
     to->ok[I] &= to->limit[I] >= level;
 }
 
-/* Returns true if all or none of the cells of level 0 (the finest) that touch a block of 2^dim cells in a direction
- * contain points. Otherwise a node at the end of an edge of a coarse cell would have no finer node. first: indices of
- * the lower corner of the block; beside: direction, -1, 0 or 1 along each axis. */
+/* Returns true if the cells of level 0 (the finest) that touch a block of 2^dim cells in one direction all contain
+ * points, or none does. Otherwise a node at the end of an edge of a coarse cell would have no finer node. first:
+ * indices of the lower corner of the block in g; beside: the direction, -1, 0 or 1 along each axis. */
 static bool touching_alike(const struct level_map *map, const struct grid *g, const int64_t *first, const int *beside)
 {
     int some = 0, all = 0;
@@ -106,8 +107,8 @@ static bool ring_allows(const struct level_map *map, const struct mesh_levels *l
     return true;
 }
 
-/* Determines the admissible cells of `level` (cells with the edge of 2^level finest cells) in map[level] from the data
- * of the next finer level. */
+/* Determines for each cell of `level` (cells with the edge of 2^level finest cells) whether it is admissible, in
+ * map[level], from the data of the next finer level. */
 static void level_map_find(struct level_map *map, const struct mesh_levels *l, int level)
 {
     const struct grid *g = &level_mesh_read_only(l, level)->grid;
@@ -162,8 +163,8 @@ bool levels_are_consistent(const struct mesh_levels *l)
     return sound && covered == coarse;
 }
 
-/* Marks the cells within `reach` cells of a marked one along a line of n cells, `stride` apart in mark. Bit 0 of mark
- * is the original mark, bit 1 the extended one. */
+/* Sets bit 1 of mark for the cells within `reach` cells of a cell with bit 0, along a line of n cells whose entries in
+ * mark are `stride` apart. */
 static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
 {
     int64_t last = -reach - 1;

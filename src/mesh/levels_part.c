@@ -5,10 +5,10 @@
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-/* Ranges around cells that must be of level 0 (the finest), beyond those that conversion requires; empirical [cells of
- * level 0]. ZONE_MORE: around peridynamic particles, a margin for crack growth between two changes; ZONE_LATE:
- * additional range for merging. AROUND_STRESS: around stressed cells. AROUND_RING: around rings of sif probes
- * [spacings], as tips move between two checks. */
+/* Ranges around cells that must be of level 0 (the finest) beyond those that conversion requires; empirical [cells of
+ * level 0]. ZONE_MORE: around peridynamic particles, a margin for crack growth between two changes of levels.
+ * ZONE_LATE: further range within which cells are not merged. AROUND_STRESS: around stressed cells. AROUND_RING: around
+ * the rings (integration paths) of sif probes [spacings], since crack tips move between two checks. */
 enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 };
 /* Additional range of level 0 (the finest) between slits and coarse cells [cells]. It is empirical: with coarse cells
  * nearer, two slits 5 to 18 spacings apart with faces in contact gained energy without bound, a single slit did not;
@@ -16,9 +16,10 @@ enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 };
 enum { FLANK_MORE = 2 };
 #define SPLITS 0.5 /* stress at which cells split, over that at which points convert */
 #define MERGES 0.25
-/* Largest energy of motion that a coarser cell may lose, over the mean energy per mass of the body [1]. */
+/* Largest energy of motion per mass that a coarser cell may lose, over the mean energy per mass of the body [1]. */
 #define ROUGH 0.01
-/* Steps between checks for merging of cells; consecutive checks after which a cell may merge. */
+/* Number of steps between checks whether cells may merge, and number of consecutive checks without a demand for finest
+ * cells nearby after which a cell may merge. */
 enum { CHECK_STEPS = 256, CALM_CHECKS = 2 };
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
@@ -52,8 +53,8 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
     return I;
 }
 
-/* Sets demand[I], which requires level 0 (the finest), for cells beside planes of symmetry that are not on nodes of all
- * levels. */
+/* Sets demand[I], which requires level 0 (the finest), for the cells I beside those planes of symmetry that are not on
+ * nodes of all levels. */
 static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -72,16 +73,17 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
     }
 }
 
-/* Sets demand[I], which requires level 0 (the finest), for cells beside slits, because coarse cells have no counterpart
- * of their extra nodes. */
+/* Sets demand[I], which requires level 0 (the finest), for the cells I beside slits: slits give nodes of level 0 extra
+ * nodes at their positions, and coarse cells have none. */
 static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 {
     for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Sets demand[I], which requires level 0 (the finest), for cells inside and around the ring of a sif probe; demand
- * NULL: sets nothing. Returns true if one of these cells is part of a coarse cell at present. */
+/* Sets demand[I], which requires level 0 (the finest), for the cells I inside and around `ring`, the integration path
+ * of a sif probe. demand may be NULL; then nothing is set. Returns true if one of these cells is part of a coarse cell
+ * at present. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -105,9 +107,10 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* Sets demand[I], which requires level 0 (the finest), for cells inside and around the rings of all sif probes, as
- * ring_cells does: these probes need accelerations in every step, which coarse cells have in some steps only. demand
- * NULL: sets nothing. Returns true if one of the cells is part of a coarse cell at present. */
+/* Sets demand[I], which requires level 0 (the finest), for the cells I inside and around the rings (integration paths)
+ * of all sif probes. These probes need accelerations in every step, and nodes of coarse cells have them in some steps
+ * only. demand may be NULL; then nothing is set. Returns true if one of these cells is part of a coarse cell at
+ * present. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
@@ -121,10 +124,10 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Returns flags [fine->grid.n] of the cells that must be of level 0 (the finest): within l->roomy_cells + more cells of
- * peridynamic particles and of cells that request it; within FLANK_MORE further cells of several slits, within one cell
- * of a single slit; within one cell of loaded particles and of planes of symmetry off the nodes. Release it with
- * memory_free. */
+/* Returns flags [fine->grid.n] of the cells that must be of level 0 (the finest). These are the cells within
+ * l->roomy_cells + more cells of peridynamic particles and of cells with a request; within FLANK_MORE further cells of
+ * slits if there are several, within one cell of a single slit; and within one cell of loaded particles and of planes
+ * of symmetry that are not on nodes. Release the flags with memory_free. */
 static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
                             int more)
 {
@@ -168,9 +171,9 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
     memory_free(own);
 }
 
-/* Returns flags [fine->grid.n] of the cells whose stress exceeds `share` of the stress at which points convert, and of
- * cells around them; NULL if there are none. all: true to test all cells, false for coarse cells only. Release it with
- * memory_free. */
+/* Returns flags [fine->grid.n] of the cells whose stress exceeds `share` times [1] the stress at which points convert,
+ * and of cells around them; NULL if no cell is stressed so much. all: true to test all cells, false for coarse cells
+ * only. Release the flags with memory_free. */
 static uint8_t *stressed_cells(const struct reference_frame *frame, real share, bool all)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -197,17 +200,17 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Reduces the upper bounds limit[I] of the levels of cells to those that the thickness of the body allows, r->room,
- * unless the scene prescribes the levels. */
+/* Reduces limit[I], the largest levels allowed for the cells, to r->room[I], which the thickness of the body allows.
+ * Does nothing if the scene prescribes the levels. */
 static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 {
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
-/* Computes the levels of all cells of level 0 (the finest) for the next steps, level[I]. demand: cells that must be of
- * level 0; limit: upper bounds, which are reduced for cells that, if coarser than at present, would lose too much
- * energy of motion. mass: mass of the body [kg]. */
+/* Computes level[I], the levels of all cells of level 0 (the finest) in the next steps. demand: not 0 for cells that
+ * must be of level 0; limit: largest level allowed for each cell, reduced here for cells that would lose too much
+ * energy of motion by becoming coarser; mass: of the body [kg]. */
 static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -299,9 +302,9 @@ static bool any_stressed(const struct mesh_levels *l)
     return any;
 }
 
-/* Computes upper bounds of the levels of cells for the next change, limit[I]. Cells may always become finer. They may
- * become coarser only in calls with `checks`, after CALM_CHECKS consecutive such calls in which nothing required level
- * 0 (the finest) nearby. */
+/* Computes limit[I], the largest levels that cells may have after the next change. Cells may always become finer. They
+ * may become coarser only in calls with `checks`, after CALM_CHECKS consecutive such calls in which nothing required
+ * level 0 (the finest) nearby. */
 static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool checks,
                         uint8_t *limit)
 {

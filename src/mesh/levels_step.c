@@ -10,9 +10,9 @@ int levels_highest_due_in_step(const struct mesh_levels *l, int64_t step)
     return due;
 }
 
-/* Sets the displacements of the ghosts of a level (cells with the edge of 2^level finest cells), which are nodes of its
- * mesh at positions of nodes of the next finer level, to those of the finer nodes. Cells at the interface need them to
- * compute forces. */
+/* Sets the displacements of the ghosts of a level to those of the nodes of the next finer level at the same positions.
+ * A ghost is a node of the mesh of this level (cells with the edge of 2^level finest cells) whose motion is that of
+ * such a finer node. Cells beside finer ones need them to compute forces. */
 static void ghosts_displace(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -53,8 +53,8 @@ void levels_update_hanging(struct mesh_levels *l, int level)
         }
 }
 
-/* Transfers the forces on the hanging nodes between `level` and the next finer level to their masters, in equal
- * parts. */
+/* Adds the forces on the hanging nodes between `level` and the next finer level to their masters, in equal parts. A
+ * hanging node is in the middle of a coarse edge or face, its masters are the nodes at the ends. */
 static void hanging_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -68,9 +68,9 @@ static void hanging_fold(struct mesh_levels *l, int level)
         }
 }
 
-/* Adds the forces of the cells of `level` (cells with the edge of 2^level finest cells) on their ghosts to the finer
- * nodes at the same positions, twice, because the steps of the finer level are half as long. Sets the forces on the
- * ghosts to 0. */
+/* Adds the forces of the cells of `level` on their ghosts to the nodes of the next finer level at the same positions,
+ * and sets the forces on the ghosts to 0. A ghost is a node of the coarser mesh that moves with such a finer node. The
+ * forces are added twice, because the steps of the finer level are half as long. */
 static void ghosts_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];

@@ -10,14 +10,15 @@
 
 #define PLACE_TOLERANCE 1e-6 /* tolerance of the positions of points in a cell [cells] */
 #define VOLUME_TOLERANCE 1e-9
-/* Displacements are multiples of 2^-60 cells: far below the last bit of a position; tiny precursors of a wave are
- * rounded to 0. */
+/* Displacements of nodes are multiples of 2^-60 cell edges. This is far below the last bit of a position; the tiny
+ * precursor of a wave is rounded to 0, so that nodes ahead of the wave stay at rest. */
 #define DISPLACEMENT_BITS 60
 
 /* ---- positions of points ----------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED with the message that a body cannot be in the reference frame because particle i `what`, such as
- * "shares its position in the grid cell with another particle". */
+/* Refuses to put a body in the reference frame, with the message that this is impossible because the particle at the
+ * position of particle i `what`, such as "shares its position in the grid cell with another particle". Returns
+ * REFUSED. */
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
 {
     return status_set(REFUSED,
@@ -44,8 +45,9 @@ int64_t mesh_slot_of_particle(const struct mesh *mesh, const struct particles *p
     return (cell << p->dim) + q;
 }
 
-/* Finds cell and integration point of all particles with FLAG_MESHED: mesh->place, mesh->point. A cell has 2^dim
- * integration points, one particle each. Returns REFUSED as mesh_make. */
+/* Finds the cell and the integration point of every particle with FLAG_MESHED (mesh->place, mesh->point). A cell has
+ * 2^dim integration points, with at most one particle each. Returns REFUSED, with a message, if a particle is not at an
+ * integration point, two particles share one, or their volumes differ. */
 static status points_place(struct mesh *mesh, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -91,7 +93,7 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
     mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
 }
 
-/* Returns REFUSED if two bodies share a node of the mesh: they would move as one there. */
+/* Returns REFUSED, with a message, if two bodies share a node of the mesh, where they would move as one body. */
 static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 {
     uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t); /* 1 + body of the points around the node */
@@ -109,8 +111,9 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the kind of cell I. A whole cell has all its points, of one material and without partial stresses, and all
- * its corners are nodes of the grid; a partial cell lacks one of these, an empty one has no points. */
+/* Returns the kind of cell I. A whole cell has all its points, which are of one material and without partial stresses,
+ * and all its corners are nodes of the grid. A partial cell has points, but lacks one of these properties; an empty
+ * cell has no points. s: partial stresses. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -128,8 +131,8 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
     return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_PARTIAL;
 }
 
-/* Appends whole cell I to the last run of the band, a row of consecutive whole cells of one material, or begins a new
- * run. */
+/* Appends whole cell I, of `material`, to the last run of the present band, or begins a new run. A run is a row of
+ * consecutive whole cells of one material. */
 static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 {
     struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
@@ -187,9 +190,9 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-/* Determines the kinds of the cells marked in `dirty` (NULL: of all cells) from their points, and rebuilds the list of
- * runs (rows of whole cells) and that of partial cells with their stiffness. s: elastic constants and partial
- * stresses. */
+/* Determines the kinds of cells from their points, and rebuilds the list of runs (rows of whole cells) and that of
+ * partial cells with their stiffness. s: elastic constants and partial stresses; dirty: not 0 for the cells whose kind
+ * may have changed; NULL: all cells. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
@@ -235,8 +238,8 @@ void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
 /* Allocates all arrays of a mesh that covers the box `lower` .. `upper` [m], without points or cells. node_grid:
- * dimension, edge and origin of the nodes. p: particles whose slits divide cells and nodes; NULL: no slits. Returns
- * REFUSED if the mesh has too many nodes. */
+ * dimension, edge and origin of the nodes; p: particles whose slits divide cells and nodes; NULL: no slits; source:
+ * slits and voids. Returns REFUSED if the mesh has too many nodes. */
 status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
                      const struct particles *p, const struct mesh_source *source)
 {
@@ -291,8 +294,8 @@ static void mesh_absent_make(struct mesh *mesh, const struct cells_without_parti
     }
 }
 
-/* Makes the nodes of the mesh around all particles, aligned with those of the grid `like`, and arrays for the positions
- * of its points. Returns REFUSED if there are too many nodes. */
+/* Makes the nodes of the mesh around all particles of p, aligned with the nodes of the grid `like`, and arrays for the
+ * positions of its points. source: slits and voids that divide cells. Returns REFUSED if there are too many nodes. */
 static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like,
                          const struct mesh_source *source)
 {
@@ -365,8 +368,8 @@ void mesh_free(struct mesh *mesh)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Removes particle i from the mesh. Returns the kinetic energy that its mass has by the velocities of the nodes, minus
- * that by its own velocity [J]. */
+/* Removes particle i from the mesh. Returns the kinetic energy of its mass with the velocities of the nodes around it,
+ * less that with its own velocity [J]. */
 static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
 {
     const int64_t place = mesh->place[i];
@@ -384,8 +387,8 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
     return energy;
 }
 
-/* Recomputes the masses of the nodes of the cells marked in left[grid.n]. Sets velocity and displacement of nodes that
- * are left without mass to 0. */
+/* Recomputes the masses of the nodes of the cells I with left[I], which particles have left. Sets velocity and
+ * displacement of nodes without any mass to 0. left: [grid.n]. */
 static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
 {
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);

@@ -3,7 +3,8 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* Flags of points that bonds or loads use [particles], and of the cells that contain such points [cells]. */
+/* Flags of the exposed points (with bonds, loads or images, so that their motion is needed in every step), [particles],
+ * and of the cells that contain such points, [cells]. */
 struct exposure {
     uint8_t *point, *cell;
 };
@@ -19,8 +20,8 @@ static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
     e->cell[mesh->place[i] >> mesh->grid.dim] = 1;
 }
 
-/* Sets the flags of the particles whose images are among the neighbours nbr[LANES] of a column of bonds, because images
- * move with their sources. Most columns contain no image. image: list of images. */
+/* Sets the flags of the sources of the images among the neighbours nbr[LANES] of a column of bonds, because bonds to
+ * images need the motion of the sources. Most columns contain no image. image: list of images. */
 static void images_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                           const struct image *image, const int32_t *nbr)
 {
@@ -51,8 +52,8 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
-/* Sets the flags of the points that have intact bonds in row block g, and of those whose images are neighbours there.
- * l: loads, with the list of images. */
+/* Sets the flags of the points that have intact bonds in row block g (the bonds of eight particles), and of the sources
+ * of the images that are neighbours there. l: loads, with the list of images. */
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {

@@ -12,7 +12,7 @@ struct nodes {
     int32_t *at;
 };
 
-/* Finds the nodes at the corners of the cells that contain the n listed particles, and stores them in t. The caller
+/* Finds the nodes at the corners of the cells that contain the n particles list[k], and stores them in *t. The caller
  * releases t->at with memory_free. */
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
                        int64_t n)
@@ -29,7 +29,7 @@ static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct pa
     memory_free(mark);
 }
 
-/* Returns the kinetic energy of the nodes in t [J]. */
+/* Returns the kinetic energy of the nodes in t, with lumped masses [J]. */
 static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
 {
     real sum = 0;
@@ -39,7 +39,7 @@ static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
     return sum;
 }
 
-/* Makes the n listed particles points of the mesh, and recomputes mass and velocity of the nodes t around them such
+/* Makes the n particles list[k] points of the mesh, and recomputes mass and velocity of the nodes t around them such
  * that momentum is conserved. Uses grid.momentum of these nodes as working memory. */
 static void points_enter(struct mesh *mesh, struct particles *p, const struct nodes *t, const int32_t *list, int64_t n)
 {
@@ -67,8 +67,8 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
     }
 }
 
-/* Sets the displacement of nodes that had no mass before, light[I], to the mean displacement of the n listed inserted
- * points around them, weighted by mass and shape function. */
+/* Sets the displacement of the nodes I with light[I], which had no mass before, to the mean displacement of the n
+ * inserted points list[k] around them, weighted by mass times shape function. */
 static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p, const uint8_t *light,
                                     const int32_t *list, int64_t n)
 {

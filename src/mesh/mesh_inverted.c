@@ -2,8 +2,8 @@
  * volume. */
 #include "mesh_parts.h"
 
-/* Returns the present over the reference volume at an integration point of a cell [1]: the determinant of 1 + sum_c u_c
- * (x) grad N_c over the corners c. place: cell << dim + number of the point in the cell. */
+/* Returns the ratio of present to reference volume at an integration point of a cell [1]: the determinant of 1 + sum_c
+ * u_c (x) grad N_c over the corners c. place: (cell << dim) + number of the integration point in the cell. */
 static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
 {
     const int32_t cell = place >> dim;
@@ -18,9 +18,9 @@ static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
            F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
 }
 
-/* Tests at small cost a necessary condition for an inverted cell; returns false if the cell cannot be inverted. No
- * entry of the displacement gradient exceeds the largest difference of a component between corners over h, and a
- * gradient with row sums below 1 inverts no cell. */
+/* Returns false if a cell cannot be inverted, by a cheap test; true if it may be. No entry of the displacement gradient
+ * exceeds the largest difference of a component between corners over h, and a gradient with row sums below 1 inverts no
+ * cell. */
 static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int dim)
 {
     real most = 0;
@@ -36,8 +36,8 @@ static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int d
     return !(dim * most < mesh->grid.h);
 }
 
-/* Returns the lowest index below `first` of a particle of the cell at which the cell is inverted; `first` if there is
- * none. */
+/* Returns the lowest index, below `first`, of a particle of the cell at which the cell is inverted; `first` if there is
+ * no such particle. */
 static int64_t inverted_in(const struct mesh *mesh, int64_t cell, int dim, int64_t first)
 {
     for (int64_t place = cell << dim; place < (cell + 1) << dim; place++) {

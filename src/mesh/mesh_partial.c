@@ -51,8 +51,8 @@ static void bends_terms(struct mode_terms *t, int dim)
             }
 }
 
-/* Makes the strain terms of all deformation modes of a cell, t[MODES_MAX], in the order of
- * kernels/mesh/mesh_partial.h. */
+/* Lists the strain terms of all deformation modes of a cell in t[MODES_MAX]: first the symmetric components of the mean
+ * strain, then the bending modes, set by set of axes (kernels/mesh/mesh_partial.h). */
 static void modes_terms(struct mode_terms *t, int dim)
 {
     const int symmetric = symmetric_component_count(dim);
@@ -106,8 +106,8 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
 }
 
 /* Computes sum[S] [Pa] for each set S of axes (a bit set): the sum over the points of cell I of D times the signs of
- * their coordinates along the axes of S, divided by the number of corners, where D is the matrix of stress by strain of
- * a point. Uses butterflies along one axis after the other. */
+ * their coordinates along the axes of S, divided by the number of corners. D is the matrix of stress by strain of a
+ * point. The sums of all S are formed together, along one axis after the other (butterflies). */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -142,8 +142,8 @@ static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_M
 /* Strain of the points of a cell by its modes: [point][symmetric component][mode] [1]; shear strains are angles. */
 typedef real point_strains[CORNERS_MAX][SYM_MAX][MODES_MAX];
 
-/* Computes the strains B of the points of cell I by its modes, if the material of a point has one dilatation for all
- * its points in the cell, their mean (mesh_law.h). Returns false, without values, if no material has. */
+/* Computes the strains B of the points of cell I by its modes, with one dilatation for all points of a material in the
+ * cell, their mean (mesh_law.h). Returns false, without values, if no material of the cell has the mean dilatation. */
 static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strains B)
 {
     const int32_t *point = &c->mesh->point[I << c->dim];
@@ -195,9 +195,9 @@ static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_stra
     }
 }
 
-/* Computes the upper half of the stiffness matrix of partial cell I by modes [Pa]. K: its first entry; further ones are
- * LANES apart, since the matrices of LANES cells are interleaved. K is used as symmetric: D is symmetric up to
- * round-off. */
+/* Computes the upper half of the stiffness matrix of partial cell I by modes [Pa], row by row. K: receives the first
+ * entry; further ones follow at distances of LANES, since the matrices of LANES cells are interleaved. The lower half
+ * is not stored, since the matrix is symmetric up to round-off. */
 static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
@@ -225,10 +225,10 @@ static void ends_free(struct mesh *mesh)
     mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
 }
 
-/* Computes by how much each mode of a cell contributes to the mean strain of the family of a point with PD-MPM bonds,
- * share[modes] [1]. local: part of the strain that the bonds of the point do not measure (L of struct partial_stress);
- * place: number of the point in the cell, 0 .. 2^dim - 1; B: strains of the points by the modes from averaged_strains;
- * NULL: points have their own dilatation. */
+/* Computes share[modes] [1]: by how much each mode of a cell contributes to the mean strain of the family of a point
+ * with PD-MPM bonds. local: derivative of this mean strain by the strain of the cell (struct partial_stress); place:
+ * number of the point in the cell, 0 .. 2^dim - 1; B: strains of the points by the modes, from averaged_strains; NULL:
+ * each point has its own dilatation. */
 static void end_share(const struct cell_maker *c, const real *local, int place, point_strains B, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
@@ -250,8 +250,8 @@ static int64_t end_entry(const struct cell_maker *c, int32_t i)
     return i >= 0 && point_has_state_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
-/* Appends the points with state-based PD-MPM bonds in partial cell k to mesh->end, from index *n on, with the
- * contributions of the modes to their mean strain. Advances *n. */
+/* Appends the points with state-based PD-MPM bonds in partial cell number k to mesh->end, from index *n on, with the
+ * contributions of the modes of the cell to their mean strain. Advances *n by the number of these points. */
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -320,8 +320,8 @@ void mesh_partial_free(struct mesh *mesh)
     mesh->stiffness = NULL;
 }
 
-/* Returns the material with the lowest conversion stress among the points of cell I. s: elastic constants with these
- * stresses. */
+/* Returns the number of the material with the lowest conversion stress among the materials of the points of cell I. s:
+ * elastic constants, with these stresses. */
 static uint8_t partial_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -350,16 +350,16 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
     return c;
 }
 
-/* Returns the address of the first number of a partial cell in an array with `each` numbers per cell, interleaved for
- * LANES cells; NULL if `from` is NULL. */
+/* Returns the address of the first number of partial cell `cell` in an array with `each` numbers per cell, which is
+ * interleaved for LANES cells; NULL if the array `from` is NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
 }
 
-/* Copies `each` numbers of each of the partial cells from[LANES] of the previous array `old` to group `group` of the
- * array `to`, lane by lane as they are stored, so that both arrays are read and written in order. A lane with from < 0
- * keeps its values. */
+/* Copies `each` numbers of each of the LANES partial cells from[l] of the array `old` to lane l of group `group` of the
+ * array `to`. A lane with from[l] < 0 keeps its values. The numbers of LANES cells are interleaved in both arrays,
+ * which are read and written in order. */
 static void group_copy(real *to, real *old, const int64_t *from, int64_t group, int each)
 {
     real *own = to + group * each * LANES;
@@ -369,8 +369,8 @@ static void group_copy(real *to, real *old, const int64_t *from, int64_t group, 
         for (int l = 0; l < LANES; l++) own[k + l] = source[l][k];
 }
 
-/* Repeats the first cell of the last group of LANES partial cells until the group is full. The repeated cells have no
- * stiffness and are not counted. */
+/* Appends copies of the first partial cell of the last group of LANES partial cells until this group is full. The
+ * copies have no stiffness and are not counted. */
 static void groups_fill(struct mesh *mesh)
 {
     const int64_t whole = mesh_partial_cell_group_count(mesh) * LANES, partial_cells = mesh->partial_cells;
@@ -378,9 +378,9 @@ static void groups_fill(struct mesh *mesh)
     mesh->partial_cells = partial_cells;
 }
 
-/* Returns for each partial cell its index in the previous list `old`; -1 if its stiffness must be computed because it
- * is new or marked in `dirty` (NULL: all are), and for the lanes that fill the last group. Release it with
- * memory_free. */
+/* Returns for each partial cell its index in the previous list `old`. The index is -1 if the stiffness of the cell must
+ * be computed, because the cell is new or marked in `dirty` (NULL: all cells are), and for the lanes that fill the last
+ * group of LANES cells. Release the list with memory_free. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
     int64_t *from = BARE("mesh.from", mesh_partial_cell_group_count(mesh) * LANES, int64_t);
@@ -395,8 +395,8 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
     return from;
 }
 
-/* Returns an array of `each` numbers for every partial cell, uninitialised except for the last group of LANES cells,
- * which is 0. Release it with memory_free. */
+/* Returns an array of `each` numbers for every partial cell, interleaved in groups of LANES cells. The last group is 0,
+ * others are uninitialised. label: name of the array. Release it with memory_free. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
     const int64_t groups = mesh_partial_cell_group_count(mesh), size = each * LANES;
@@ -456,8 +456,8 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
     memory_free(old->stiffness);
 }
 
-/* Makes the groups of partial cells marked in changed[groups], and those that use the stiffness of such a group, use
- * their own stiffness again (mesh->alike), since it may differ now. */
+/* Makes the groups g of partial cells with changed[g], and the groups that use the stiffness of such a group, use their
+ * own stiffness again (mesh->alike[g] = g), since it may differ now. changed: [groups]. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
     for (int64_t g = mesh_partial_cell_group_count(mesh) - 1; g >= 0; g--)

@@ -45,8 +45,8 @@ static void join(int32_t *above, int32_t I, int32_t J)
     above[a > b ? a : b] = (a > b ? b : a) + 1;
 }
 
-/* Joins the nodes of each cell whose particles were not created. above: as in mesh_pieces_root_of; h: these cells, or
- * NULL. */
+/* Joins the nodes of each cell whose particles were not created, as if they were there. above: as in
+ * mesh_pieces_root_of; box: grid of these nodes; h: the cells; NULL: all particles were created. */
 static void hollow_join(int32_t *above, const struct mesh *box, const struct cells_without_particles *h)
 {
     for (int64_t I = 0; h && h->absent && I < h->box.n; I++) {

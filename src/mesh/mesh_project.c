@@ -58,8 +58,8 @@ static void row_make(const struct projection *m, int64_t I, real *row)
     }
 }
 
-/* Returns the product of a row of the mass matrix, row[3^dim], with nodal values. from: address of the value at the
- * node of the row; across, layer: distances between rows and layers of nodes in the array. */
+/* Returns the product of one row of the mass matrix, row[3^dim], with the nodal values around its node. from: address
+ * of the value at this node; across, layer: index distances of neighbours along y and z. */
 static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t across, int64_t layer, const int dim)
 {
     real sum = 0;
@@ -69,9 +69,9 @@ static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t
     return sum;
 }
 
-/* Returns the product of a row of the mass matrix with nodal values along one axis, if all points around the node exist
- * and have mass 1: with two points in a cell, sum_q N_I N_I is 5/8 in each of the two cells, and sum_q N_I N_J is 3/8
- * for either neighbour J. from: address of the value at the node. */
+/* Returns the product of a row of the mass matrix in 1D with nodal values, if all points around the node exist and have
+ * mass 1. With two points in a cell, the sum over points of N_I N_I is 5/8 in each of the two cells, and that of N_I
+ * N_J is 3/8 for either neighbour J. from: address of the value at node I. */
 static ALWAYS_INLINE real line_product(const real *from) { return 0.375 * (from[-1] + from[1]) + 1.25 * from[0]; }
 
 static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
@@ -94,8 +94,8 @@ static bool is_unknown(const struct projection *m, int64_t I)
     return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]);
 }
 
-/* Returns the sum of m_p N_I value_p over the points p around node I, cell by cell; 0 if the value at the node is not
- * computed. */
+/* Returns the right side of the projection at node I, the sum of m_p N_I value_p over the points p around it, cell by
+ * cell (m_p: mass, N_I: shape function); 0 if the value at the node is not computed. */
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
     real sum = 0;
@@ -117,8 +117,9 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
     return beside;
 }
 
-/* Returns the product of row I of the mass matrix with the nodal values `from` at a node beside a slit, point by point;
- * 0 if the value at the node is not computed. */
+/* Returns the product of row I of the mass matrix with the nodal values `from`, for a node I beside a slit. It is
+ * summed point by point, since the nodes around it may be extra nodes of the slit. Returns 0 if the value at the node
+ * is not computed. */
 static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, const real *from, const int dim)
 {
     real sum = 0;
@@ -159,9 +160,9 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
     }
 }
 
-/* Computes to[I] for all nodes, as nodes_gather does, with the number of dimensions of the particles as a constant: the
- * right side from the values at points, or, if `value` is NULL, the product of the mass matrix with the nodal values
- * `from`. */
+/* Computes to[I] for all nodes I by nodes_gather with the dimensions of the particles as a constant. If `value` is not
+ * NULL, to[I] is the right side of the projection of these values of points, else the product of the mass matrix with
+ * the nodal values `from`. */
 static void gather(const struct projection *m, const real *value, const real *from, real *to)
 {
 #define CASE(D)                                                                                                        \

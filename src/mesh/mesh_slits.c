@@ -14,9 +14,10 @@
  * pieces each. */
 enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };
 
-/* An extra node or cell under construction, at the position of node or cell `base` of the grid. Of a node: the pieces
- * of cells around it, one bit each (8 c + g: piece g of the cell of which the node is corner c). Of a cell: the number
- * of its piece. open: as in struct mesh_slits. */
+/* An extra node or cell under construction, at the position of node or cell `base` of the grid. A piece is a set of
+ * points of a cell that no slit separates. Of a node, `pieces` is the set of pieces around it, bit 8 c + g for piece g
+ * of the cell of which the node is corner c. Of a cell, `piece` is the number of its piece. open: as in struct
+ * mesh_slits. */
 struct extra {
     int64_t base;
     uint64_t pieces;
@@ -67,7 +68,7 @@ static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
     return positions_parted(m, i, a, b);
 }
 
-/* Sets mark[I] for the cells at most two cells from cell I along each axis. */
+/* Sets mark[J] = 1 for the cells J of grid g that are at most two cells from cell I along each axis. */
 static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
 {
     enum { FAR = 2 };
@@ -92,8 +93,8 @@ static bool slit_near(const struct slit_maker *m, int64_t I)
     return false;
 }
 
-/* Divides the points of cell I into pieces that slits separate from each other (m->piece, m->pieces). Adds an extra
- * cell for each piece but the first. */
+/* Divides the points of cell I into pieces (sets of points that no slit separates) and stores them in m->piece and
+ * m->pieces. Appends an extra cell for each piece but the first. */
 static void cell_divide(struct slit_maker *m, int64_t I)
 {
     const int corners = 1 << m->p->dim;
@@ -124,8 +125,8 @@ static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
 }
 
 /* Returns true if point q of one cell and point r of another are opposite each other across the face or edge that the
- * cells share. q, r: numbers 0 .. 2^dim - 1 of the points in their cells; c, k: numbers of the corner of both cells at
- * which a common node is. */
+ * cells share. q, r: numbers 0 .. 2^dim - 1 of the points in their cells; c, k: numbers of the corner of the first and
+ * of the second cell at a node that both share. */
 static bool quarter_points_face(int q, int r, int c, int k)
 {
     const int apart = c ^ k; /* directions in which the cells follow each other */
@@ -140,9 +141,10 @@ static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Returns true if the pieces `one` and `other` around node I, sets of points of a cell, are connected: no slit passes
- * between a point of one and a point of the other. Tests the points that are opposite each other across the boundary of
- * the cells; all points only if there are no such pairs. */
+/* Returns true if two pieces around node I are connected. A piece is a set of points of a cell that no slit separates;
+ * one, other: numbers of the pieces (8 c + g: piece g of the cell of which the node is corner c). Two pieces are
+ * connected if no slit passes between a point of one and a point of the other. Only points that are opposite each other
+ * across the boundary of the cells are tested, or all points if there are no such pairs. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
     const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
@@ -261,11 +263,11 @@ static void slits_divide(struct slit_maker *m)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Returns how many extra nodes or cells (made by slits) are stored in a row of nodes: LANES fewer than the row has,
- * since whole vectors are read and written beyond its ends. */
+/* Returns how many extra nodes or cells (made by slits) are stored in a row of nodes of grid g: LANES fewer than the
+ * row has, since whole vectors are read and written beyond its ends. */
 static int64_t row_room(const struct grid *g) { return g->count[0] - LANES; }
 
-/* Returns the index in the arrays of nodes and cells of extra node or cell number k, one of those that slits make. */
+/* Returns the index, in the arrays of nodes and of cells, of the extra node or cell number k (made by slits). */
 static int64_t extra_index(const struct mesh *mesh, int64_t k)
 {
     const struct grid *g = &mesh->grid;
@@ -364,8 +366,8 @@ static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
     tables_nodes(mesh, m);
 }
 
-/* Extends the box from .. to [m] of the grid g along its last axis until n extra nodes or cells fit behind it. Returns
- * REFUSED if the grid becomes too large. */
+/* Extends the grid g, which covers the box from[dim] .. to[dim] [m], along its last axis until n extra nodes or cells
+ * (made by slits) fit behind the nodes of the box. Returns REFUSED if the grid becomes too large. */
 static status box_extend(struct grid *g, const real *from, const real *to, int64_t n)
 {
     const int last = g->dim - 1;
@@ -409,8 +411,8 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
 
 /* ---- blocks and groups ------------------------------------------------------------------------------------------- */
 
-/* Records that a block of nodes has extra nodes or cells (made by slits) that are positioned in another block. extra,
- * base: a node or cell of either block. */
+/* Records that the block of nodes (eight along x) that contains the extra node or cell `extra` is linked to the block
+ * that contains `base`, the node or cell at its position. Extra nodes and cells are made by slits. */
 static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
 {
     struct mesh_slits *s = &mesh->slits;

@@ -8,8 +8,8 @@
 #include "kernels/mesh/mesh_law.h"
 #include "kernels/mesh/mesh_point.h"
 
-/* Adds the contribution of the point with number q in a cell to the stiffness K for displacements of the corners [N/m],
- * column by column. m: elastic constants; h: edge of the cell [m]; V: volume of the point [m^3]. */
+/* Adds the contribution of point number q (0 .. 2^dim - 1) of a cell to the stiffness matrix K for displacements of the
+ * corners [N/m], column by column. m: elastic constants; h: edge of the cell [m]; V: volume of the point [m^3]. */
 static void point_stiffness(real *K, const struct elastic *m, int dim, real h, real V, int q)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -31,9 +31,10 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     }
 }
 
-/* Replaces in the stiffness K[n][n] of cell I for displacements of its corners [N/m] the dilatation of each point of
- * `material` by the mean over these points (mesh_law.h): K - sum V k t (x) t + N V k T (x) T. t: trace of the strain at
- * a point by the displacements; T: mean of t over the N points; k: mean_dilatation_stiffness. */
+/* Replaces the dilatation of each point of `material` by the mean over these points (mesh_law.h) in the stiffness
+ * K[n][n] of cell I for displacements of its corners [N/m]: K - sum V k t (x) t + N V k T (x) T. t: derivative of the
+ * trace of the strain at a point by the displacements; T: mean of t over the N points; V: volume of a point; k:
+ * mean_dilatation_stiffness. */
 static void average_dilatation(const struct mesh *mesh, const struct elastic *m, const struct particles *p, int64_t I,
                                uint8_t material, real *K)
 {
@@ -102,10 +103,10 @@ static void mesh_scaled_stiffness(void *context, const real *x, real *y)
         for (int a = 0; a < c->n; a++) y[a] += c->K[b * c->n + a] * x[b];
 }
 
-/* Returns the largest eigenvalue of m^-1/2 K m^-1/2 [1/s^2] for one cell with the points in the bit set `places`. m:
- * elastic constants; h: edge of the cell [m]; V: volume of a point [m^3]. No eigenvalue of the mesh exceeds that of its
- * stiffest cell alone, with the masses of its points. Cells whose points have one dilatation are softer; their bound is
- * that of points with their own. */
+/* Returns the largest eigenvalue of m^-1/2 K m^-1/2 [1/s^2] for one cell with the points in the bit set `places` (K:
+ * stiffness, m: lumped masses of these points at the corners). m: elastic constants; h: edge of the cell [m]; V: volume
+ * of a point [m^3]; density: [kg/m^3]. No eigenvalue of the mesh exceeds that of its stiffest cell alone. Cells whose
+ * points have one dilatation are softer; this value is an upper bound for them. */
 static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -129,8 +130,8 @@ static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
-/* Returns true if a point of cell I has a partial stress: it leaves a part of its stress to bonds, so that the cell is
- * softer than without bonds. */
+/* Returns true if a point of cell I has a partial stress: bonds carry a part of its stress, so that the cell is softer
+ * than without bonds. */
 static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
 {
     if (!partial || !partial->index) return false;
