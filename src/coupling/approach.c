@@ -12,8 +12,8 @@ struct body_box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Returns the bounding boxes of the present positions of each body's particles: an array [bodies], freed by the caller.
- * Boxes of bodies without particles are empty (from > to). */
+/* Returns for each body the bounding box of the present positions of its particles, an array [bodies]. The box of a
+ * body without particles is empty (from > to). Release the array with memory_free. */
 static struct body_box *body_boxes(const struct particles *p, int bodies)
 {
     struct body_box *all = NEW("approach.boxes", bodies, struct body_box);
@@ -41,7 +41,8 @@ static struct body_box *body_boxes(const struct particles *p, int bodies)
     return all;
 }
 
-/* Returns true if particle i is within `reach` [m] of the box of another body. box: bounding boxes [bodies]. */
+/* Returns true if particle i is within `reach` [m] of the bounding box of another body. box: bounding boxes of the
+ * bodies, [bodies]. */
 static bool in_foreign_box(const struct particles *p, const struct body_box *box, int bodies, int64_t i, real reach)
 {
     for (int b = 0; b < bodies; b++) {
@@ -73,7 +74,8 @@ static void mark(struct particles *p, int64_t i)
         p->low_since[i] = INFINITY;
 }
 
-/* Marks, among the particles list[n], those that are within `reach` [m] of a listed particle of another body. */
+/* Marks those of the n particles list[k] that are within `reach` [m] of another particle of the list that belongs to
+ * another body. */
 static void mark_listed(struct particles *p, const int32_t *list, int64_t n, real reach)
 {
     struct particles places = {.n = n, .n_all = n, .dim = p->dim};

@@ -19,8 +19,8 @@ static void list_add(struct index_list *l, int64_t i)
     l->at[l->n++] = (int32_t)i;
 }
 
-/* Finds the particles and mirror images within the cutoff of bonds around particle i, in near->at. map: map of lattice
- * sites of the bonds, which is faster than a search; NULL: none. */
+/* Finds the particles and mirror images within the cutoff of bonds around particle i, and stores them in near->at. map:
+ * map of the lattice sites of the bonds, which makes this faster; NULL: a search is done instead. */
 static void family_find(struct neighbour_list *near, const struct bond_source *s, const struct site_map *map,
                         const struct particles *p, int64_t i)
 {
@@ -37,7 +37,7 @@ static void family_find(struct neighbour_list *near, const struct bond_source *s
 
 /* ---- before the first step --------------------------------------------------------------------------------------- */
 
-/* Returns true if a pre-crack cuts a bond of particle i to one of the particles `near`. */
+/* Returns true if a pre-crack cuts a bond between particle i and one of the particles in `near` that is of its body. */
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i,
                        const struct neighbour_list *near)
 {
@@ -89,8 +89,9 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
     return false;
 }
 
-/* Appends to l the peridynamic particles whose PD-MPM bonds become stiffer when other bonds break (state-based models
- * with local normalisation): the partial stress of the material points there changes. */
+/* Appends to l the peridynamic particles with a bond to a material point that becomes stiffer when other bonds break,
+ * so that the partial stress of the material points there changes. Appends none unless the model is state-based and
+ * normalises by the present family (s->local). */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {
@@ -112,9 +113,9 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
     list_add(changed, i);
 }
 
-/* Converts the flagged material points and, if rule->block is set, the material points of their body within the cutoff.
- * Appends all of them to `changed` and clears the conversion flags of all particles. map: map of lattice sites, NULL:
- * none; t: time, stored at the first conversion [s]. */
+/* Converts the flagged material points and, if rule->block is set, all material points of their body within the cutoff.
+ * Appends all of them to `changed` and clears the conversion flags of all particles. map: map of lattice sites; NULL:
+ * neighbours are searched for; t: present time [s], which is stored at the first conversion. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, const struct site_map *map, struct index_list *changed,
                            real t)
@@ -155,8 +156,8 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
 }
 
 /* Updates positions and velocities of all particles within the cutoff of the converted particles `changed`, before
- * bonds to them are made. Each particle is listed once, so that threads write different particles. sync: function that
- * updates them, NULL: nothing to do; map: map of lattice sites, NULL: none. */
+ * bonds to them are made. Each particle is updated once, so that threads write different particles. sync: function that
+ * updates listed particles; NULL: none needs it; map: map of lattice sites; NULL: neighbours are searched for. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                       const struct site_map *map, const struct index_list *changed)
 {

@@ -12,8 +12,8 @@ static void region_add(struct region *r, const struct solid *s)
     r->solid[r->n++] = *s;
 }
 
-/* Returns true if a particle is within one spacing of X [m], a position at an end of crack c, and no mirror continues
- * the crack there. An end outside the body is the mouth of a notch. */
+/* Returns true if X[dim] [m], a position at an end of crack c, is inside the body: if a particle is within one spacing
+ * of it and no mirror continues the crack there. An end outside the body is the mouth of a notch. */
 static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
     return !mirrors_continue_crack_end(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&

@@ -55,8 +55,9 @@ static void put_conversion(const struct run *e, struct json *j)
     json_close(j, '}');
 }
 
-/* Saves or restores the state of conversion. The material points of PD-MPM bonds are not saved: they follow from the
- * mesh. */
+/* Saves the state of conversion to the archive a if a->saving is true, else restores it from there. The strains of
+ * material points with PD-MPM bonds are not saved: they are recomputed from the mesh. Returns FAILED if the archive
+ * cannot be written or lacks the state. */
 static status coupling_state_of(struct run *e, struct archive *a)
 {
     if (!a->saving) bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, e->scene->material);

@@ -7,7 +7,8 @@
 #include "grid/grid_part.h"
 #include "mesh/mesh_part.h"
 
-/* Names as text: `a`, `a and b`, `a, b and c`; names beyond the first few are counted. all: total number of names. */
+/* Names as text: `a`, `a and b`, `a, b and c`. Only the first few names are written, the others are counted. n: names
+ * written; all: total number of names. */
 struct name_list {
     int n, all;
     char text[320];
@@ -39,8 +40,8 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
                  names.text, names.all > 1 ? "are" : "is");
 }
 
-/* Warns of missing contact between several bodies, depending on the method. approaches: particles convert when bodies
- * approach each other, so that they have contact. */
+/* Warns of missing contact between several bodies, depending on the method. approaches: true if particles convert when
+ * bodies approach each other, so that the bodies have contact. */
 static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
                             struct warnings *to)
 {
@@ -77,8 +78,8 @@ static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
     return apart2 <= 1e-6 * most2;
 }
 
-/* Sets touch[a * bodies + b] to true, a < b, if particles of bodies a and b are closer than `reach` [m] at the start
- * and move together. Returns the number of such pairs of bodies. */
+/* Sets touch[a * bodies + b] to true, for a < b, if particles of the bodies a and b are closer than `reach` [m] at the
+ * start and have the same velocity. Returns the number of such pairs of bodies. */
 static int touching(const struct particles *p, const struct cells *cells, int bodies, real reach, bool *touch)
 {
     struct neighbour_list near = {0};

@@ -8,20 +8,22 @@
 
 #define NEIGHBOUR_SPACINGS 1.5 /* nearest neighbours along axes and face diagonals */
 
-/* outside the interface zone; neighbour of one of its points; point of the zone */
+/* Marks of particles: outside the interface zone; outside the zone, but a neighbour of one of its points; material
+ * point of the zone. */
 enum mark { OUTSIDE, BESIDE, POINT };
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Returns true if damping may change the velocity of particle j: it is no mirror image, is not moved by mesh nodes, and
- * its motion is not prescribed. */
+/* Returns true if damping may change the velocity of particle j: if it is neither a mirror image nor a point of the
+ * mesh, and its motion is not prescribed. */
 static bool interface_zone_is_free(const struct particles *p, int32_t j)
 {
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Sets mark[] to `as` for unmarked free particles within `radius` [m] of the particles list[n] of their body: material
- * points only if `as` is POINT, else all. Threads that reach the same particle write the same value. */
+/* Sets mark[j] to `as` for unmarked particles j within `radius` [m] of the n particles list[k] and of the same body,
+ * whose velocity damping may change. With `as` = POINT only material points are marked. Threads that reach the same
+ * particle write the same value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -47,16 +49,17 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the particles with mark `as` to the members of the interface zone, ascending. slot[n]: receives the index of
- * each of them among the members. */
+/* Appends the particles i with mark[i] = `as`, in ascending order, to the members of the interface zone. slot[i]:
+ * receives the index of particle i among the members; n: number of particles. */
 static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *slot, int64_t n, enum mark as)
 {
     for (int64_t i = 0; i < n; i++)
         if (mark[i] == as) slot[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
 }
 
-/* Finds the members of the interface zone: its material points, near peridynamic particles, and then their neighbours
- * outside it. mark[p->n]: 0 before; slot[p->n]: receives the index of each member. */
+/* Finds the members of the interface zone: its material points, which are near peridynamic particles, and then their
+ * neighbours outside it. mark[p->n]: 0 before, receives the mark of each particle; slot[p->n]: receives the index of
+ * each member. */
 static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                          uint8_t *mark, int32_t *slot)
 {
@@ -68,9 +71,9 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the neighbours of member k in pairs of which at least one is a material point of the interface zone. to:
- * receives the indices of these members in the order of particles; NULL: count only. near: working memory. Returns
- * their number. */
+/* Finds the neighbours of member k of the interface zone in pairs of which at least one is a material point of the
+ * zone. mark, slot: as from members_make; to: receives the indices of these neighbours among the members, in the order
+ * of particles; NULL: they are only counted; near: working memory. Returns their number. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {
@@ -88,8 +91,9 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
     return n;
 }
 
-/* Counts the neighbours of each member in r->start[k + 1] (count true), or writes them to r->neighbour (count false).
- * Returns the largest number of neighbours of a member, at least 1. */
+/* Counts the neighbours of each member k of the interface zone in r->start[k + 1] if `count` is true, else writes their
+ * indices to r->neighbour. mark, slot: as from members_make. Returns the largest number of neighbours of a member, at
+ * least 1. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {
@@ -149,8 +153,8 @@ void interface_zone_free(struct interface_zone *r)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Adds factor ((b - a) . e) e to sum[dim]. a, b: velocities [dim]; e: unit vector from the present position of particle
- * i to that of j. */
+/* Adds factor ((b - a) . e) e to sum[dim], with the unit vector e from the present position of particle i to that of j.
+ * a, b: velocities of i and j [dim]. */
 static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor,
                       real *sum)
 {
@@ -169,8 +173,8 @@ static void velocity_of(const struct particles *p, int32_t i, real *v)
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* Computes m d of member k in r->difference: its mass times the scaled sum of the velocity differences to its
- * neighbours along the lines to them [kg m/s]. */
+/* Computes m d of member k in r->difference [kg m/s]: its mass m times d, the sum of the velocity differences to its
+ * neighbours along the lines to them, times r->scale. */
 static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
 {
     const int32_t i = r->particle[k];
@@ -197,8 +201,8 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
     }
 }
 
-/* Returns half of the energy that damping removed [J]: -1/2 times the sum over members of change of momentum times
- * present velocity. The other half has been computed with the velocities before the step. */
+/* Returns the second half of the energy that damping removed [J]: -1/2 times the sum over members of change of momentum
+ * times present velocity. The first half is that sum with the velocities before the step. */
 real interface_zone_damped_energy_second_half(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */

@@ -16,16 +16,16 @@ enum { EDGE_PARTS = 16 }; /* sampling points along an edge */
 
 /* ---- edges of cracks --------------------------------------------------------------------------------------------- */
 
-/* Stores the two corners of edge e of a polygon in 3D, or end e of a segment in both, in *from and *to; a crack may
- * grow from there. */
+/* Stores the end points of edge e of crack c in *from and *to: in 3D two corners of its polygon, in 2D twice the end e
+ * of its segment. The crack may grow from these edges. */
 static void crack_end_of(const struct crack *c, int e, int dim, const real **from, const real **to)
 {
     *from = c->corner[e];
     *to = dim == 3 ? c->corner[(e + 1) % c->n] : c->corner[e];
 }
 
-/* Returns true if the body continues beyond edge e of crack c, away from the middle of the crack. Beyond the mouth of a
- * notch it does not. */
+/* Returns true if the body continues beyond edge e of crack c, away from the middle of the crack. It does not beyond
+ * the mouth of a notch. */
 static bool edge_inside(const struct crack *c, int e, const struct particles *p, const struct bond_source *s)
 {
     real middle[DIM_MAX] = {0};
@@ -47,7 +47,8 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
     return false;
 }
 
-/* A crack, its edges inside the body, one bit each, and the radius of the peridynamic zones round them [m]. */
+/* A crack with the peridynamic zones around its edges. edges: bit e is set if edge e is inside the body; radius: of the
+ * zones [m]. */
 struct crack_edges {
     const struct crack *crack;
     uint64_t edges;
@@ -56,7 +57,8 @@ struct crack_edges {
 
 enum { EDGES_MAX = 64 };
 
-/* Returns crack c with its edges inside the body. radius: radius of the peridynamic zones around these edges [m]. */
+/* Returns crack c with the set of its edges that are inside the body. radius: radius of the peridynamic zones around
+ * these edges [m]. */
 static struct crack_edges crack_edges_of(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                          real radius)
 {
@@ -104,12 +106,13 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
     return sqrt(r2);
 }
 
-/* Numbers of particles whose bonds a crack cuts outside the zones round its ends: all, and those of them in no mesh. */
+/* Numbers of particles whose bonds a crack cuts outside the peridynamic zones around its ends. particles: all of these;
+ * elsewhere: those of them that are not points of a mesh. */
 struct flanks {
     int64_t particles, elsewhere;
 };
 
-/* Returns true if crack c cuts a bond of particle i to one of the particles `near` of its body. */
+/* Returns true if crack c cuts a bond between particle i and one of the particles in `near` that is of its body. */
 static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct neighbour_list *near)
 {
     for (int k = 0; k < near->n; k++)
@@ -138,8 +141,8 @@ static struct flanks flanks_of(const struct crack_edges *zone, const struct part
     return (struct flanks){particles, elsewhere};
 }
 
-/* Returns the reason, as text, why pre-crack c cannot be a slit of the mesh, or NULL if it can. radius: radius of the
- * peridynamic zones around its ends [m]. */
+/* Returns the reason, as text, why pre-crack c cannot be a slit (doubled nodes) of the mesh; NULL if it can. radius:
+ * radius of the peridynamic zones around its ends [m]. */
 static const char *notch_obstacle(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                   real radius)
 {
@@ -161,8 +164,9 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
-/* Stores in n->lost[i] the fraction of the family volume of particle i that is beyond slits [1]. near: working memory.
- * Returns true if a nearest neighbour of the particle is beyond a slit. */
+/* Stores in n->lost[i] the fraction of the volume of the family of particle i (its neighbours within the cutoff) that
+ * slits separate from it [1]. near: working memory. Returns true if a slit separates the particle from one of its
+ * nearest neighbours. */
 static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source,
                       struct neighbour_list *near, int64_t i)
 {
@@ -186,8 +190,8 @@ static bool beside_void(const struct bond_source *source, int64_t i)
     return particle_is_beside_void(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
 }
 
-/* Stores for every particle the fraction of its family beyond slits, n->lost [1], and lists the particles beside a slit
- * or a narrow void, n->face, with their depth below the surface, n->depth [m]. */
+/* Stores in n->lost for every particle the fraction of its family that slits separate from it [1], and lists in n->face
+ * the particles beside a slit or a narrow void, with their depth below its surface in n->depth [m]. */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
@@ -255,9 +259,9 @@ void notches_free(struct notches *n)
 
 /* ---- approach of faces ------------------------------------------------------------------------------------------- */
 
-/* Returns the distance below which faces k and l (entries of n->face) on both sides of a void become peridynamic [m]:
- * VOID_AHEAD spacings before contact, but less than their distance at the start. Returns 0 if no void is between
- * them. */
+/* Returns the distance below which two particles on both sides of a void become peridynamic [m]: VOID_AHEAD spacings
+ * before contact, but less than their distance at the start. Returns 0 if no void is between them. k, l: entries of the
+ * particles in n->face. */
 static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l,
                                   real spacing)
 {
@@ -267,8 +271,8 @@ static real void_meeting_distance(const struct notches *n, const struct particle
     return real_min(sqrt(r2) - NOTCH_GAP * spacing, n->depth[k] + n->depth[l] + VOID_AHEAD * spacing);
 }
 
-/* Returns the distance below which particles of faces `face` and `other` (entries of n->face) become peridynamic [m],
- * or 0 if no slit or void is between them. */
+/* Returns the distance below which two particles on both sides of a slit or void become peridynamic [m]; 0 if no slit
+ * or void is between them. face, other: entries of the particles in n->face. */
 static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other,
                              real spacing)
 {
@@ -280,8 +284,8 @@ static real meeting_distance(const struct notches *n, const struct particles *p,
     return width < 0 ? void_meeting_distance(n, p, face, other, spacing) : spacing - real_max(gap, width - gap);
 }
 
-/* Returns the distance of particles i and j after the time `ahead` [s] if they approach each other, else their present
- * distance [m]. */
+/* Returns the distance of particles i and j after the time `ahead` [s] at their present velocities if they approach
+ * each other, else their present distance [m]. */
 static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real ahead)
 {
     real r2 = 0, rate = 0;
@@ -293,8 +297,8 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
-/* Returns the largest present distance of particles that meeting_distance may exceed after the time `ahead` [m]: two
- * particles approach each other by at most twice the largest speed of all. */
+/* Returns the largest present distance [m] of two particles whose distance after the time `ahead` [s] may be below that
+ * of meeting_distance. Two particles approach each other by at most twice the largest speed of all. */
 static real meeting_reach(const struct notches *n, const struct particles *p, real spacing, real ahead)
 {
     const real gap = NOTCH_GAP * spacing;

@@ -8,7 +8,8 @@
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the reason, as text, why no pre-crack of scene s may be a slit of the mesh, or NULL if there is none. */
+/* Returns the reason, as text, why pre-cracks of scene s may not be slits (doubled nodes) of the mesh; NULL if nothing
+ * in the scene prevents it. */
 static const char *scene_obstacle(const struct scene *s)
 {
     if (s->conversion.notch == NOTCH_BONDS) return "the scene says so";
@@ -20,8 +21,8 @@ static const char *scene_obstacle(const struct scene *s)
     return NULL;
 }
 
-/* Returns the reason, as text, of scene, frame or grid why no pre-crack may be a slit of the mesh, or NULL if there is
- * none. */
+/* Returns the reason, as text, why pre-cracks may not be slits (doubled nodes) of the mesh, from the scene, the
+ * reference frame or the grid; NULL if nothing prevents it. */
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
@@ -30,8 +31,8 @@ static const char *obstacle_of(const struct scene *s, const struct reference_fra
     return why;
 }
 
-/* Returns REFUSED, with a message that contains the reason, if the scene requires pre-cracks to be slits of the mesh
- * and one cannot be. */
+/* Returns REFUSED, with a message that contains the reason, if the scene requires pre-cracks to be slits (doubled
+ * nodes) of the mesh and a pre-crack cannot be one. */
 static status notches_check(const struct scene *s, const struct notches *n)
 {
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)

@@ -33,8 +33,8 @@ static bool own_bonds(real *zeta, const struct particles *p, const struct bonds 
 
 /* ---- eigenvalues ------------------------------------------------------------------------------------------------- */
 
-/* Applies a Jacobi rotation to the symmetric matrix M[n][n] so that its entry pq becomes 0; the columns of Z[n][n] are
- * rotated likewise. */
+/* Applies the Jacobi rotation to the symmetric matrix M[n][n] that makes its entry (p, q) 0, and the same rotation to
+ * the columns of Z[n][n], which become the eigenvectors. */
 static void rotate(real *M, real *Z, int n, int p, int q)
 {
     const real off = M[p * n + q];
@@ -85,8 +85,9 @@ static void make_positive(real *M, int n)
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the scale of symmetric component c: 1 for normal, sqrt(2) for shear components, which occur twice in a
- * tensor. With these factors a matrix over symmetric components has the eigenvalues of its tensor. */
+/* Returns the scale of symmetric component c: 1 for normal components, sqrt(2) for shear components, which occur twice
+ * in a tensor. A matrix over symmetric components that are multiplied by these factors has the eigenvalues of its
+ * tensor. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
 /* Reduces T [J], the part of the stiffness of a point that its bonds replace, so that V C + q L L - T has no negative

@@ -84,8 +84,8 @@ void partial_tensor_add_bond(real *tensor, const real *point, const real *other,
         }
 }
 
-/* Returns the volume V of particle or mirror image i over the weighted volume Q of its family, V/Q [m^-2]. A particle
- * without a row of bonds gets Q of a full family. */
+/* Returns V/Q [m^-2] of particle or mirror image i: its volume V over the weighted volume Q of its family. For a
+ * particle without a row of bonds Q is that of a full family. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int32_t row = b->row_of[image_source_particle(p, s->image, i)];
@@ -136,8 +136,9 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
     return false;
 }
 
-/* Adds to T the contributions of all bonds of material point (or mirror image) j that cross the cell with centre X[dim]
- * and half edge `half` [m]. box[rows]: bounding boxes of the bonds of each row, by which most rows are skipped. */
+/* Adds to T the contributions of all bonds of material point (or mirror image) j to the cell with centre X[dim] and
+ * half edge `half` [m] that they cross. box[rows]: bounding boxes of the bonds of each row, by which most rows are
+ * skipped. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -165,8 +166,8 @@ real particle_half_edge(const struct particles *p, const struct bond_source *s, 
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* Computes T V of point i [J], the stiffness that bonds add to its cell, by adding the bonds of all rows nearby one by
- * one, for any arrangement of particles. T: 0 before; box[rows]: bounding boxes of the bonds of each row; near: working
+/* Computes T V of point i [J], the stiffness that bonds add to its cell, from the bonds of all rows nearby, one by one;
+ * for any arrangement of particles. T: 0 before; box[rows]: bounding boxes of the bonds of each row; near: working
  * memory. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct neighbour_list *near)
@@ -180,9 +181,9 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
 }
 
-/* Computes the matrix M = T C^-1/V, over symmetric components, that gives the stress carried by bonds, M : sigma, from
- * the stress sigma of point i. T [J]; a shear strain counts twice in T : eps. Returns false if no bond crosses the cell
- * of the point. */
+/* Computes the matrix M = T C^-1/V over symmetric components, so that M sigma is the part of the stress sigma of point
+ * i that bonds carry. T: stiffness that bonds add to its cell, times its volume V [J]; a shear strain counts twice in T
+ * : eps. Returns false if no bond crosses the cell of the point. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -207,9 +208,10 @@ static int partial_stress_entry_size(const struct bond_source *s, int dim)
     return n * n + (s->modulus ? n : 0);
 }
 
-/* Computes the values stored for point i under state-based models, entry = matrix M, then tensor L, from T V [J]; T is
- * limited first. Returns false if the point needs no entry. In hand-shake coupling a point transmits all its stress
- * itself: M and L are 0, and the entry only marks a point of PD-MPM bonds. */
+/* Computes the values stored for point i under state-based models, the matrix M and then the tensor L, into entry[]. T:
+ * stiffness that bonds add to its cell, times its volume [J]; limited here. Returns false if the point needs no entry.
+ * In hand-shake coupling (partial->gives_all) a point transmits all its stress itself: M and L are 0, and the entry
+ * only marks a point with PD-MPM bonds. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -220,8 +222,8 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
-/* Computes the values stored for point i under bond-based models, entry = matrix M, from T V [J]; T is limited first.
- * Returns false if no bond crosses the cell of the point. */
+/* Computes the values stored for point i under bond-based models, the matrix M, into entry[]. T: stiffness that bonds
+ * add to its cell, times its volume [J]; limited here. Returns false if no bond crosses the cell of the point. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     partial_tensor_limit_bond_based(T, p, s, i);
@@ -230,8 +232,8 @@ static bool bond_entry(real *entry, real *T, const struct particles *p, const st
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* Entries to be recomputed: those of points around changed particles, and the rows whose bonds may cross the cells of
- * these points. */
+/* Lists for a renewal of entries: the particles around changed ones, whose entries are recomputed, and the rows whose
+ * bonds may cross the cells of these particles. */
 struct renewal {
     int32_t *list; /* particles around the changed ones, of any kind, in ascending order */
     int64_t n;
@@ -242,9 +244,9 @@ struct renewal {
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
-/* Sets bits in mark[particles]. DIRTY: particles within `radius` [m] of changed ones, whose stored values must be
- * recomputed. OTHERS_ROW: those up to `reach` [m] farther, whose rows may have bonds across cells of the former. OWN:
- * the changed particles themselves. changed[n]: their indices; NULL: all peridynamic particles. */
+/* Sets bits in mark[particles]. DIRTY: particles within `radius` [m] of changed ones; their stored values must be
+ * recomputed. OTHERS_ROW: particles up to `reach` [m] farther; their rows may have bonds that cross cells of DIRTY
+ * ones. OWN: the n changed particles themselves. changed: their indices; NULL: all peridynamic particles. */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
                        const int32_t *changed, int64_t n)
 {
@@ -263,8 +265,9 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     memory_free(near.at);
 }
 
-/* Returns the number of marked particles, mark[n] != 0. list: receives their indices, ascending; NULL: count only. mark
- * must be readable, and 0, up to a multiple of LANES. */
+/* Returns the number of marked particles i, those with mark[i] != 0. list: receives their indices in ascending order;
+ * NULL: they are only counted; n: number of particles. mark must be readable, and 0, up to the next multiple of
+ * LANES. */
 static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 {
     int64_t found = 0;
@@ -278,8 +281,9 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-/* Finds the points and rows whose entries must be recomputed after a change of the particles changed[n]; NULL: of all
- * peridynamic particles. table: responses on a lattice, which make rows unnecessary. Release with renewal_free. */
+/* Finds the points and rows whose entries must be recomputed after the n particles changed[k] have changed; changed
+ * NULL: after all peridynamic particles have. table: table of bond responses on a lattice, which makes the list of rows
+ * unnecessary. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)
@@ -331,8 +335,8 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     array_copy(partial->local + (int64_t)partial->index[i] * local, M + size, local, sizeof *M);
 }
 
-/* Removes unused entries once they are the majority; conversion and reversion create and abandon entries. size, local:
- * numbers of values of M and L of an entry. */
+/* Removes unused entries once they are the majority. Conversion creates entries and reversion abandons them. size,
+ * local: numbers of values of M and L in an entry. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
@@ -370,8 +374,8 @@ static void touch(struct partial_stress *partial, int64_t i)
     partial->touched[partial->touches++] = (int32_t)i;
 }
 
-/* Computes the entries of all material points of the renewal r in parallel. entry: [r->n][values of an entry];
- * crossed[r->n]: set to true if a point needs an entry. */
+/* Computes the entries of all material points in the list r->list, in parallel. entry: [r->n][values of an entry];
+ * crossed[k]: set to true if the point r->list[k] needs an entry. */
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {

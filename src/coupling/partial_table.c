@@ -12,20 +12,22 @@
 enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
 enum { ROWS_AHEAD = 6 }; /* distance of prefetching: bond responses are in outer caches */
 
-/* Share of the length of a bond that is inside the cell of the point. The bond is given by the numbers of its vector
- * and direction; crossings are listed by the site at which the bond starts. */
+/* Fraction of the length of a bond that is inside the cell of a point, for one bond that crosses the cell. vector,
+ * direction: numbers of the vector and of the direction of the bond. Crossings are listed by the site at which the bond
+ * starts. */
 struct crossing {
     int16_t vector, direction;
     real share;
 };
 
-/* A site within the length of a bond from the point, or the point itself; offsets in spacings. */
+/* A lattice site that is within the length of a bond from a point, or the site of the point itself. place: number of
+ * the site; at: offset from the point [spacings]. */
 struct near_place {
     int16_t place, at[DIM_MAX];
 };
 
-/* Responses to strain (struct response) of the bonds of all rows of material points, by the vector of the bond. The
- * values of a row are valid until one of its bonds changes. */
+/* Responses to strain (struct response) of the bonds of all rows of material points, in one entry per row, by the
+ * number of the bond's vector. The values of a row are valid until one of its bonds changes. */
 struct responses {
     int32_t *of;    /* [n] entry of a particle, -1: no row with an intact bond */
     real *response; /* [room][vectors][parts]                                             */
@@ -33,8 +35,8 @@ struct responses {
     int32_t *free; /* [room] unused entries, the first `frees` */
 };
 
-/* Table, for one lattice, of the shares of all possible bonds inside the cell of a point, and of their tensors. Sites
- * are numbered like the cells of a cube with `reach` cells on either side of the middle. */
+/* Table for one lattice: the fractions of all possible bonds inside the cell of a point, and the tensors of these
+ * bonds. Sites are numbered like the cells of a cube with the point in the middle and `reach` cells on either side. */
 struct partial_table {
     int dim, reach, parts, size; /* parts of a response; values of a tensor */
     real spacing, per_spacing;   /* [m] [1/m]                                                          */
@@ -59,7 +61,7 @@ static int64_t partial_table_places_of(const struct partial_table *t)
     return n;
 }
 
-/* Computes the offsets at[dim] [spacings] of site number `place` from the middle of the table. */
+/* Computes at[dim], the offset of site number `place` from the middle of the table [spacings]. */
 static void place_to(const struct partial_table *t, int64_t place, int *at)
 {
     for (int d = 0; d < t->dim; d++, place /= 2 * t->reach + 1) at[d] = (int)(place % (2 * t->reach + 1)) - t->reach;
@@ -91,8 +93,8 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 
 /* ---- construction ------------------------------------------------------------------------------------------------ */
 
-/* Numbers the vectors of all bonds within the cutoff [m] in t->vector, and lists the near sites in t->near. If there
- * are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST + 1. */
+/* Numbers the vectors of all bonds not longer than `cutoff` [m] in t->vector, and lists the sites at these vectors from
+ * the middle in t->near. If there are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST + 1. */
 static void vectors_make(struct partial_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
@@ -136,9 +138,9 @@ static void mirrors_make(struct partial_table *t)
         }
 }
 
-/* Processes the bond from the middle of the table to site k, in spacings. For each cell that it crosses, counts a
- * crossing (`count` true) or stores it (false), listed by the site where the bond starts, relative to the cell. next:
- * counts, then positions in the list, by site. */
+/* Processes the bond from the middle of the table to site k. For each cell that it crosses, a crossing is counted if
+ * `count` is true, else stored, by the site where the bond starts relative to the cell. next: by site, the counts, or
+ * the position of the next crossing in the list. */
 static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
@@ -199,7 +201,7 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
     }
 }
 
-/* Returns true if all particles of each body, with their mirror images, are on one lattice of this spacing [m]. */
+/* Returns true if the particles of each body, with their mirror images, are on one lattice of the given spacing [m]. */
 static bool on_lattice(const struct particles *p, real spacing)
 {
     int64_t first[BODIES_MOST];
@@ -272,7 +274,7 @@ static real *response_at(const struct partial_table *t, int64_t k)
     return t->responses.response + k * t->vectors * t->parts;
 }
 
-/* Extends the array of bond responses so that `open` rows can have entries at the same time. */
+/* Extends the array of bond responses so that `open` rows can have entries in it at the same time. */
 static void responses_room(struct partial_table *t, int64_t open)
 {
     struct responses *a = &t->responses;
@@ -303,8 +305,8 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes the responses to strain of the bonds of row `row`, response[vectors][parts], by the vector of the bond; 0
- * for broken bonds and for vectors without a bond. */
+/* Computes response[vectors][parts], the responses to strain of the bonds of row `row`, by the number of the bond's
+ * vector. It is 0 for broken bonds and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -373,15 +375,15 @@ void partial_table_update(struct partial_table *t, const struct particles *p, co
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* A row whose bonds may cross the cell of a point: particle or image j of the row, its site relative to the point, and
- * the entry of its bond responses. A bond starts within its length of any cell that it crosses. */
+/* A row whose bonds may cross the cell of a point. j: particle or image of the row; place: number of its site relative
+ * to the point; response: entry of its bond responses. A bond starts within its length of any cell that it crosses. */
 struct crossing_row {
     int32_t j, place, response;
 };
 
 /* Adds to sum[directions][parts] the responses of the bonds of a row, each times the fraction of the bond inside the
- * cell of a point. place: site of the row relative to the point; response: of the row; signs: axes that the reflections
- * of an image reverse, one bit each; parts: t->parts, a compile-time constant. */
+ * cell of a point. place: number of the site of the row relative to the point; response: responses of the row; signs:
+ * bit d is set if the reflections of an image reverse axis d; parts: t->parts, a compile-time constant. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
@@ -401,7 +403,7 @@ static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct 
         __builtin_prefetch(response + t->crossing[c].vector * t->parts);
 }
 
-/* Adds to T the tabulated tensor of each direction and part of a response, times its sum[directions][parts]. */
+/* Adds to T, for each direction of bonds and part of a response, its tabulated tensor times sum[directions][parts]. */
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
 {
     for (int k = 0; k < t->directions * t->parts; k++) {
@@ -416,8 +418,9 @@ bool partial_table_applies_to(const struct particles *p, const struct bond_sourc
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* Inserts particle or image j, at site `place` relative to the point, into the list to[n], ascending by j, if it is
- * (the image of) a material point with bond responses. Returns the new length. */
+/* Inserts particle or image j into the list to[n], which is ascending by j, if it is (the image of) a material point
+ * with bond responses. place: number of its site relative to the point whose cell is examined. Returns the new length
+ * of the list. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -429,8 +432,9 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* Lists in `to` the rows near point i, found by the map of sites l. Particles are found in ascending order; images,
- * which have the highest indices, in any order. Returns their number. */
+/* Lists in `to` the rows whose bonds may cross the cell of point i, found by the map l of lattice sites, in ascending
+ * order of particles and images. Sites are visited in ascending order of particles, so that insertion costs time for
+ * images alone. Returns the number of rows. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -444,8 +448,8 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
     return n;
 }
 
-/* Lists in `to` the rows near point i, found by a neighbour search, in the order of crossing_rows_by_site. near:
- * working memory. Returns their number. */
+/* Lists in `to` the rows whose bonds may cross the cell of point i, found by a neighbour search, in ascending order of
+ * particles and images. near: working memory. Returns the number of rows. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

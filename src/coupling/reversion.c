@@ -20,8 +20,8 @@ struct search {
     struct neighbour_list near;
 };
 
-/* Finds particle i and the particles of its body within `radius` [m], in s->near; mirror images are replaced by their
- * sources. */
+/* Finds particle i and the particles of its body within `radius` [m], and stores them in s->near. Mirror images are
+ * replaced by their sources. */
 static void search_near(struct search *s, int64_t i, real radius)
 {
     int kept = 0;
@@ -33,7 +33,7 @@ static void search_near(struct search *s, int64_t i, real radius)
     s->near.n = kept;
 }
 
-/* Returns true if particle i, or a particle of its body within `radius` [m], has mark[] != 0. */
+/* Returns true if mark[] is not 0 for particle i or for a particle of its body within `radius` [m]. */
 static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 {
     if (mark[i]) return true;
@@ -44,7 +44,7 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 }
 
 /* Returns true if the largest principal stress of particle i is less than rule->low_stress times the stress at which it
- * would convert. The virial stress of a family truncated by a surface is scaled to that of a full family. */
+ * would convert. The virial stress of a family that a surface truncates is scaled to that of a full family. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -55,10 +55,11 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_largest_principal(stress, p->dim) < limit;
 }
 
-/* Finds the peridynamic particles that may not revert by themselves. held[i] is set to 1 for particles with a broken or
- * softened bond, inside rule->kept, or with low stress for less than the hold time, else to 0. cut[i] is set to 1 for
- * those with a broken or softened bond. Also updates low_since, the time from which on the stress has been low [s]. t:
- * present time [s]. Returns the number of peridynamic particles with held[i] = 0. */
+/* Finds the peridynamic particles that may not revert for reasons of their own. held[i] is set to 1 for particles with
+ * a broken or softened bond, inside the region rule->kept, or whose stress has been low for less than the hold time,
+ * else to 0. cut[i] is set to 1 for those with a broken or softened bond. Also updates low_since, the time from which
+ * on the stress of a particle has been low [s]. t: present time [s]. Returns the number of peridynamic particles with
+ * held[i] = 0. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -108,8 +109,8 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
     memory_free(s.near.at);
 }
 
-/* Sets mark[i] to 1 for particles with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
- * (`meeting` true), or have none (false), else to 0. */
+/* Sets mark[i] to 1 for the particles i with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
+ * if `meeting` is true, or that have none if it is false. Sets mark[i] to 0 for all others. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -179,9 +180,9 @@ static bool reversion_solve(real *A, real *b, int n, int columns)
     return true;
 }
 
-/* Adds the moments of the intact bonds of row `row` to K and G, [dim dim]: K = sum w e e and G = sum w e y/r, with the
- * weight w, reference direction e, present vector y and reference length r of a bond. The deformation gradient F of the
- * family follows from K F^T = G. */
+/* Adds the moments of the intact bonds of row `row` to K and G, both [dim dim]: K = sum w e e and G = sum w e y/r. w is
+ * the weight of a bond, e its reference direction, y its present vector and r its reference length. The deformation
+ * gradient F of the family follows from K F^T = G. */
 static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
@@ -200,14 +201,15 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
     }
 }
 
-/* Stress that the bonds crossing the cell of a particle carry there, and its derivative T by a uniform strain, both
- * [Pa], times the volume during summation; centre and half the edge of the cell [m]. */
+/* The cell of a particle. stress: stress that the bonds crossing the cell carry there [Pa]; T: its derivative by a
+ * uniform strain [Pa]; both times the volume of the cell during summation; X, half: centre and half edge of the cell
+ * [m]. */
 struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };
 
-/* Adds half of the contribution of a bond of particle or image j to stress and derivative in the cell of `to`; the row
- * at the other end of the bond adds the other half. r: reflection that maps the source of j to j. */
+/* Adds half of the contribution of a bond of particle or image j to stress and derivative in the cell `to`. The row at
+ * the other end of the bond adds the other half. r: reflection that maps the source of the image j to j. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
@@ -268,9 +270,9 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* Replaces stress [Pa], which the bonds across the cell of particle i carry, by that of full families under the same
- * strain T^-1 stress. T: derivative of the stress by a uniform strain [Pa], overwritten. Leaves the stress unchanged if
- * T is singular. */
+/* Replaces the stress of bonds across the cell of particle i, `stress` [Pa], by that of full families under the same
+ * strain T^-1 stress. T: derivative of this stress by a uniform strain [Pa], overwritten. Leaves the stress unchanged
+ * if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -282,9 +284,9 @@ static void complete(const struct bond_source *source, const struct particles *p
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
 
-/* Computes the stress of particle i as a material point, in symmetric components [Pa]: that of the bonds across its
- * cell. State-based models have no force of a single bond, so that the virial of the family is used. near: working
- * memory. */
+/* Computes the stress of particle i as a material point, in symmetric components [Pa]: the stress of the bonds across
+ * its cell. For state-based models it is the virial stress of the family, since a single bond has no force of its own
+ * there. near: working memory. */
 static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
                              const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {

@@ -9,8 +9,8 @@
 #include "contact/contact.h"
 #include "run/energies.h"
 
-/* Returns the number of steps between checks for reversion, at least 1: a wave travels one horizon, half of a family,
- * in them, so that no wave crosses a family between two checks. */
+/* Returns the number of steps between two checks for reversion, at least 1. In these steps a wave travels one horizon,
+ * which is half of a family, so that no wave crosses a family between two checks. */
 static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
                       const struct bond_source *source)
 {
@@ -42,7 +42,8 @@ static real energy_now(struct run *e)
            particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh);
 }
 
-/* Reverts the peridynamic particles list[n] to material points and records the change of energy. */
+/* Reverts the n peridynamic particles list[k] to material points, and adds the change of elastic and kinetic energy by
+ * this to conversion.reversion_energy of the coupling. */
 static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);

@@ -20,20 +20,21 @@ void convert_particles_beside_voids(struct particles *p, const struct voids *v, 
         if (v->near[i] & VOID_ACROSS && (include_meshed || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
 }
 
-/* Particles beside voids whose sides the grid joins, as the voids are too narrow: their number, and the first of
- * them. */
+/* Particles beside voids that are too narrow for the grid, which joins the two sides of such a void. n: their number;
+ * first: index of the first of them. */
 struct closed {
     int64_t n, first;
 };
 
-/* Counts particle i as beside a closed void, and stores it if it is the first one. */
+/* Counts particle i as one beside a void whose sides the grid joins, and stores it if it is the first one. */
 static void closed_add(struct closed *to, int64_t i)
 {
     if (to->n++ == 0) to->first = i;
 }
 
-/* Finds material points beside narrow voids on a grid that the voids do not cut, in bodies whose surface is known.
- * uncut: voids do not cut the mesh either. */
+/* Finds material points beside narrow voids in bodies whose surface is known, where the grid joins the sides of the
+ * voids. uncut: true if voids do not divide the mesh of the reference frame either; else points of this mesh are left
+ * out. */
 static struct closed closed_on_grid(const struct particles *p, const struct voids *v, bool uncut)
 {
     struct closed found = {0};
@@ -59,8 +60,8 @@ static void next_along(const struct particles *p, int64_t i, const struct neighb
     }
 }
 
-/* Finds particles of body b, whose surface is not known, beside empty lattice sites narrower than `reach` [m]. Returns
- * none if the particles are not on a lattice. */
+/* Finds particles of body b, whose surface is not known, beside empty lattice sites in a gap narrower than `reach` [m].
+ * Returns n = 0 if the particles are not on a lattice. */
 static struct closed closed_in_lattice(const struct scene *s, const struct particles *p, const struct cells *cells,
                                        int b, real reach)
 {
