@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/* Returns true if load number `load` may move a particle at rest: all loads except planes of symmetry. */
+/* Returns true if load number `load` may move a particle at rest, as all loads but planes of symmetry may. */
 static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
 
 /* Returns true if material point i is at rest and nothing moves it: no load, bond, velocity, force or stress.
@@ -60,9 +60,9 @@ static int64_t active_points_reach_of(const struct grid *g, enum shape shape, en
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Sets r->active_cell to 1 for cells with a point that moves or is loaded and for cells of nodes that a wall moves,
- * else to 0. now: order of the points examined; points outside it are still at rest. has_gradient: points have velocity
- * gradients (APIC). */
+/* Sets r->active_cell to 1 for cells with a point that moves or is loaded, and for cells whose lowest node a wall
+ * (prescribed velocity of a node) moves, else to 0. now: transfer order with the points to examine; points outside it
+ * are still at rest; has_gradient: true if points have velocity gradients (APIC). */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
@@ -78,7 +78,7 @@ static void active_points_mark(struct active_points *r, const struct transfer_or
         if (moves(l, g->wall[k].load)) r->active_cell[g->wall[k].node] = 1;
 }
 
-/* Reallocates the marks of cells in r if the grid has more nodes than before. New marks are 0. */
+/* Reallocates the marks of cells in r if grid g has more nodes than r has marks. New marks are 0. */
 static void make_room(struct active_points *r, const struct grid *g)
 {
     if (r->nodes >= g->n) return;
@@ -87,8 +87,8 @@ static void make_room(struct active_points *r, const struct grid *g)
     r->active_cell = NEW("active_set.active_cell", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
 }
 
-/* Makes the order of active points, r->active, from the marked cells of the order `all`, cell by cell in the same
- * sequence. */
+/* Makes r->active, the transfer order of the points in active cells, from `all`, the order of all points. Cells and
+ * points keep their sequence. */
 static void active_points_take(struct active_points *r, const struct transfer_order *all, const struct particles *p,
                                const struct grid *g)
 {

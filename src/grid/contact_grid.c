@@ -18,8 +18,8 @@
 
 /* ---- nodes shared by two bodies ---------------------------------------------------------------------------------- */
 
-/* Box of nodes that two grids share: first node and numbers of nodes along the axes, relative to the anchor of both
- * grids; n: total number. */
+/* Box of nodes that two grids share. first, count: first node and number of nodes along each axis, counted from the
+ * common anchor of both grids; n: total number of nodes. */
 struct shared {
     int64_t first[DIM_MAX], count[DIM_MAX], n;
 };
@@ -57,14 +57,15 @@ static real slope_of(const struct grid *g, int64_t I, int d)
     return g->mass[I + g->stride[d]] - g->mass[I - g->stride[d]];
 }
 
-/* Computes node->mass_slope, the difference of the mass gradients of grids b and a at this node, times two node
- * distances [kg]. */
+/* Computes node->mass_slope: the mass gradient of grid b less that of grid a at this node, times two node distances
+ * [kg]. */
 static void mass_slope_find(struct grid_contact_node *node, const struct grid *a, const struct grid *b)
 {
     for (int d = 0; d < a->dim; d++) node->mass_slope[d] = slope_of(b, node->at[1], d) - slope_of(a, node->at[0], d);
 }
 
-/* Appends an empty node to the list of contact nodes, and returns it. */
+/* Appends a node without contact data to the list of contact nodes. Returns a pointer to it, which is valid until the
+ * next call. */
 static struct grid_contact_node *node_add(struct grid_contact *c)
 {
     GROW("contact.nodes", c->node, c->nodes + 1);
@@ -73,8 +74,9 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
     return node;
 }
 
-/* Appends the nodes of the shared box s at which both sides a and b have more than the smallest mass. slot[s->n]:
- * receives the position in the list of each node of the box, -1: not listed. */
+/* Appends to the list of contact nodes the nodes of the shared box s at which both bodies have more than the smallest
+ * mass. a, b: indices of the bodies in `side`; slot[s->n]: receives the position in the list of each node of the box,
+ * -1: not listed. */
 static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *side,
                               int a, int b, int32_t *slot)
 {
@@ -115,8 +117,9 @@ static void normals_find(struct grid_contact *c, const struct shared *s, int dim
 
 /* ---- gaps -------------------------------------------------------------------------------------------------------- */
 
-/* Extends the reach of a body along the normals of all listed nodes that the shape of its point i reaches: the largest
- * x . n of side 0, the smallest of side 1. slot[s->n]: position in the list of each node of the shared box s. */
+/* Extends node->reach along the normal of each listed node that the shape function of point i reaches: to the largest x
+ * . n of a point of the first body (side 0), or the smallest of the second one (side 1). g: grid of the body;
+ * slot[s->n]: position in the list of each node of the shared box s, -1: not listed. */
 static void point_reach(struct grid_contact *c, const struct shared *s, const struct grid *g, const struct particles *p,
                         int32_t i, int side, const int32_t *slot)
 {
@@ -139,8 +142,9 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
             }
 }
 
-/* Extends the reach of a body along the normals of the listed nodes by all of its points. side: 0 for the first, 1 for
- * the second body of the pair; slot[s->n]: position in the list of each node of the shared box s. */
+/* Extends the reach of body a along the normals of the listed nodes by all of its points (point_reach). side: 0 for the
+ * first, 1 for the second body of the pair; slot[s->n]: position in the list of each node of the shared box s, -1: not
+ * listed. */
 static void points_reach(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *a,
                          const struct particles *p, int side, const int32_t *slot)
 {
@@ -201,11 +205,12 @@ void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_s
 
 /* ---- exchange ---------------------------------------------------------------------------------------------------- */
 
-/* If the sides separated before the step, the impulse of contact leaves them approaching at this share of their speed
- * of separation [1]. Points in FLIP receive less than the nodes: the work of an impulse is over the mean of the
- * velocities before and after the step, the latter smoothed by the map, so that an impulse that just stops the approach
- * would add energy. Empirical: discs and blocks dissipate with it. Where contact of two bodies has nevertheless added
- * energy, impulses act only on nodes that approach already before the step, which always dissipates. */
+/* Share of the speed of separation before a step at which the impulse of contact leaves two bodies approaching each
+ * other, if they separated before the step [1]. In FLIP points receive less than the nodes: the work of an impulse is
+ * over the mean of the velocities before and after the step, and the latter is smoothed by the map. An impulse that
+ * just stops the approach would therefore add energy. The value is empirical: discs and blocks dissipate with it. Where
+ * contact of two bodies has added energy nevertheless, impulses act only on nodes that approach already before the
+ * step, which always dissipates. */
 #define PARTING_SHARE 1.6
 
 /* Returns the speed of approach along the unit vector `along` that the contact impulse removes [m/s]: now . along +
@@ -218,9 +223,9 @@ static real speed_taken(const real *before, const real *now, const real *along, 
     return real_max(0, dot(now, along, dim) + PARTING_SHARE * real_min(0, parting));
 }
 
-/* Computes the contact impulse at a node over the reduced mass of both sides, taken[dim] [m/s]. It stops the approach
- * of the sides and, up to friction, their sliding. before, now: relative velocity before and after the forces of the
- * step [m/s]. Returns false if the sides separate or do not touch. */
+/* Computes the contact impulse at a node over the reduced mass of both bodies, taken[dim] [m/s]. It stops the approach
+ * of the bodies and, up to friction, their sliding. before, now: relative velocity of the bodies before and after the
+ * forces of the step [m/s]. Returns false if they separate or do not touch. */
 static bool exchange_of(const struct grid_contact *c, const struct grid_contact_node *node, const real *before,
                         const real *now, int dim, real *taken)
 {
@@ -240,16 +245,17 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
     return true;
 }
 
-/* Sets grid.held to `mark` (0 or 1) for the nodes of all sides that walls constrain. */
+/* Sets grid.held[I] to `mark` (0 or 1) for the nodes I of the grids of all `sides` bodies that walls (prescribed
+ * velocities of nodes) constrain. */
 static void walls_mark(const struct grid_contact_side *side, int sides, uint8_t mark)
 {
     for (int k = 0; k < sides; k++)
         for (int64_t q = 0; q < side[k].grid->walls; q++) side[k].grid->held[side[k].grid->wall[q].node] = mark;
 }
 
-/* Returns the mass of node I [kg], or INFINITY if walls constrain it mainly along `normal`. In components that walls
- * prescribe, its velocities before[dim] and now[dim], before and after the forces of the step, are replaced by those of
- * the walls [m/s]. */
+/* Returns the mass of node I [kg], or INFINITY if walls (prescribed velocities of nodes) constrain it mainly along
+ * `normal`. before, now: its velocities before and after the forces of the step [dim] [m/s]; components that walls
+ * prescribe are replaced by the velocities of the walls. */
 static real mass_against(const struct grid *g, int64_t I, const real *normal, real *before, real *now)
 {
     real held2 = 0;

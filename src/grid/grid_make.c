@@ -16,7 +16,7 @@ static real node_coordinate(const struct scene *s, int axis, real corner)
 }
 
 /* Returns the coordinate of a node, `anchor`, shifted by at most half a spacing to the middle between two particles of
- * the lattice that has a particle at coordinate `site` [m]. */
+ * a lattice. site: coordinate of a particle of this lattice [m]. */
 static real between_particles(real anchor, real site, real spacing)
 {
     const real steps = (site - anchor) / spacing - 0.5;
@@ -59,9 +59,9 @@ static real shape_reach(const struct scene *s)
                                          : 0.5 * s->spacing;
 }
 
-/* Sets up the grids of the current frame: position of the nodes, smallest masses, contact between grids. meshed: bodies
- * have meshes of the reference frame. A node is at the lower corner of the first shape or of the particles of a list,
- * unless node_coordinate gives another position. */
+/* Sets up the grids of the current frame: position of the nodes, smallest masses, contact between grids. meshed: true
+ * if bodies have meshes of the reference frame. Unless mpm.origin or a mirror determines the position of the nodes, a
+ * node is at the lower corner of the first body's shape, or of the particles of its list. */
 void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];

@@ -19,7 +19,7 @@ static void bounds_widen(const struct particles *p, const int32_t *list, int64_t
     }
 }
 
-/* Lists in f->list the material points of the body to which the grid of field f belongs. */
+/* Lists in f->list the material points of the body, or of the joined bodies, to which the grid of f belongs. */
 static void field_list(struct grid_field *f, const struct particles *p)
 {
     if (!f->list) f->list = NEW("engine.field", p->n, int32_t);
@@ -125,8 +125,8 @@ static void grid_receive(struct grid_method *mpm, struct particles *p, const str
     if (p->n_grid_coupled > 0) kernels->p2g(&mpm->field[0].grid, p, &grid_coupled);
 }
 
-/* Lists in mpm->contact the nodes at which bodies with separate grids may be in contact in this step. Returns an array
- * of sides [mpm->fields], freed by the caller, or NULL for a single grid. */
+/* Lists in mpm->contact the nodes at which bodies with separate grids may be in contact in this step. Returns the data
+ * of the grids as sides of contact, an array [mpm->fields], which the caller frees; NULL if there is a single grid. */
 static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct particles *part)
 {
     if (mpm->fields < 2) return NULL;
@@ -137,8 +137,9 @@ static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct pa
     return side;
 }
 
-/* Advances the velocities of all nodes under forces, contact, walls and mirrors. side: sides of contact, NULL: none;
- * middle: time in the middle of the step [s]; dt: duration of the velocity update [s]. */
+/* Advances the velocities of all nodes under forces, contact, walls and mirrors. side: grids as sides of contact, from
+ * meeting_find; NULL: no contact; middle: time in the middle of the step [s]; dt: duration of the velocity update
+ * [s]. */
 static void grids_move(struct run *e, const struct grid_contact_side *side, real middle, real dt)
 {
     struct grid_method *mpm = e->grid;
@@ -155,7 +156,7 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
 }
 
 /* Adds the change of the nodal velocities to the points and maps the momentum of the points to the nodes again (MUSL).
- * side: sides of contact, NULL: none. */
+ * side: grids as sides of contact, from meeting_find; NULL: no contact. */
 static void grids_remap(struct run *e, const struct grid_contact_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);

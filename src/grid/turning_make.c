@@ -3,8 +3,8 @@
 #include "grid/grid_part.h"
 #include "data/turning.h"
 
-/* Returns the lowest number of the bodies that share a grid with body b: of the bodies joined to it, or of all bodies
- * if there is a single grid. */
+/* Returns the lowest number of the bodies that share a grid with body b. If there are several grids, these are the
+ * bodies joined to it, else all bodies. */
 static int first_of(const struct grid_method *grid, const struct scene *scene, int b)
 {
     return grid->fields > 1 ? scene->body[b].joined : 0;
