@@ -30,8 +30,8 @@ struct damped {
     const uint8_t *flag;
 };
 
-/* Returns true if entry i is damped with its own mass: false for points of the mesh, whose mass moves with the
- * nodes. */
+/* Returns true if entry i of a is damped with a mass of its own. Returns false for points of the mesh, whose mass moves
+ * with the nodes. */
 static bool moves_itself(const struct damped *a, int64_t i) { return !(a->flag && a->flag[i] & FLAG_MESHED); }
 
 /* Adds the energy that bulk damping has taken from entries first .. end - 1 since the previous step to sum[0] [J].
@@ -47,8 +47,9 @@ static void loss_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-/* Multiplies the velocities of entries first .. end - 1 by a factor. Adds the momentum that they lose to sum[0 .. dim -
- * 1] [N s], and their kinetic energy before that to sum[DIM_MAX] [J]. context: a struct damped. */
+/* Multiplies the velocities of entries first .. end - 1 by the factor of the struct damped. Adds the momentum that they
+ * lose to sum[0 .. dim - 1] [N s], and their kinetic energy before the change to sum[DIM_MAX] [J]. A function for
+ * reproducible_sums; context: a struct damped. */
 static void slow_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
@@ -62,13 +63,14 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-/* Returns c dt of bulk damping in a step (`decay`), limited to EXPONENT_MOST [1]. */
+/* Returns `decay`, the product c dt of the decay rate c of bulk damping and the time step, limited to EXPONENT_MOST
+ * [1]. */
 static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_increment_factor(real decay) { return exp(-0.5 * capped(decay)); }
 
-/* Describes what is damped: the particles in all[0], the nodes of the mesh in all[1]. factor: factor on their
- * velocities [1]. Returns the number of entries used: 2, or 1 if the mesh has no points. */
+/* Stores in all[] whose velocities bulk damping changes: in all[0] the particles, in all[1] the nodes of the mesh.
+ * factor: factor on their velocities [1]. Returns the number of entries used: 2, or 1 if the mesh has no points. */
 static int damped_find(const struct particles *p, const struct mesh *mesh, real factor, struct damped all[2])
 {
     all[0] = (struct damped){.n = p->n, p->dim, factor, p->mass, p->v, .flag = p->flag};

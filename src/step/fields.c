@@ -34,8 +34,8 @@ static void gradient_add(struct gradient_sum *s, const struct particles *p, int6
         for (int b = 0; b < p->dim; b++) s->K[a][b] += xi[a] * xi[b], s->M[a][b] += u[a] * xi[b];
 }
 
-/* Computes the displacement gradient of particle i, H = M K^-1, from its sums s, and stores it in H[dim dim][i]. H is 0
- * if the neighbours do not span the space. s->K is changed in unused directions. */
+/* Computes the displacement gradient of particle i, H = M K^-1, from the sums s over its neighbours, and stores it in
+ * H[dim dim][i]. H becomes 0 if the neighbours do not span the space. s->K is overwritten in the axes beyond dim. */
 static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const *H)
 {
     real mean = 0, C[3][3];
@@ -89,8 +89,8 @@ static bool in_mesh(const struct reference_frame *frame, int64_t i)
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
 
-/* Allocates H [dim dim][n] and computes the displacement gradients of all particles there: from mesh nodes, bonds or
- * near points. The caller frees the arrays. */
+/* Computes the displacement gradients of all particles from mesh nodes, bonds or near points, into arrays that are
+ * allocated here: H[dim dim][n] [1]. The caller releases them with memory_free. */
 static void gradients_make(const struct run *e, real **H)
 {
     const struct particles *p = &e->part;
@@ -157,7 +157,8 @@ static real *damage_make(const struct particles *p, const struct bonds *bonds)
     return damage;
 }
 
-/* Returns the share of the strength surface [n], NULL if no material has one. The caller frees it. */
+/* Returns for every particle the share of the strength surface that its stress reaches, an array [n] [1]; NULL if no
+ * material has a strength surface. The caller releases it with memory_free. */
 static real *shares_make(const struct particles *p, const struct bonds *b, const struct bond_source *source)
 {
     if (!b->soft.near) return NULL;
@@ -166,7 +167,8 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
     return share;
 }
 
-/* Returns the share of the strength surface at the stress of every point of coarse cells. The caller frees it. */
+/* Returns for every point that shows a coarse cell in frames the share of the strength surface that its stress reaches,
+ * an array [shown->n] [1]. The caller releases it with memory_free. */
 static real *point_shares_make(const struct particles *shown, const struct scene *s)
 {
     real *share = NEW("report.share", shown->n, real);

@@ -7,7 +7,8 @@
 #include "base/memory.h"
 #include "data/grid.h"
 
-/* Plastic strain below which no points are compared: a stretch by 2 % parts none. */
+/* Equivalent plastic strain below which pairs of neighbouring points are not compared [1]: a stretch by 2 % separates
+ * no points. */
 #define FLOWED_LEAST 0.02
 /* Largest reference distance of neighbours [spacings]: those along the axes of a lattice have 1, along diagonals 1.4.
  */
@@ -41,7 +42,8 @@ static bool flows_on_grid(const struct particles *p, const struct scene *s, int6
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED) && material_yields(&s->material[p->material[i]]);
 }
 
-/* Lists the pairs of neighbouring points of one body that flow on the grid. cells: of all particles. */
+/* Lists the pairs of neighbouring points of one body that are on the grid and of materials that yield. cells: cells of
+ * all particles, for the search for neighbours. */
 static void pairs_make(struct point_pairs *pairs, const struct cells *cells, const struct particles *p,
                        const struct scene *s)
 {
@@ -95,8 +97,9 @@ static void held_cells_make(struct held_cells *h, const struct particles *p, con
     }
 }
 
-/* Pairs of neighbours at one time: their number, how many are parted and how many pulled, with the largest stretch of
- * those parted, else pulled [1], and its first coordinate [m]. */
+/* Counts of pairs of neighbouring points at one time. parted: pairs with an empty cell between them; pulled: pairs
+ * stretched beyond PULLED under tension; stretch, x: largest stretch [1] of the parted pairs, or of the pulled ones if
+ * none is parted, and its first coordinate [m]. */
 struct pair_counts {
     int64_t parted, pulled;
     real stretch, x;
@@ -117,8 +120,9 @@ static real pair_stretch(const struct particles *p, const struct point_pair *pai
     return sqrt(now / before);
 }
 
-/* Returns true if the cell at `middle` is empty, and those beside it across `axis`: a gap, in contrast to a hole that
- * the flow of points fills. middle: is changed. */
+/* Returns true if the cell at the position middle[dim] [m] and the cells on both sides of it along the axes other than
+ * `axis` are empty of points. Such a gap separates the points; a single empty cell is a hole that the flow of points
+ * fills. middle is overwritten. */
 static bool gap_at(const struct held_cells *h, real *middle, int axis)
 {
     uint64_t key;
@@ -164,7 +168,8 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
     return c;
 }
 
-/* Prints the warning that c->parted of n pairs are parted or, if none is, that c->pulled are pulled, at time t [s]. */
+/* Prints a warning that c->parted of n pairs of points have empty cells between them or, if there are none, that
+ * c->pulled of them are stretched too far for linear shapes. t: present time [s]. */
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
     const struct weak_shape *w = c->parted > 0 ? NULL : weak_shape_of(s->shape);

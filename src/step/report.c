@@ -105,9 +105,9 @@ static bool body_frame_due(const struct scene *s, const struct run_clock *clock,
     return frames <= report_count_frames(s, clock) && step >= report_step_of_frame(s, clock, frames);
 }
 
-/* Returns true if frame number `frames` of a region is due after `step` steps. If several frames are due in one
- * step, one is written; the last frame is at the end of the run. every: time between frames [s]; duration: of the
- * run [s]. */
+/* Returns true if frame number `frames` of a region, counted from 0, is due after `step` steps. If several frames are
+ * due in one step, one is written; the last frame is at the end of the run. every: time between frames [s]; duration:
+ * of the run [s]. */
 static bool region_frame_due(const struct run_clock *clock, real every, real duration, int frames, int64_t step)
 {
     if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
@@ -128,16 +128,16 @@ unsigned report_frame_series_due(const struct output *out, const struct scene *s
     return due;
 }
 
-/* Returns the fields that frames of series k contain, as bits ASK_...: those given for the series, else those of the
- * scene. Series 0 is the body, series 1, 2, .. are regions. */
+/* Returns the fields that the frames of series k contain, as bits ASK_... (output/output.h): those given for the
+ * series, else those of the scene. Series 0 is the whole body, series 1, 2, .. are regions. */
 static unsigned asked_of(const struct scene *scene, int k)
 {
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* Writes a frame of each series in `due`, and for the body also rigid bodies and profiles. due: bits of
- * report_frame_series_due. Frames at t = 0 have no contact forces. Returns FAILED, with a message, if a value is not
- * finite or a file cannot be written. */
+/* Writes a frame of each series in `due`, and for the body also rigid bodies and profiles. due: set of series as bits,
+ * bit 0 for the whole body, bit k for region k. Frames at t = 0 have no contact forces. Returns FAILED, with a message,
+ * if a value is not finite or a file cannot be written. */
 static status write_frames(struct run *e, unsigned due)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_can_crack(e->scene);
@@ -203,8 +203,8 @@ static bool wall_is_over(const struct scene *s, const struct run_report *report)
     return wall_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;
 }
 
-/* Adds warnings for frames and profiles that a resumed run should have, but whose files are missing. Returns FAILED,
- * with a message, if the list of frames cannot be read. */
+/* Adds and prints warnings for frames and profiles that a resumed run should have, but whose files are missing. probes:
+ * probes with profiles. Returns FAILED, with a message, if the list of frames cannot be read. */
 static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
     char text[2 * PATH_NAME_ROOM + 300];

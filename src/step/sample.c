@@ -45,8 +45,8 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           [20] = {"mpm_share", ""},
                                                           {"inactive_share", ""}};
 
-/* Returns the mean fraction of the body at rest over the steps since the last call [1], 0 without steps; starts a new
- * mean. */
+/* Returns the mean fraction of the bodies that was at rest in the steps since the last call [1]; 0 if there was no
+ * step. The next call begins a new mean. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
 {
     const int64_t steps = clock->step - report->sampled.step;
@@ -63,8 +63,8 @@ static bool is_free(const struct scene *s, const struct reference_frame *frame)
            frame->levels.n == 0;
 }
 
-/* Describes the history columns of angular momentum in column[], if that is not NULL. Returns their number, 0 if bodies
- * are not free. */
+/* Stores names and units of the history columns of angular momentum in column[], unless it is NULL. Returns their
+ * number, which is 0 if a load acts on the bodies, so that their angular momentum need not be conserved. */
 static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
@@ -112,8 +112,8 @@ static void fill_record(struct run *e)
     for (int c = 0; c < spin_columns(e->scene, e->frame, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
 }
 
-/* Describes the history columns of probes, of the parts of a run and of angular momentum in column[], if that is not
- * NULL. Returns their number. */
+/* Stores names and units of the history columns of probes, of the parts of a run and of angular momentum in column[],
+ * unless it is NULL. Returns their number. */
 static int own_columns(const struct run *e, struct column *column)
 {
     const struct probes *probes = &e->probing->probes;
@@ -198,8 +198,9 @@ static void momentum_now(const struct particles *p, const struct reference_frame
     particles_linear_momentum(p, nodes, grids, momentum, NULL);
 }
 
-/* Replaces momentum[dim], that after the step, by that at time t [s] of a sample: s->momentum before t and the one
- * after t are interpolated linearly. now: time of the present velocities, and a factor on the result [kg m/s]. */
+/* Replaces momentum[dim], on entry the momentum after the step, by the momentum at time t [s] of a sample [kg m/s],
+ * interpolated linearly between s->momentum (before t) and the one on entry. now: time of the present velocities, and a
+ * factor on the interpolated momentum. */
 static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
     const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
@@ -268,8 +269,8 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
         e->report->history_status = output_write_history(e->report->out, e->report->record);
 }
 
-/* Stores the velocities at the start of a step in sampling->before if points are on the grid: grid forces reach points
- * only as changes of velocity. kind: coupling method. */
+/* Copies the velocities at the start of a step to sampling->before if points are on the grid. They are needed for
+ * energies, because the grid transfers forces to points as changes of velocity only. kind: coupling method. */
 static void keep_velocities(struct sampling *sampling, const struct particles *p, enum coupling kind)
 {
     if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;
@@ -279,8 +280,8 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns the mean of the kinetic energies before and after the kick of a step minus m v_before . v_after/2 [J],
- * without the part of absorbing dashpots, which act during the kick. */
+/* Returns the difference [J] between the mean of the kinetic energies before and after the kick (velocity update) of a
+ * step and m v_before . v_after/2. The part of absorbing dashpots, which act during the kick, is left out. */
 static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
@@ -332,8 +333,8 @@ static bool velocity_jumps(const struct scene *s)
     return drives;
 }
 
-/* Returns true if the first step changes velocities by forces alone. False with APIC, and for material points beside
- * driven particles or with bodies in contact on the grid. */
+/* Returns true if forces alone change the velocities in the first step. This is not so for points on the grid with
+ * APIC, or with supports that prescribe a velocity other than 0, or if bodies are in contact on the grid. */
 static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
@@ -384,7 +385,8 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power_of_forces(&reference->levels);
 }
 
-/* Returns the part of power_now on nodes whose motion loads prescribe [W], which is work of the loads. */
+/* Returns the power v . f of the forces on nodes whose motion loads prescribe (walls) [W]. power_now includes it; it is
+ * work of the loads. */
 static real power_of_walls(const struct reference_frame *reference)
 {
     const struct mesh_levels *levels = &reference->levels;
@@ -407,8 +409,8 @@ static void reactions_add(struct loads *l, const struct grid *g)
         l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
 }
 
-/* Adds the forces on nodes after the last step to the reactions of the loads; those on particles are in them already.
- * grid: NULL if no particle is on the grid. */
+/* Adds the forces on nodes after the last step to the reactions of the loads. The forces on particles have been added
+ * before. grid: grids of the current frame; NULL if no particle is on them. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
@@ -419,9 +421,10 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
-/* Returns the power v . f of the forces after the last step [W], which no motion follows. No bond breaks, and the
- * accounts of the loads, except reactions, are restored. *held: receives the work that walls of grids and meshes would
- * do in that step [J]. The power contains the work on driven particles, but not that of walls. */
+/* Returns the power v . f [W] of the forces after the last step, after which nothing moves. It contains the work on
+ * driven particles, but not that of walls (nodes with prescribed motion). No bond breaks, and the energies and impulses
+ * recorded by the loads, except reactions, are restored. *held: receives the work that walls of grids and meshes would
+ * do in that step [J]. */
 static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
@@ -448,8 +451,9 @@ static real power_last(struct run *e, real *held)
     return power - walls;
 }
 
-/* Takes the sample after the last step and writes its line. As in all samples, the kinetic energy is m v- . v+/2. v+ is
- * the velocity after a kick by the forces at the end, which no motion follows. */
+/* Takes the sample after the last step and writes its line of history.csv. As in all samples, the kinetic energy is m
+ * v- . v+/2, with the velocities v- and v+ before and after a velocity update. Here v+ follows from the forces at the
+ * end and does not move the particles. */
 void sample_take_final(struct run *e)
 {
     real held = 0;

@@ -5,14 +5,15 @@
 
 #define SHOCK 0.1 /* least reported collision speed, over the speed at which a front breaks or yields a body */
 
-/* Returns the strain that breaks or yields a material [1]; INFINITY if none does. */
+/* Returns the strain at which material m breaks or yields [1]; INFINITY if it does neither. */
 static real strain_limit(const struct scene *s, const struct material *m)
 {
     const real strain = s->method == METHOD_MPM ? INFINITY : m->onset_stretch;
     return material_yields(m) ? real_min(strain, material_initial_yield_stress(m) / m->young) : strain;
 }
 
-/* Returns the least impedance of the materials of body b [kg/(m^2 s)]; INFINITY for a rigid body. */
+/* Returns the smallest impedance (density times wave speed) of the materials of body b [kg/(m^2 s)]; INFINITY if b >=
+ * s->bodies, which is a rigid body. */
 static real least_impedance(const struct scene *s, int b)
 {
     real least = INFINITY;
@@ -22,10 +23,10 @@ static real least_impedance(const struct scene *s, int b)
     return least;
 }
 
-/* Returns the closing speed at which the front that body b strikes into body a breaks or yields a [m/s]; INFINITY
- * without limits. Equal stress and velocity at the face leave a the share Z_b/(Z_a + Z_b) of the closing speed v, where
- * Z = density times wave speed c, so that its strain is that share of v/c: v/(2 c) between bodies of one material, v/c
- * beside a rigid body. */
+/* Returns the closing speed of bodies a and b at which the front of their impact breaks or yields body a [m/s];
+ * INFINITY if nothing does. Stress and velocity are equal at the common face, so that body a gets the share Z_b/(Z_a +
+ * Z_b) of the closing speed v, with the impedance Z = density times wave speed c. Its strain is this share of v/c: v/(2
+ * c) between bodies of one material, v/c beside a rigid body. */
 static real speed_limit(const struct scene *s, int a, int b)
 {
     const real other = least_impedance(s, b);

@@ -16,16 +16,16 @@
 #define LOAD_SHARE_LEAST 0.5 /* least share of the motion that a load must explain: speeds double at free faces */
 #define LARGE_STRAIN 0.1     /* initial strain that counts as the cause: stresses of a tenth of the modulus */
 #define ENERGY_STEPS 50      /* steps before the energy check begins */
-/* Energy below which all is round-off, over the kinetic energy of the body at its wave speed */
+/* Kinetic energy, over that of the body moving at its wave speed, below which all energies are round-off [1]. */
 #define ENERGY_OF_ROUND_OFF 1e-24
-/* Least energy without a source that fails a run, over the largest energy. Empirical: the first steps after a jump
- * in velocity show 0.1, unstable runs that break all bonds 0.9. */
+/* Smallest energy without a source, over the largest energy, at which a run fails [1]. Empirical: the first steps after
+ * a jump in velocity show 0.1, unstable runs that break all bonds 0.9. */
 #define ENERGY_FROM_NOWHERE 0.5
-/* Least energy that bonds release when they break beyond what they had stored, over the largest energy, that fails a
- * run. Empirical: scenes in inputs/ show none with any model; ospd under pressure shows 0.4. */
+/* Smallest energy, over the largest energy, that bonds may release when they break beyond what they had stored, at
+ * which a run fails [1]. Empirical: scenes in inputs/ show none with any model; ospd under pressure shows 0.4. */
 #define RELEASED_FROM_NOWHERE 0.25
-/* Kinetic energy 1/2 m v- . v+ over strain energy below which velocities change sign in every step. Steps below the
- * critical step have at least -(dt/dt_critical)^2. */
+/* Ratio of kinetic energy 1/2 m v- . v+ (v-, v+: velocities before and after a velocity update) to strain energy below
+ * which velocities change sign in every step. Steps below the critical step have at least -(dt/dt_critical)^2. */
 #define KINETIC_LEAST -0.9
 enum { INVERSION_STEPS = 50 }; /* steps between checks for inverted cells, which cost about half a step */
 enum { MOMENTS = 256 };        /* samples of a function of time */
@@ -49,8 +49,8 @@ void stability_store_start_speed(struct stability *s, const struct particles *p)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Computes the largest value *most and the mean *mean of |f| between times `from` and `to` [s], from MOMENTS
- * samples. */
+/* Computes the largest value *most and the mean *mean of |f| between the times `from` and `to` [s], from MOMENTS evenly
+ * spaced times. */
 static void factors(const struct time_function *f, real from, real to, real *most, real *mean)
 {
     *most = *mean = 0;
@@ -81,8 +81,8 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     return mean * (clock->t - from) * sqrt(fast2);
 }
 
-/* Returns true if the loads explain the motion, i.e. no instability is needed: given >= LOAD_SHARE_LEAST times the
- * kinetic energy. given: energy at the start plus work of the loads [J]. */
+/* Returns true if the loads explain the motion of a diverged run, so that no instability has to be assumed: if `given`
+ * is at least LOAD_SHARE_LEAST times the kinetic energy. given: energy at the start plus work of the loads [J]. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
     const real kinetic = particles_kinetic_energy(p) + frame_kinetic_energy(frame);
@@ -161,7 +161,7 @@ static int say_step(const struct scene *s, const struct run_clock *clock, char *
                     clock->dt_critical);
 }
 
-/* Returns true if a mirror of scene s also prevents tangential motion on its plane. */
+/* Returns true if a mirror of scene s prevents motion along its plane, too (hold_tangential). */
 static bool holds_images(const struct scene *s)
 {
     for (int b = 0; b < s->boundaries; b++)
@@ -371,8 +371,8 @@ static bool swings(const struct run_clock *clock, const struct energy *energy)
     return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
 }
 
-/* Returns FAILED with a message that contains step, time and the fastest particle. what: completes the words "a body
- * ..."; remedy: advice, at the end of the message. */
+/* Sets the error that the run is unstable, with a message that contains step, time and the fastest particle. what:
+ * completes the words "the fastest one of a body ..."; remedy: advice, at the end of the message. Returns FAILED. */
 static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {
     const int64_t i = fastest_particle(p);
@@ -421,8 +421,9 @@ static bool say_stretched(const struct particles *p, const struct scene *s, real
     return false;
 }
 
-/* Plastic strain of points of a mesh at which a warning is printed: elastic and plastic strains add up to the strain of
- * the rotated cell, which is short of the logarithm of the stretch by half its square. */
+/* Equivalent plastic strain of points of a mesh above which a warning is printed [1]. Elastic and plastic strains add
+ * up to the strain of the rotated cell (stretch less 1), which differs from the logarithm of the stretch by about half
+ * its square. */
 #define FLOW_MOST 0.05
 
 /* Warns of the first point of a mesh with a plastic strain above FLOW_MOST. t: present time [s]. Returns true if there
@@ -443,8 +444,9 @@ static bool say_flowed(const struct particles *p, real t, struct warnings *to)
     return false;
 }
 
-/* Plastic strain of points on the grid with a back stress at which a warning is printed: a shear g of 0.9, at which
- * the back stress of Prager's law by Jaumann's rate, (C/3) sin g, is 12 % below C g/3 (Nagtegaal & de Jong 1981). */
+/* Equivalent plastic strain of points on the grid with a back stress above which a warning is printed [1]. It belongs
+ * to a shear g of 0.9, at which the back stress of Prager's law by Jaumann's rate, (C/3) sin g, is 12 % below C g/3
+ * (Nagtegaal & de Jong 1981; C: kinematic modulus). */
 #define TURNED_MOST 0.5
 
 /* Warns of the first point on the grid whose back stress may oscillate: one with kinematic hardening and a plastic

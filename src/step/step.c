@@ -26,8 +26,8 @@ struct step {
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
 };
 
-/* Returns the quantities that the phases of the next step share: middle of the step, damping factors, length of the
- * velocity update, which is also stored in *transfer. damping: decay rate of the bulk [1/s]. */
+/* Returns the quantities that the phases of the next step share: middle of the step, damping factors, and length of the
+ * velocity update, which is also stored in *transfer. damping: decay rate c of bulk damping [1/s]. */
 static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
     const real dt = clock->dt, decay = damping * dt, share = damping_increment_factor(decay);
@@ -58,8 +58,8 @@ static void motion_begin(struct run *e, struct step *now)
     timer_add_elapsed(&e->timers, TIMER_CONVERT);
 }
 
-/* Sorts the points on the grid into cells. Returns FAILED, with a message, if points have left the grid and
- * diverged. */
+/* Sorts the points on the grid into cells. Returns FAILED, with a message, if positions of points are not finite or a
+ * grid would need too many nodes. */
 static status sort(struct run *e)
 {
     bool lost;
@@ -67,8 +67,8 @@ static status sort(struct run *e)
     return lost ? divergence_check(e, true, false) : OK;
 }
 
-/* Applies the first half of interface damping to the velocities, before the forces, and books the energy it takes. Sets
- * now->damps if interface damping acts. */
+/* Applies the first half of interface damping to the velocities, before the forces, and adds the energy that it removes
+ * to e->damped. Sets now->damps to true if interface damping acts. */
 static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
@@ -77,8 +77,8 @@ static void zone_damp(struct run *e, struct step *now)
     loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
 }
 
-/* Stores the velocities before bulk damping, from which its loss is computed. In the first step velocities are also
- * damped by half a step; samples of t = 0 use the undamped ones. */
+/* Stores the velocities before bulk damping, from which its energy loss is computed. In the first step also damps the
+ * velocities by half a step first; samples of t = 0 use the undamped ones. */
 static void damping_begin(struct run *e, const struct step *now)
 {
     real *const *before = e->report->sampling.before;
@@ -100,15 +100,15 @@ static bool sweep_moves(const struct scene *s, const struct run_report *report)
     return !report->sampling.due && s->growths == 0 && !scene_has_viscosity(s);
 }
 
-/* Returns the number of time steps between two looks at strength surfaces: those in which a wave crosses half a
- * horizon [m]. wave_speed [m/s]; dt: time step [s]. */
+/* Returns the number of time steps between two examinations of strength surfaces: in these steps a wave crosses half a
+ * horizon. horizon [m]; wave_speed [m/s]; dt: time step [s]. */
 static int64_t surface_interval(real horizon, real wave_speed, real dt)
 {
     return 1 + (int64_t)(0.5 * horizon / (wave_speed * dt));
 }
 
-/* Computes the forces of bonds and breaks the bonds beyond their limit; now->broken receives their number. If
- * sweep_moves allows it, particles without loads are moved in the same sweep. */
+/* Computes the forces of bonds and breaks the bonds beyond their limit. now->broken receives the number of directed
+ * bonds broken. If sweep_moves allows it, particles without loads are also moved in this loop. */
 static void push_bonds(struct run *e, struct step *now)
 {
     loads_clear_forces(&e->loads, &e->part);
@@ -128,8 +128,8 @@ static void push_contact(struct contact *c, struct particles *p, const struct ru
     contact_record_first_and_last_time(c, clock->t);
 }
 
-/* Moves the peridynamic particles that the sweep of bond forces has not moved: the loaded ones, or all if sweep_moves
- * is false. Sets motion->diverged if one is faster than waves. */
+/* Moves the peridynamic particles that the loop over bonds has not moved: those with loads, or all if sweep_moves is
+ * false. Sets motion->diverged to true if a particle is faster than waves. */
 static void move_peridynamic(struct run *e, struct pd_motion *motion)
 {
     struct particles *p = &e->part;
@@ -167,7 +167,7 @@ static void move_frame(struct run *e, const struct step *now)
     frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
-/* Adds the reactions of prescribed nodal velocities to their supports, and sets velocities and positions of particles
+/* Adds the reactions of prescribed nodal velocities to their supports. Then sets velocities and positions of particles
  * with prescribed motion to their values at the end of the step. */
 static void step_hold(struct run *e, const struct step *now)
 {
@@ -178,7 +178,8 @@ static void step_hold(struct run *e, const struct step *now)
     timer_add_elapsed(&e->timers, TIMER_GRID);
 }
 
-/* Completes the sample of t_n, applies bulk damping and books its loss, and advances time and step number. */
+/* Completes the sample of the start of the step, applies bulk damping and adds its energy loss to e->damped, and
+ * advances time and step number. */
 static void finish(struct run *e, const struct step *now)
 {
     const bool damps = now->decay > 0;

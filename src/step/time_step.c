@@ -15,11 +15,12 @@
 /* Returns true if cells of the grid have about two points per direction (1.7 to 2.3). */
 static bool two_per_cell(const struct scene *s) { return fabs(s->cell - 2) < 0.3; }
 
-/* Returns the critical step of points on a grid over h/(c + |v|) [1], with n points per cell and direction. Empirical:
- * slightly below the least limit measured over all positions of the points in their cells, through which a moving body
- * passes. With FLIP and MUSL the limit hardly depends on the mass of nodes beyond an edge. With APIC, whose strains
- * follow from the updated velocity, it decreases with the size of the points. Linear shapes are limited by points on
- * nodes, where round-off decides the cell (measured over 1500 steps); elsewhere the limit is three times as large. */
+/* Returns the critical time step of points on a grid over h/(c + |v|) [1]: node distance h, wave speed c, speed v of
+ * the points. The values are empirical: slightly below the smallest limit measured over all positions of the points in
+ * their cells, through which a moving body passes. n is the number of points per cell and direction. With FLIP and MUSL
+ * the limit hardly depends on the mass of nodes beyond an edge. With APIC, whose strains follow from the updated
+ * velocity, it decreases with the size of the points. Linear shapes are limited by points on nodes, where round-off
+ * decides the cell (measured over 1500 steps); at other positions the limit is three times as large. */
 static real points_share(const struct scene *s)
 {
     const real n = s->cell;
@@ -82,7 +83,7 @@ static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4,
  * does not resolve. Measured where few particles share a node, the worst case. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
-/* Returns the factor of a coupling method on the critical step of bonds [1]. */
+/* Returns the factor by which the critical time step of bonds is multiplied for a coupling method [1]. */
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
@@ -90,15 +91,16 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
     return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
-/* Returns the force function of elastic bonds of this scene; bonds that yield are not stiffer, so it serves for them
- * too. */
+/* Returns the force function of the elastic bonds of this scene. It also gives the critical step of bonds that yield,
+ * which are not stiffer. */
 static bond_force_fn *elastic_force(const struct scene *s, const struct kernels *kernels)
 {
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
 }
 
-/* Returns the smallest critical time step of infinite lattices of each material of `all` [s]. force: force function of
- * bonds. *bound: receives the smallest estimate by row sums for these lattices [s]. */
+/* Returns the smallest critical time step [s] of infinite lattices, one of each material of `all`. force: force
+ * function of bonds. *bound: receives the smallest estimate by row sums of the stiffness matrices of these lattices
+ * [s]. */
 static real critical_of_lattices(const struct bond_source *all, const struct particles *p, bond_force_fn *force,
                                  real *bound)
 {
@@ -120,13 +122,14 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
     return step;
 }
 
-/* Number of particles up to which the whole body is iterated: an iteration takes about 30 rounds of a few steps each */
+/* Largest number of particles for which the highest frequency of the whole body is found by iteration. The iteration
+ * takes the time of about 30 rounds of a few time steps each. */
 enum { ITERATED_MOST = 15000 };
 
-/* Returns the critical time step of the bonds [s], INFINITY without bonds. For a small or irregular peridynamic body
- * the largest frequency of the whole body is found by iteration. Otherwise that of a block of its lattice is found. The
- * result is then multiplied by min(1, row-sum estimate of the body/row-sum estimate of the block), which is below 1 for
- * scattered particles, corrected surfaces and heavy neighbours. */
+/* Returns the critical time step of the bonds [s]; INFINITY without bonds. For a small peridynamic body, or one that is
+ * not on a lattice, the highest frequency of the whole body is found by iteration; else that of a block of its lattice.
+ * The step of a block is then multiplied by min(1, row-sum estimate of the body/row-sum estimate of the block). This
+ * factor is below 1 for scattered particles, corrected surfaces and heavy neighbours. */
 static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;

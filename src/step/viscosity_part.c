@@ -25,9 +25,9 @@ static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n
     return true;
 }
 
-/* Returns the viscous pressure over rho c^2: linear x + quadratic x^2 with x = crossing * rate [1]. linear, quadratic:
- * coefficients of the material [1]; crossing: time h/c in which a wave crosses the resolved length h [s]; rate: rate of
- * compression [1/s]. */
+/* Returns the viscous pressure over rho c^2 [1]: linear x + quadratic x^2, with x = crossing rate. linear, quadratic:
+ * coefficients of the material [1]; crossing: time h/c in which a wave of speed c crosses the resolved length h [s];
+ * rate: rate of compression [1/s]. */
 static real viscous_strain(real linear, real quadratic, real crossing, real rate)
 {
     const real x = crossing * rate;
@@ -89,7 +89,8 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
 /* ---- points on the grid ------------------------------------------------------------------------------------------ */
 
 /* Computes the viscous pressure v->pressure of the points on the grid from the growth of their volumes in the previous
- * step of size dt [s], and adds the energy that this dissipated to v->taken. */
+ * step, and adds the energy that the pressure dissipated to v->taken. partial: parts of the stress that bonds carry;
+ * dt: duration of that step [s]. */
 static void points_pressure(struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                             real dt)
 {
@@ -157,8 +158,9 @@ static real invert_gradient(const real *F, int dim, real *inverse)
 }
 
 /* Replaces the displacement gradient H[dim dim][i] of point i by the tensor of its viscous nodal forces, volume0 J q
- * F^-T [N m]. Nodal forces follow by multiplication with gradients of shape functions. q: viscous pressure; J:
- * determinant of F = 1 + H; G: velocity gradients, [dim dim][points] [1/s]. */
+ * F^-T [N m], with the viscous pressure q and the determinant J of F = 1 + H. The nodal forces follow by multiplication
+ * with gradients of shape functions. partial: parts of the stress that bonds carry; G: velocity gradients, [dim
+ * dim][points] [1/s]. */
 static void viscous_stress(const struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                            int64_t i, real *const *H, real *const *G)
 {
@@ -175,8 +177,8 @@ static void viscous_stress(const struct viscosity *v, const struct particles *p,
         for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
 }
 
-/* Adds the viscous forces of the points of mesh cell I to its nodes, f[dim][nodes] [N]. P[dim dim][points]: tensors
- * computed by viscous_stress [N m]. */
+/* Adds the viscous forces of the points of mesh cell I to the forces f[dim][nodes] on its nodes [N]. P: tensors of the
+ * points computed by viscous_stress, [dim dim][points] [N m]. */
 static void cell_push(const struct mesh *mesh, int64_t I, real *const *P, real *const *f)
 {
     const int dim = mesh->grid.dim;
@@ -202,8 +204,9 @@ static int cell_colour(const struct mesh *mesh, int64_t I)
     return colour;
 }
 
-/* Adds the viscous forces of all mesh cells to f[dim][grid.n] [N], colour by colour in parallel; cells beside slits
- * serially. P[dim dim][points]: tensors computed by viscous_stress [N m]. */
+/* Adds the viscous forces of all mesh cells to the nodal forces f[dim][grid.n] [N]: in parallel for cells of one colour
+ * (which share no node), colour by colour; serially for cells beside slits. P: tensors of the points computed by
+ * viscous_stress, [dim dim][points] [N m]. */
 static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
 {
     const int colours = 1 << mesh->grid.dim;
@@ -256,9 +259,9 @@ void viscosity_add_nodal_forces(struct run *e)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest speed that load l gives to its particles within `duration` [s], or 0 if this is unbounded or the
- * load is of another kind [m/s]. A traction or pressure of size s moves a face at s/impedance. impedance: least density
- * times wave speed of the materials [Pa s/m]. */
+/* Returns the largest speed that load l gives to its particles within `duration` [s] [m/s]; 0 if the speed is unbounded
+ * or the load is of another kind. A traction or pressure of size s moves a face at s/impedance. impedance: smallest
+ * density times wave speed of the materials [Pa s/m]. */
 static real speed_of_load(const struct load *l, const struct particles *p, real duration, real impedance)
 {
     const struct boundary *b = l->boundary;
