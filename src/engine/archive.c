@@ -55,8 +55,8 @@ static status kernels_archive(struct warnings *to, struct archive *a)
     return OK;
 }
 
-/* Saves the hollow cells: mesh cells inside a body that coarse cells replace, and that have no particles. restore.c
- * reads them before the rest of the checkpoint. Returns the status of the archive. */
+/* Saves the hollow cells: mesh cells inside a body that coarse cells replace, and that have no particles. They are
+ * restored before the rest of the checkpoint (restore.c). Returns FAILED if the archive cannot be written. */
 static status hollow_save(const struct cells_without_particles *h, struct archive *a)
 {
     int64_t n = h->absent ? h->box.n : 0;
@@ -64,7 +64,8 @@ static status hollow_save(const struct cells_without_particles *h, struct archiv
     return n > 0 ? a->exchange(a, "hollow/absent", h->absent, (size_t)n) : OK;
 }
 
-/* Saves or restores time, step number, number of steps and time step of a run. Returns the status of the archive. */
+/* Saves time, step number, number of steps and time step of a run to the archive a, or restores them from it
+ * (a->saving). Returns FAILED if the archive cannot be written or lacks one of them. */
 static status clock_archive(struct run_clock *c, struct archive *a)
 {
     ARCHIVE_VALUE(a, "engine/t", c->t);
@@ -74,7 +75,7 @@ static status clock_archive(struct run_clock *c, struct archive *a)
     return OK;
 }
 
-/* Saves hollow cells, particles and bonds of a run. Returns the status of the archive. */
+/* Saves hollow cells, particles and bonds of a run to the archive a. Returns FAILED if it cannot be written. */
 static status body_save(struct run *e, struct archive *a)
 {
     TRY(hollow_save(&e->frame->hollow, a));

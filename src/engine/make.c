@@ -25,8 +25,8 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Sets the critical stretch of bonds for each pair of materials: that of the weaker material, or that of an interface
- * between two bodies. In static problems no bond breaks. tables->pair_stretch [materials][materials] is allocated. */
+/* Sets the critical stretch of bonds for each pair of materials: that of the weaker material, or of an interface
+ * between bodies. In static problems no bond breaks. Allocates tables->pair_stretch, [materials][materials]. */
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
@@ -332,7 +332,7 @@ static void tables_free(struct material_tables *t)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Returns the optional arrays of particles that the law of a material needs, as bits WITH_... */
+/* Returns the set of optional arrays of particles that a material with this law needs, as bits WITH_... */
 static int law_arrays(const struct law *law)
 {
     if (!law->given) return 0;
@@ -340,7 +340,7 @@ static int law_arrays(const struct law *law)
            (law_heats_material(law) ? WITH_TEMPERATURE : 0);
 }
 
-/* Returns the optional arrays of particles that scene s needs, as bits WITH_... */
+/* Returns the set of optional arrays of particles that scene s needs, as bits WITH_... */
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);

@@ -19,7 +19,7 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
 }
 
 /* Adapts the refinement levels of cells to cracks and stress. If refined cells lack particles, the run is first
- * replaced by one that has them. Returns FAILED, with a message, if that fails. */
+ * replaced by one that has them; returns FAILED, with a message, if that is not possible. */
 static status refine(struct run *e)
 {
     if (!frame_levels_may_change(&e->frame->levels, e->clock.step)) return OK;

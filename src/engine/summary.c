@@ -19,8 +19,8 @@
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 
-/* Writes name, method, status, numbers of steps and particles, and times to JSON object j. s, message: result of the
- * run. */
+/* Writes name, method, status, numbers of steps and particles, and times of the run to JSON object j. s, message:
+ * status and error message of the run. */
 static void put_run(struct json *j, const struct run *e, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
@@ -135,8 +135,8 @@ static void put_timers(struct json *j, const struct timers *timers)
     json_close(j, '}');
 }
 
-/* Prints summary.json to file. s, message: result of the run; fragments: of the bodies at the end; threads: number of
- * threads. */
+/* Prints summary.json to file. s, message: status and error message of the run; fragments: those at the end; threads:
+ * number of threads. */
 static void summary_print(FILE *file, const struct run *e, const struct fragments *fragments, status s,
                           const char *message, int threads)
 {

@@ -2,9 +2,9 @@
 #include "base/memory.h"
 #include "engine_internal.h"
 
-/* Returns, for the particles q and then the mirror images of a replaced run, their indices in the new run, -1 where
- * they are absent: an array [q->n_all], released by the caller. p, loads: of the new run; q, images: particles and
- * loads of the replaced run. In both runs particles are in ascending order of id. */
+/* Returns the indices in the new run of the particles and then the mirror images of the run that it replaces, an array
+ * [q->n_all]; -1 where the new run lacks one. p, loads: particles and loads of the new run; q, images: those of the
+ * replaced run. In both runs particles are in ascending order of id. Release it with memory_free. */
 static int32_t *numbers_now(const struct particles *p, const struct loads *loads, const struct particles *q,
                             const struct loads *images)
 {

@@ -35,8 +35,8 @@ static void warn_of_spin(const struct scene *s, const struct grid_method *grid, 
                      "20 x 10 points loses 28 %% of it in half a turn (apic: 0.002 %%); use mpm.transfer: apic");
 }
 
-/* Warns of pre-cracks in scenes without bonds, and of coupling methods that differ from their definition or have no
- * energy. */
+/* Warns of pre-cracks in scenes without bonds, which have no effect there, and of coupling methods that differ from
+ * their published definition or do not derive from an energy. kind: coupling method. */
 static void warn_of_coupling(const struct scene *s, enum coupling kind, struct warnings *to)
 {
     if (s->method == METHOD_MPM && s->cracks > 0)

@@ -14,7 +14,8 @@ static bool bonds_are_cut(const struct bonds *b)
     return false;
 }
 
-/* Returns true if crack c passes within the bond length `reach` [m] of a particle, so that it may cut a bond. */
+/* Returns true if crack c passes within `reach` [m], the length of the longest bonds, of a particle, so that it may cut
+ * a bond. */
 static bool crack_meets_particles(const struct crack *c, const struct particles *p, real reach)
 {
     bool meets = false;

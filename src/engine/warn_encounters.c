@@ -13,8 +13,9 @@ struct flight {
     bool known;                              /* the box is finite, and no force acts before the body meets another */
 };
 
-/* Computes box and range of velocities, f[b], of each deformable body b; joined bodies count as the first of them. f:
- * [bodies + rigid bodies]; entries of rigid bodies are not set. */
+/* Computes box and range of velocities, f[b], of each deformable body b, and whether nothing acts on it before it meets
+ * another body. Joined bodies count as the first of them. f: [bodies + rigid bodies]; entries of rigid bodies are not
+ * set. */
 static void flights_of_particles(const struct scene *s, const struct particles *p, struct flight *f)
 {
     for (int b = 0; b < s->bodies; b++)

@@ -7,7 +7,8 @@
 
 enum { MASS_POINTS = 7 }; /* bodies of at most so many particles are mass points, placed one by one */
 
-/* Numbers of particles of a body. */
+/* Counts of the particles of one body. all: all particles; n: those without a neighbour; first: index of the first of
+ * the latter. */
 struct lone {
     int64_t all, n, first; /* all; without neighbour; index of the first without neighbour */
 };

@@ -10,7 +10,8 @@ enum { COMPARED_MOST = 64 }; /* largest number of bodies that are compared in pa
     1.0 /* distance of a plane of symmetry from the nearest particle at which they do not touch [spacings]             \
          */
 
-/* Particles of a body that are inside another one: their number, the deepest, and its distance from the surface [m]. */
+/* Particles of a body that are inside another body. n: their number; deepest: index of the deepest one; depth: its
+ * distance from the surface [m]. */
 struct overlap {
     int64_t n, deepest;
     real depth;
@@ -40,7 +41,8 @@ static struct overlap body_overlap(const struct scene *s, const struct particles
     return found;
 }
 
-/* Warns of the overlap of body `inner` with body `outer`, in which particles of it are. */
+/* Warns of the overlap of two bodies. inner: number of the body with particles inside the other one; outer: number of
+ * the other body; found: those particles. */
 static void warn_of_overlap(const struct scene *s, const struct particles *p, int inner, int outer,
                             const struct overlap *found, struct warnings *to)
 {
@@ -66,7 +68,8 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
         }
 }
 
-/* Returns true if entry k of `initial` changes the state of a particle. */
+/* Returns true if entry k of `initial` changes the state of at least one particle, or may do so in cells without
+ * particles. */
 static bool initial_is_met(const struct scene *s, const struct particles *p, int k)
 {
     const struct scene_initial *initial = &s->initial[k];

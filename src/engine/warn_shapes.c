@@ -6,7 +6,8 @@
 
 enum { SOLIDS_MOST = 32, POINTS_OF_SOLID = 20000 }; /* solids of a body, points of each, that are tested */
 
-/* Returns number k >= 1 of the sequence of van der Corput with the given base, a value from 0 to 1. */
+/* Returns element k >= 1 of the van der Corput sequence with the given base (the digits of k mirrored at the radix
+ * point), a value between 0 and 1. */
 static real radical_inverse(int k, int base)
 {
     real sum = 0, digit = 1;

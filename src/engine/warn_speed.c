@@ -20,8 +20,8 @@ static bool load_meets(const struct scene *scene, const struct particles *part, 
     return any;
 }
 
-/* A load that drives particles, the bodies that contain them [bodies], and the speed at which bonds beside them
- * break [m/s]. */
+/* A load that drives particles. body: [bodies] true for the bodies that contain these particles; limit: speed at which
+ * bonds beside the particles break [m/s]. */
 struct driver {
     const struct load *load;
     bool *body;

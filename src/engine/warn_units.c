@@ -73,7 +73,8 @@ static void units_judge_between(const struct scene *s, enum accept k, real least
                  (int)strcspn(word, "|"), word);
 }
 
-/* Warns if `value` is outside the plausible range rule[k] of quantity k, as units_judge_between does. */
+/* Warns if `value` is outside the plausible range rule[k] of quantity k, unless the scene accepts that. subject: part
+ * of the scene with this value; note: text with the numbers from which it is computed, or "". */
 static void units_judge(const struct scene *s, enum accept k, const char *subject, real value, const char *note,
                         struct warnings *to)
 {
@@ -118,8 +119,9 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Warns of rigid bodies whose mass does not fit their volume: densities outside those of matter or, if the densities of
- * the materials are outside as well (other units), outside those by a factor of more than UNLIKE. */
+/* Warns of rigid bodies whose mass does not fit their volume. Their density should be within that of matter,
+ * rule[ACCEPT_MASS]. If the densities of the materials are outside, too (other units), it should be within a factor
+ * UNLIKE of these. */
 static void units_of_rigids(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -198,8 +200,8 @@ static void units_of_times(const struct scene *s, real dt, struct warnings *to)
 /* ---- stress that loads can make -------------------------------------------------------------------------------- */
 
 /* Largest values over all loads. stress: of tractions, pressures and body forces [Pa]; speed: of driven particles
- * relative to undriven ones [m/s]; least, most: range of prescribed displacements [dim, m]; supports: number of loads
- * that constrain or drive particles. */
+ * relative to undriven ones [m/s]; least, most: range of prescribed displacements along each axis [m]; supports: number
+ * of loads that constrain or drive particles. */
 struct load_figures {
     real stress, speed, least[DIM_MAX], most[DIM_MAX];
     int supports;
