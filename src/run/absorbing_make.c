@@ -12,8 +12,8 @@ static struct impedance impedance_of(const struct material *m, real c11, real sh
     return (struct impedance){sqrt(m->density * c11), sqrt(m->density * shear)};
 }
 
-/* Returns the impedances of material m by the elastic constants of a family on the lattice: those of the material for
- * state-based models, those of the lattice sums for bond-based ones. */
+/* Returns the impedances of material m with the elastic constants of bonds on the lattice: those of the material for
+ * state-based models, those of the sums over the family (neighbours of a particle) for bond-based ones. */
 static struct impedance impedance_lattice(const struct bond_source *source, const struct scene *scene,
                                           const struct material *m)
 {

@@ -9,7 +9,8 @@
 
 /* ---- sums over particles ----------------------------------------------------------------------------------------- */
 
-/* Masses [kg] and velocities [m/s] of particles or nodes. flag: entries with FLAG_MESHED are skipped; NULL: none. */
+/* Masses [kg] and velocities [m/s] of particles or nodes. flag: flags of the particles, of which those with FLAG_MESHED
+ * are skipped; NULL: no entry is skipped. */
 struct movers {
     int dim;
     const real *mass;
@@ -17,8 +18,8 @@ struct movers {
     const uint8_t *flag;
 };
 
-/* Size of the pieces in which the sums test flags: pieces whose particles are all moved by the nodes of a mesh are
- * skipped as a whole. */
+/* Number of particles in a piece. Pieces whose particles are all moved by the nodes of a mesh are skipped as a whole in
+ * the sums. */
 enum { MOTION_PIECE = 64 };
 
 /* Returns true if particles first .. end - 1 are all moved by the nodes of a mesh (FLAG_MESHED). flag: [particles]. */
@@ -29,7 +30,8 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
     return all != 0;
 }
 
-/* Which sums are computed: kinetic energy alone; momentum as well; and the sum of |m v|, which takes square roots. */
+/* Which sums are computed: the kinetic energy; the momentum as well; or also the sum of |m v|, which takes square
+ * roots. */
 enum motion_sums { SUM_ENERGY, SUM_MOMENTUM, SUM_SIZES };
 
 /* Sums over particles or nodes: kinetic energy [J], momentum by component, and sum of |m v| [kg m/s]. */
@@ -37,8 +39,8 @@ struct motion {
     real kinetic, momentum[DIM_MAX], size;
 };
 
-/* Adds the wanted sums over entries first .. end - 1 of m to *to. meshed: entries with FLAG_MESHED are skipped. dim,
- * meshed and wanted must be compile-time constants. */
+/* Adds kinetic energy, and by `wanted` momentum and sum of |m v|, of entries first .. end - 1 of m to *to. meshed: true
+ * to skip entries with FLAG_MESHED. dim, meshed and wanted must be compile-time constants. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                      const int dim, const bool meshed, const enum motion_sums wanted)
 {
@@ -80,7 +82,7 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     }
 }
 
-/* Returns true if nodes first .. end - 1 all have no mass, as most nodes of level 0 inside coarse cells. */
+/* Returns true if nodes first .. end - 1 all have no mass, as most nodes of the finest cells inside coarse cells. */
 static bool none_has_mass(const real *mass, int64_t first, int64_t end)
 {
     real most = 0;
@@ -89,7 +91,7 @@ static bool none_has_mass(const real *mass, int64_t first, int64_t end)
     return most == 0;
 }
 
-/* Returns the wanted sums over entries first .. end - 1 of m; the others are 0. */
+/* Returns the sums over entries first .. end - 1 of m that `wanted` selects; the other members are 0. */
 static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end,
                                              const enum motion_sums wanted)
 {
@@ -125,8 +127,8 @@ struct kick {
     real dt;
 };
 
-/* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 [J], dv being the change of velocity in the
- * step. Particles with prescribed motion do not contribute: their work is booked with their motion. */
+/* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 [J], with the change of velocity dv in the
+ * step. Particles with prescribed motion do not contribute, since their work is computed with their motion. */
 static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
     const struct particles *p = k->p;
@@ -169,7 +171,8 @@ static void momentum_block(const void *context, int64_t first, int64_t end, real
     for (int d = 0; d < m->dim; d++) sum[d] += motion.momentum[d];
 }
 
-/* Adds the momentum by component, then the sum of |m v|, to sum [dim + 1]. */
+/* Adds the momentum of entries first .. end - 1 by component to sum[0 .. dim - 1], and the sum of |m v| to sum[dim] [kg
+ * m/s]; a block function of reproducible_sums. context: a struct movers. */
 static void momentum_and_size_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct movers *m = context;

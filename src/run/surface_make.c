@@ -15,7 +15,7 @@ static int mirror_between(const struct loads *loads, const real *X, const real *
     return -1;
 }
 
-/* Returns the number of a body, among those joined to `body`, whose shape contains X [m]; `body` itself if none
+/* Returns the number of the body, among those joined to body `body`, whose shape contains X [m]; `body` if no shape
  * does. */
 static int body_made_for(const struct scene *s, const real *X, int body)
 {
@@ -26,8 +26,8 @@ static int body_made_for(const struct scene *s, const real *X, int body)
     return body;
 }
 
-/* Returns REFUSED, with a message, for the body of particle i, whose mirror m is neither on a row of its lattice nor
- * half a spacing from one. */
+/* Sets the error that the body of particle i has a mirror m that is neither on a row of its lattice nor half a spacing
+ * from one. Returns REFUSED. */
 static status refuse_rows(const struct scene *s, const struct particles *p, int64_t i, const struct boundary *m)
 {
     real X[DIM_MAX];
@@ -41,8 +41,8 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
                       "xyz"[m->axis]);
 }
 
-/* Returns REFUSED, with a message, for particles i < n and j, which may be a mirror image: their distance is not a
- * whole number of spacings along each axis. */
+/* Sets the error that the distance of particles i and j along an axis is not a whole number of spacings. i < p->n; j
+ * may be a mirror image. Returns REFUSED. */
 static status refuse_apart(const struct scene *s, const struct particles *p, const struct loads *loads, int64_t i,
                            int64_t j)
 {
