@@ -10,33 +10,37 @@
 
 enum { CORRECTIONS_MOST = 80 };  /* largest number of Newton corrections; linear bodies need two or three */
 enum { DIRECTIONS_MOST = 2000 }; /* largest number of directions in a correction */
-/* directions without progress that end a correction: the matrix is nearly singular, or the residual is round-off */
+/* Number of search directions without progress after which the solution for a correction ends: the matrix is then
+ * nearly singular, or the residual is round-off. */
 enum { DIRECTIONS_IDLE = 100 };
 enum { EVALUATIONS_MOST = 10 }; /* largest number of force evaluations of a line search */
 
-/* Largest strain of the increment over which forces are differenced. Second-order terms are of its size; the
- * round-off of forces, a strain of 1e-14 in a body of 100 spacings, is 1e-8 of the difference. */
+/* Largest strain of the displacement increment over which a difference of forces is taken. The second-order terms of
+ * the difference are of its size; the round-off of forces, a strain of 1e-14 in a body of 100 spacings, is 1e-8 of the
+ * difference. */
 #define DIFFERENCE_STRAIN 1e-6
-/* Largest rotation of bonds over that increment: fragments that hang on one or two bonds rotate and are hardly
- * strained. */
+/* Largest rotation of bonds [rad] in the displacement increment over which a difference of forces is taken. It is the
+ * tighter limit for fragments that hang on one or two bonds, which rotate and are hardly strained. */
 #define DIFFERENCE_TURN 1e-5
-/* Largest rotation of bonds in a correction along a direction of negative stiffness. */
+/* Largest rotation of bonds in a correction along a direction of negative stiffness [rad]. */
 #define TURN_MOST 0.1
 
-/* Limits of a correction, relative to the values before it. PUSH_LEFT: a line search ends once forces along the
- * correction are below this share. WORK_CURVED: if the residual is above this share, work is integrated by Simpson's
- * rule. */
+/* Limits of a correction of the displacements. PUSH_LEFT: a line search ends once the force along the correction is
+ * below this share of its initial value. WORK_CURVED: the work is integrated by Simpson's rule if the residual after
+ * the correction is above this share of the one before. */
 #define PUSH_LEFT 0.8
 #define WORK_CURVED 0.01
-/* intervals of Simpson's rule for forces with kinks; with 2, a 24th of the work beyond a kink would be missed */
+/* Number of intervals of Simpson's rule for forces that are not smooth along the correction (kinks at contact and
+ * yielding). With 2 intervals a 24th of the work beyond a kink would be missed. */
 enum { WORK_PARTS = 16 };
 
-/* Largest and smallest share of the residual that the inner iteration of a correction may leave; the smallest is the
- * accuracy of one-sided differences. */
+/* Largest and smallest share of the residual [1] that the conjugate gradient iteration of a correction may leave. The
+ * smallest one is the accuracy of one-sided differences of forces. */
 #define FORCING_MOST 0.1
 #define FORCING_LEAST 1e-4
 
-/* Least share of the largest loads so far that scales the residual, for a body that has broken and carries no load. */
+/* Least scale of the residual over the largest loads so far [1]; it acts for a body that has broken and carries no
+ * load. */
 #define SCALE_LEAST 1e-2
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
@@ -72,7 +76,8 @@ void newton_solver_free(struct newton_solver *q)
 
 static bool is_held(const struct newton_solver *q, int64_t i, int d) { return q->held[i] >> d & 1; }
 
-/* Computes the vector to = a x + b y, over free and held components. `to` may be x or y. */
+/* Computes the vector to = a x + b y for all components, those with prescribed displacement included. `to` may be x or
+ * y. */
 static void combine(const struct newton_solver *q, struct field *to, real a, const struct field *x, real b,
                     const struct field *y)
 {
@@ -90,8 +95,8 @@ struct product {
     const struct field *a, *b;
 };
 
-/* Adds the products a b over free components to sum[0] and over held components, those with prescribed displacement, to
- * sum[1], for nodes first .. end - 1; a block function of reproducible_sums. context: a struct product. */
+/* Adds the products a b of nodes first .. end - 1 to sum[0] for free components, and to sum[1] for held components
+ * (those with prescribed displacement). A block function of reproducible_sums; context: a struct product. */
 static void dot_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -99,7 +104,8 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
         for (int64_t i = first; i < end; i++) sum[is_held(s->q, i, d)] += s->a->of[d][i] * s->b->of[d][i];
 }
 
-/* Computes the scalar product of vectors a and b over free components, sum[0], and over held components, sum[1]. */
+/* Computes the scalar product of the vectors a and b over free components, sum[0], and over held components (those with
+ * prescribed displacement), sum[1]. */
 static void dots(const struct newton_solver *q, const struct field *a, const struct field *b, real sum[2])
 {
     reproducible_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
@@ -143,8 +149,8 @@ static real dot_all(const struct newton_solver *q, const struct field *a, const 
     return sum;
 }
 
-/* Returns the length over which a displacement increment rotates bonds [m]: the extent of the region of nodes that move
- * by about its largest component. most: this component [m]. */
+/* Returns the length over which a displacement increment rotates bonds [m]: the size of the region in which nodes move
+ * by about the largest component of the increment. most: this component [m]. */
 static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
@@ -172,16 +178,16 @@ static void stiffness(struct newton_solver *q, const struct field *in, struct fi
         combine(q, out, 0, out, 0, out);
 }
 
-/* Stores in q->strain_ratio the ratio of strain to largest component of direction d [1/m], from which the step of the
- * next difference of forces follows. curvature: d . K d with the tangent stiffness K. */
+/* Stores in q->strain_ratio the ratio of strain to largest component of the vector d [1/m], from which the size of the
+ * next difference of forces follows. curvature: d . K d with the tangent stiffness K [J]. */
 static void strain_note(struct newton_solver *q, const struct field *d, real curvature)
 {
     const real most = field_largest_component(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
-/* Computes from the present forces q->f the scale (largest norm of applied forces, reactions or noise), the residual
- * relative to it, and the node with the largest residual, q->worst. */
+/* Computes q->scale, the largest of the norms of applied forces, reactions and noise [N], the residual of the present
+ * forces q->f relative to it, and q->worst, the node with the largest residual. */
 static void equilibrium_measure(struct newton_solver *q)
 {
     real sum[2], most = -1;
@@ -198,8 +204,8 @@ static void equilibrium_measure(struct newton_solver *q)
 
 /* ---- one correction ---------------------------------------------------------------------------------------------- */
 
-/* Computes the residual r = f - K x of the initial increment q->x, which contains the motion of supports, in q->r; 0 on
- * held components. */
+/* Computes the residual q->r = f - K x of the initial increment x = q->x, which contains the motion of supports. The
+ * residual is set to 0 on held components (those with prescribed displacement). */
 static void residual_of_guess(struct newton_solver *q)
 {
     if (field_largest_component(&q->x, q->dim, q->n) == 0) {
@@ -233,8 +239,9 @@ struct step {
     real scale;
 };
 
-/* Computes x += scale d, and r -= scale K d on free components (r = 0 on held ones), for nodes first .. end - 1; K d is
- * in q->q. Adds r . r to *sum. A block function of reproducible_sums. context: a struct step. */
+/* Computes x += scale d for nodes first .. end - 1, and r -= scale K d on free components (r = 0 on held ones, whose
+ * displacement is prescribed). K d is in q->q. Adds r . r to *sum. A block function of reproducible_sums; context: a
+ * struct step. */
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct step *s = context;
@@ -299,10 +306,10 @@ static void forces_along(struct newton_solver *q, real share)
     forces_at(q, &q->z, &q->q);
 }
 
-/* Returns the factor of the correction x at which the forces along x nearly vanish; 1 for linear bodies. The energy
- * decreases up to that point: the factor is reduced if forces point against x and increased if they still point along
- * it. left: norm of the residual before the correction [N]; prescribed: supports move, so that the increment is made in
- * full. Stores the displacement in q->z and the forces there in q->q. */
+/* Returns the factor of the correction x at which the force along x nearly vanishes; it is 1 for linear bodies. The
+ * energy decreases up to that point: the factor is reduced if the force points against x and increased if it still
+ * points along x. left: norm of the residual before the correction [N]; prescribed: true if supports move, so that the
+ * increment is made in full. Stores the displacement in q->z and the forces there in q->q. */
 static real line_search(struct newton_solver *q, real left, bool prescribed)
 {
     const real push = dot_free(q, &q->f, &q->x), most = field_largest_component(&q->x, q->dim, q->n);
@@ -325,9 +332,10 @@ static real line_search(struct newton_solver *q, real left, bool prescribed)
     return share;
 }
 
-/* Returns the work of all forces over the increment share x [J]: by the trapezoidal rule, or by Simpson's rule if
- * forces are not linear along it. Loads grow in proportion over the increment, from those of q->before. left: norm of
- * the residual before the increment [N]. Overwrites the vectors q->at and q->r. */
+/* Returns the work of all forces over the increment share x [J]: by the trapezoidal rule, or by Simpson's rule if the
+ * forces are not linear along it. Loads grow in proportion over the increment, from those of q->before. share: factor
+ * of the line search [1]; left: norm of the residual before the increment [N]. Overwrites the vectors q->at and
+ * q->r. */
 static real work_along(struct newton_solver *q, real share, real left)
 {
     real ends[2], after[2], middle[2], grown[2], sum = 0;
@@ -348,7 +356,8 @@ static real work_along(struct newton_solver *q, real share, real left)
 }
 
 /* Adds the correction q->x, times the factor of the line search, to q->u and updates the forces. left: norm of the
- * residual before it [N]; prescribed: supports move. Returns the work of all forces along the increment [J]. */
+ * residual before the correction [N]; prescribed: true if supports move. Returns the work of all forces along the
+ * increment [J]. */
 static real advance(struct newton_solver *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);
@@ -368,10 +377,10 @@ static real dot_held(const struct newton_solver *q, const struct field *incremen
     return sum[1];
 }
 
-/* Corrects work and losses for the path between two equilibria. The first correction assumed that loads grow linearly
- * along it, later ones that they are complete. In fact the states form a curve, c s + d s^2 for the share s of the
- * growth: loads do 1/6 of `more` beyond the mean of both ends, and nothing is lost. more: growth of loads times the
- * increments of later corrections [J]. */
+/* Corrects work and losses for the path between two equilibria. The first correction of the displacements assumed that
+ * loads grow linearly along the path, later corrections that loads are complete. In fact the states form a curve c s +
+ * d s^2 with the share s of the growth of loads. The work of the loads is then more/6 beyond that of the mean of both
+ * ends, and no energy is lost. more: growth of loads times the displacement of later corrections [J]. */
 static void loads_bend(struct newton_solver *q, real more)
 {
     q->bent = more / 6;

@@ -6,23 +6,23 @@
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
-/* DENSE: number of unknowns below which a level is solved as a dense matrix. DEGREE, DEGREE_COARSE: steps of relaxation
- * before and after the correction by coarser levels, on the finest level, whose products take most of the time, and on
- * other levels. RANGE: largest over smallest eigenvalue that relaxation damps. */
+/* DENSE: a level with fewer unknowns is solved as a dense matrix. DEGREE: steps of relaxation before and after the
+ * correction by coarser levels, on the finest level, where products with the matrix take most of the time.
+ * DEGREE_COARSE: such steps on other levels. RANGE: largest over smallest eigenvalue that relaxation damps. */
 enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 #define RANGE 4.0
 
 /* ---- the finest level -------------------------------------------------------------------------------------------- */
 
-/* Largest sum of the blocks in a matrix row, over the diagonal, that is due to rounding: without supports the sum is
- * 0. */
+/* Largest sum of the blocks of a matrix row, over its diagonal, that counts as round-off. Exactly the sum is 0 in rows
+ * without supports. */
 #define ROUND_OFF 1e-6
-/* A node has no stiffness if its diagonal is below this share of the largest one. */
+/* Least diagonal entry of a node over the largest one [1]; a node below it has no stiffness. */
 #define STIFFNESS_LEAST 1e-12
 
-/* Computes diagonal block, scale and constraint mark of row i. The diagonal is replaced by minus the sum of the other
- * entries if they differ by rounding only, so that a rigid translation has exactly no energy. Larger differences
- * (supports, foundations) are stored in l->rest. */
+/* Computes diagonal block, scale and constraint flag of row i of the finest level l. The diagonal is replaced by minus
+ * the sum of the other entries of the row if both differ by round-off only, so that a rigid translation has exactly no
+ * energy. Larger differences (supports, foundations) are stored in l->rest. */
 static void diagonal_exact(const struct multigrid_level *l, int64_t i)
 {
     const int size = l->width * l->width;
@@ -43,8 +43,8 @@ static void diagonal_exact(const struct multigrid_level *l, int64_t i)
     l->scale[i] = trace / l->width;
 }
 
-/* Sets up the finest level l from the matrix a, which is kept by reference. held[a->n]: constrained components of each
- * node, bit d: component d. Returns FAILED, with a message, if a diagonal stiffness is negative or not finite. */
+/* Sets up the finest level l from the matrix a, which is kept by reference. held[i]: constrained components of node i,
+ * bit d for component d. Returns FAILED, with a message, if a diagonal stiffness is negative or not finite. */
 static status finest_make(struct multigrid_level *l, const struct block_matrix *a, const uint8_t *held)
 {
     const unsigned all = (1u << a->dim) - 1;
@@ -71,8 +71,9 @@ static status finest_make(struct multigrid_level *l, const struct block_matrix *
     return OK;
 }
 
-/* Computes l->mode, the rigid motions at each node: translations, then rotations as velocities at the distance from the
- * centre; 0 on held components. position: [width][n] [m]. */
+/* Computes l->mode, the rigid motions at each node: translations, then rotations about the centre of the nodes
+ * (displacement per angle). They are 0 on held components, those with prescribed displacement. position: of the nodes,
+ * [width][n] [m]. */
 static void finest_modes(struct multigrid_level *l, real *const *position)
 {
     const int w = l->width, m = l->modes;

@@ -4,8 +4,8 @@
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
-/* An entry is a connection if its norm is at least this share of the geometric mean of the largest norms in its two
- * rows. */
+/* Smallest ratio of the norm of a matrix entry to the geometric mean of the largest norms in its two rows at which the
+ * entry counts as a connection. */
 #define WEAK 0.1
 
 /* Returns the Frobenius norm of matrix entry q, a block of width x width values. */
@@ -40,8 +40,8 @@ static float *strengths_make(const struct multigrid_level *l)
     return strength;
 }
 
-/* Makes a new aggregate of node i and of those of its strongly connected neighbours that belong to no aggregate.
- * strength: of strengths_make. */
+/* Makes a new aggregate (set of nodes that form one node of the coarser level) of node i and those of its strongly
+ * connected neighbours that belong to no aggregate. strength: array of strengths_make. */
 static void aggregate_found(struct multigrid_level *l, const float *strength, int64_t i)
 {
     const int32_t name = (int32_t)l->coarse++;
@@ -50,8 +50,8 @@ static void aggregate_found(struct multigrid_level *l, const float *strength, in
         if (strength[q] > 0 && l->aggregate[l->column[q]] < 0) l->aggregate[l->column[q]] = name;
 }
 
-/* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate. strength: of
- * strengths_make. */
+/* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate (a node of the
+ * coarser level). strength: array of strengths_make. */
 static bool neighbours_free(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     bool any = false;
@@ -63,8 +63,9 @@ static bool neighbours_free(const struct multigrid_level *l, const float *streng
     return any;
 }
 
-/* Returns the aggregate whose nodes have the largest sum of connection strengths with node i, or -1 if there is none.
- * strength: of strengths_make. */
+/* Returns the number of the aggregate whose nodes have the largest sum of connection strengths with node i; -1 if none
+ * is connected with it. An aggregate is a set of nodes that form one node of the coarser level. strength: array of
+ * strengths_make. */
 static int32_t aggregate_nearest(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };
@@ -106,13 +107,13 @@ void multigrid_aggregate_nodes(struct multigrid_level *l)
 
 /* ---- rigid motions ----------------------------------------------------------------------------------------------- */
 
-/* Share of the length of a column that must be left after orthogonalisation, or the column is set to 0: aggregates in a
- * line, or of one node, have fewer rigid motions. Round-off leaves 1e-16 times the size of the body over that of the
- * aggregate. */
+/* Smallest share of the length of a column that orthogonalisation must leave; else the column is set to 0. Columns are
+ * the rigid motions of an aggregate, which has fewer independent ones if it is a line or a single node. Round-off
+ * leaves 1e-16 times the size of the body over that of the aggregate. */
 #define DROPPED 1e-9
 
-/* Returns the scalar product of columns a and c of the matrix v over the n nodes in `member`. v: m columns, w rows for
- * each node of the level. */
+/* Returns the scalar product of columns a and c of the matrix v over the n nodes in `member`. v has m columns and, for
+ * each node of the level, w rows. */
 static real column_dot(const real *v, const int32_t *member, int64_t n, int w, int m, int a, int c)
 {
     real sum = 0;
@@ -124,9 +125,9 @@ static real column_dot(const real *v, const int32_t *member, int64_t n, int w, i
     return sum;
 }
 
-/* Makes the m columns of v over the n nodes in `member`, an aggregate, orthonormal in place (Gram-Schmidt, twice).
- * r[m][m]: receives the factors, such that the old v is the new v times r; 0 before. w: rows of v for each node.
- * Dependent columns become 0. */
+/* Makes the m columns of the matrix v over the n nodes in `member` orthonormal, in place (Gram-Schmidt, twice). Columns
+ * that depend on others become 0. w: rows of v for each node; r[m][m]: 0 before, receives the factors such that the old
+ * v is the new v times r. */
 static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w, int m, real *r)
 {
     for (int c = 0; c < m; c++) {
@@ -152,8 +153,8 @@ static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w
     }
 }
 
-/* Lists the nodes of every aggregate a: member[first[a]] .. member[first[a + 1] - 1], ascending. first: [coarse + 1], 0
- * before; member: [n]. */
+/* Lists the nodes of every aggregate a (set of nodes that form one node of the coarser level), ascending:
+ * member[first[a]] .. member[first[a + 1] - 1]. first: [coarse + 1], 0 before; member: [n]. */
 static void members_list(const struct multigrid_level *l, int64_t *first, int32_t *member)
 {
     for (int64_t i = 0; i < l->n; i++)

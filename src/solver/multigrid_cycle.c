@@ -11,8 +11,8 @@ static ALWAYS_INLINE four four_load(const float *from)
     return a;
 }
 
-/* Computes sum[0] -= K x for row i of the finest level in 1D. Bonds act on differences of displacements, so that a body
- * in rigid motion has exactly no forces; l->rest is the stiffness that is not from bonds. */
+/* Computes sum[0] -= (K x)_i for row i of the finest level in 1D. Bonds act on differences of displacements, so that a
+ * body in rigid motion has exactly no forces; l->rest is the stiffness of supports. */
 static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     real force = 0;
@@ -21,15 +21,16 @@ static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t 
 }
 
 /* Returns the products of the four entries of the 2 x 2 block q with the displacement of its column's node minus `own`,
- * that of the row's node: entries 0 and 1 belong to the first component of force. */
+ * the displacement of the row's node. Lanes 0 and 1 belong to the first component of the force, 2 and 3 to the second
+ * one. x: displacements of all nodes. */
 static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(lane_pair_load(x + (int64_t)l->column[q] * 2) - own, two);
     return four_load(l->single + q * 4) * (four){u[0], u[1], u[0], u[1]};
 }
 
-/* Computes sum[0 .. 1] -= K x for row i of the finest level in 2D, with blocks of 2 x 2. Bonds act on differences of
- * displacements; l->rest is the stiffness that is not from bonds. */
+/* Computes sum[0 .. 1] -= (K x)_i for row i of the finest level in 2D, with blocks of 2 x 2. Bonds act on differences
+ * of displacements, so that a body in rigid motion has exactly no forces; l->rest is the stiffness of supports. */
 static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const int64_t end = l->first[i + 1];
@@ -45,8 +46,8 @@ static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t 
     }
 }
 
-/* Computes sum[0 .. 2] -= K x for row i of the finest level in 3D, with blocks of 3 x 3. Bonds act on differences of
- * displacements; l->rest is the stiffness that is not from bonds. */
+/* Computes sum[0 .. 2] -= (K x)_i for row i of the finest level in 3D, with blocks of 3 x 3. Bonds act on differences
+ * of displacements, so that a body in rigid motion has exactly no forces; l->rest is the stiffness of supports. */
 static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const pair own = lane_pair_load(x + i * 3);
@@ -69,8 +70,8 @@ static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t 
         for (int c = 0; c < 3; c++) sum[a] -= (real)l->rest[(i * 3 + a) * 3 + c] * x[i * 3 + c];
 }
 
-/* Computes sum[0 .. w - 1] -= K x for row i of level l, w being the number of components per node. single: finest
- * level, with matrix entries in single precision. w and single are literals in calls. */
+/* Computes sum[0 .. w - 1] -= (K x)_i for row i of level l. w: components per node; single: true for the finest level,
+ * whose matrix is in single precision. w and single must be compile-time constants. */
 static ALWAYS_INLINE void row_times(const struct multigrid_level *l, int64_t i, const real *x, real *sum, const int w,
                                     const bool single)
 {
@@ -90,8 +91,8 @@ static ALWAYS_INLINE void row_times(const struct multigrid_level *l, int64_t i, 
     }
 }
 
-/* Computes row i of the residual l->t = l->b - K l->x. w: components per node; single: finest level; both are literals
- * in calls. */
+/* Computes row i of the residual l->t = l->b - K l->x. w: components per node; single: true for the finest level, whose
+ * matrix is in single precision. Both must be compile-time constants. */
 static ALWAYS_INLINE void row_residual(const struct multigrid_level *l, int64_t i, const int w, const bool single)
 {
     real sum[WIDTH_MOST];
@@ -100,8 +101,9 @@ static ALWAYS_INLINE void row_residual(const struct multigrid_level *l, int64_t 
     for (int a = 0; a < w; a++) l->t[i * w + a] = sum[a];
 }
 
-/* Computes row i of a relaxation step (multigrid_smooth): d = keep d + step D^-1 (b - K x), y = x + d. zero: x and d
- * are 0. w: components per node; single: finest level; both are literals in calls. */
+/* Computes row i of a relaxation step: d = keep d + step D^-1 (b - K x), y = x + d, with the diagonal blocks D of the
+ * matrix K. zero: true if x and d are 0; w: components per node; single: true for the finest level, whose matrix is in
+ * single precision. w and single must be compile-time constants. */
 static ALWAYS_INLINE void row_relax(const struct multigrid_level *l, int64_t i, real keep, real step, bool zero,
                                     const int w, const bool single)
 {
@@ -116,8 +118,8 @@ static ALWAYS_INLINE void row_relax(const struct multigrid_level *l, int64_t i, 
     }
 }
 
-/* Computes row i of next->b, the load of the next coarser level, by restriction of the residual l->t (matrix l->up). w,
- * m: components per node of level l and of the next level, literals in calls. */
+/* Computes row i of next->b, the load of the next coarser level: the residual l->t restricted by the matrix l->up. w,
+ * m: components per node of level l and of the next level, compile-time constants. */
 static ALWAYS_INLINE void row_restrict(const struct multigrid_level *l, struct multigrid_level *next, int64_t i,
                                        const int w, const int m)
 {
@@ -131,8 +133,8 @@ static ALWAYS_INLINE void row_restrict(const struct multigrid_level *l, struct m
     for (int a = 0; a < m; a++) next->b[i * m + a] = sum[a];
 }
 
-/* Adds row i of the prolongation (matrix l->down) of next->x, the solution of the next coarser level, to l->x. w, m:
- * components per node of level l and of the next level, literals in calls. */
+/* Adds row i of the prolongation of next->x, the solution of the next coarser level, to l->x: the product with the
+ * matrix l->down. w, m: components per node of level l and of the next level, compile-time constants. */
 static ALWAYS_INLINE void row_prolong(struct multigrid_level *l, const struct multigrid_level *next, int64_t i,
                                       const int w, const int m)
 {

@@ -15,8 +15,9 @@ struct pattern {
     int32_t *column;
 };
 
-/* For each thread a table [n] by column: its position in the list of the present row, valid for columns of this row
- * only; in product_row the last row in which the column occurred. */
+/* Working memory of the threads: for each thread a table with one entry per column, [n]. In general an entry is the
+ * position of the column in the list of the present row, valid only for columns of this row. In product_row it is the
+ * last row in which the column occurred. */
 struct tables {
     int64_t n;
     int32_t *where;
@@ -25,7 +26,8 @@ struct tables {
 /* Returns the table [t->n] of the calling thread. */
 static int32_t *table_own(const struct tables *t) { return t->where + omp_get_thread_num() * t->n; }
 
-/* The product of matrix and prolongation for a slab of rows, with its pattern for all rows. */
+/* The product of matrix and prolongation (matrix l->down). Its pattern is stored for all rows, its values only for one
+ * slab at a time, a set of successive rows. */
 struct product {
     const struct multigrid_level *l;
     struct multigrid_level *next;
@@ -45,8 +47,9 @@ static int compare_columns(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds the columns of row i of the product of patterns a and b. where: table of the thread, entries other than i for
- * columns not yet found; list: receives the columns in ascending order; NULL: count only. Returns their number. */
+/* Finds the columns of row i of the product of two sparse matrices a and b, given by their patterns (first, column).
+ * where: table of the calling thread, whose entries differ from i for columns not yet found; list: receives the columns
+ * in ascending order; NULL: they are only counted. Returns their number. */
 static int64_t product_row(const int64_t *a_first, const int32_t *a_column, const int64_t *b_first,
                            const int32_t *b_column, int64_t i, int32_t *where, int32_t *list)
 {
@@ -63,8 +66,9 @@ static int64_t product_row(const int64_t *a_first, const int32_t *a_column, cons
     return n;
 }
 
-/* Computes the pattern of the product of patterns a (n rows) and b, with ascending columns, and allocates its arrays in
- * *out. t: a table for each thread, with one entry for each column of b. */
+/* Computes the pattern of the product of two sparse matrices a (n rows) and b, given by their patterns (first, column).
+ * The columns of a row are ascending. Allocates the arrays of *out. t: a table for each thread, with one entry for each
+ * column of b. */
 static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first, const int32_t *a_column,
                          const int64_t *b_first, const int32_t *b_column, const struct tables *t)
 {
@@ -85,7 +89,7 @@ static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first,
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Computes out += a b for row-major blocks a[r][k] and b[k][c]; r, k and c are literals in calls. */
+/* Computes out += a b for the row-major blocks a[r][k] and b[k][c]. r, k and c must be compile-time constants. */
 static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, const real *restrict b, const int r,
                                     const int k, const int c)
 {
@@ -102,8 +106,9 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
     }
 }
 
-/* Computes row i of the product of matrix and prolongation, in the slab p->block. w, m: components per node of this and
- * of the coarser level, literals in calls. */
+/* Computes row i of the product of matrix and prolongation into p->block, which holds the present slab (set of
+ * successive rows) of the product. w, m: components per node of this and of the coarser level, compile-time
+ * constants. */
 static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
 {
     const struct multigrid_level *l = p->l;
@@ -125,8 +130,8 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     }
 }
 
-/* Adds the contributions of the rows in the slab to row c of the coarser matrix. w, m: components per node of this and
- * of the coarser level, literals in calls. */
+/* Adds the contributions of the rows in the present slab (set of successive rows of the product) to row c of the
+ * coarser matrix. w, m: components per node of this and of the coarser level, compile-time constants. */
 static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
 {
     const struct transfer *up = &p->l->up;
@@ -157,8 +162,9 @@ static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int
         }                                                                                                              \
     } while (0)
 
-/* Computes the product of matrix and prolongation for the rows of a slab, and adds its contributions to the coarser
- * matrix. The components per node of both levels are literals in each case, for speed. */
+/* Computes the product of matrix and prolongation for the rows p->first .. p->end - 1, a slab, and adds its
+ * contributions to the coarser matrix. The components per node of both levels are compile-time constants in each case,
+ * for speed. */
 static void slab_product(const struct product *p)
 {
     const int kind = 10 * p->l->width + p->l->modes;

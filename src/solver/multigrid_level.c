@@ -7,8 +7,9 @@
 #include "base/team.h"
 #include "multigrid_parts.h"
 
-/* Inverts the symmetric block a[w][w] by U'DU, row major in `inverse`. Components with a bit in `held` are left out (0
- * in the inverse). A pivot below least * scale is replaced by scale. */
+/* Computes the inverse of the symmetric block a[w][w] by a U'DU factorisation, row major in `inverse`. held: bit set of
+ * the components that are left out; their rows and columns are 0 in the inverse. A pivot below least * scale is
+ * replaced by `scale`. */
 static void block_invert(const real *a, real *inverse, int w, unsigned held, real least, real scale)
 {
     real u[WIDTH_MOST][WIDTH_MOST], pivot[WIDTH_MOST];
@@ -57,8 +58,8 @@ static bool entry_is_zero(const struct multigrid_level *l, int64_t q)
     return true;
 }
 
-/* Lists all nodes that are connected with node i, directly or through others, in list[], and sets seen[] to 1 for them.
- * seen, list: [n]. Returns their number. */
+/* Lists all nodes that are connected with node i, directly or through other nodes, in list[], i included, and sets
+ * seen[] to 1 for them. seen, list: [n]. Returns their number. */
 static int64_t piece_list(const struct multigrid_level *l, int64_t i, uint8_t *seen, int32_t *list)
 {
     int64_t n = 0;
@@ -94,13 +95,13 @@ void multigrid_find_unconstrained(const struct multigrid_level *l, struct multig
 
 /* ---- the largest eigenvalue -------------------------------------------------------------------------------------- */
 
-/* Lanczos iterations. They find isolated stiff nodes, for which power iterations would need many more, and
- * underestimate the largest eigenvalue of a lattice by a few percent, for which the relaxation has a margin of a
- * quarter (RANGE in multigrid.c). */
+/* Number of Lanczos iterations. They find isolated stiff nodes, for which power iterations would need many more. They
+ * underestimate the largest eigenvalue of a lattice by a few percent, which is within the margin of a quarter that
+ * relaxation has (RANGE in multigrid.c). */
 enum { LANCZOS = 8 };
 #define LANCZOS_SHORT 1.05
 
-/* Three vectors: the products a b and b c are summed. */
+/* Three vectors a, b, c, of which the scalar products a . b and b . c are computed. */
 struct three_vectors {
     const real *a, *b, *c;
 };

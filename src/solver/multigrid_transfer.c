@@ -14,8 +14,9 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
     list[k] = value, ++*n;
 }
 
-/* Stores the aggregates of the neighbours of node i, ascending, in list[]; none if the node has no stiffness. Returns
- * their number, at most that of the neighbours. */
+/* Stores the aggregates of the neighbours of node i in list[], in ascending order; none if the node has no stiffness.
+ * An aggregate is a set of nodes that form one node of the coarser level. Returns their number, at most that of the
+ * neighbours. */
 static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *list)
 {
     int n = 0;
@@ -25,7 +26,7 @@ static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *l
     return n;
 }
 
-/* Computes the pattern of the prolongation l->down, rows and columns; its blocks are not allocated. */
+/* Computes the pattern (first, column) of the prolongation l->down. Its blocks are not allocated. */
 static void down_pattern(struct multigrid_level *l)
 {
     int32_t *list = BARE("multigrid.pattern", l->first[l->n], int32_t);
@@ -45,8 +46,9 @@ static void down_pattern(struct multigrid_level *l)
 
 enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
-/* Computes force[k][w][m], the product of matrix row i with the rigid motions (tentative prolongation) of aggregate
- * name[k], for k < n. w, m: components per node of this and of the coarser level, literals in calls. */
+/* Computes force[k][w][m] for k < n: the product of matrix row i with the rigid motions of aggregate name[k] (the
+ * tentative prolongation). An aggregate is a set of nodes that form one node of the coarser level. w, m: components per
+ * node of this and of the coarser level, compile-time constants. */
 static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i, const int32_t *name, int n,
                                       real *force, const int w, const int m)
 {
@@ -65,8 +67,9 @@ static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i
     }
 }
 
-/* Computes row i of the smoothed prolongation l->down: the rigid motions of the aggregates minus step D^-1 K times
- * them. w, m: components per node of this and of the coarser level, literals in calls. */
+/* Computes row i of the smoothed prolongation l->down: the rigid motions R of the aggregates (nodes of the coarser
+ * level) minus step D^-1 K R, with the diagonal blocks D of the matrix K. w, m: components per node of this and of the
+ * coarser level, compile-time constants. */
 static ALWAYS_INLINE void down_row(const struct multigrid_level *l, int64_t i, real step, const int w, const int m)
 {
     const struct transfer *p = &l->down;

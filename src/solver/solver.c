@@ -21,9 +21,9 @@ real field_largest_component(const struct field *v, int dim, int64_t n)
     return most;
 }
 
-/* Strain of the motion over which the difference of forces is taken. Bond forces follow from positions, whose last bit
- * is a strain of eps |x|/dx, 1e-14 in a body of 100 spacings: at a strain of 3e-6 that is 1e-8 of a force. The
- * second-order error of central differences is below 1e-10. */
+/* Strain of the motion over which a difference of forces is taken. The round-off of positions, eps |x|/dx as a strain,
+ * is 1e-14 in a body of 100 spacings: 1e-8 of a force at a strain of 3e-6. The second-order error of central
+ * differences is below 1e-10. */
 #define TANGENT_STRAIN 3e-6
 
 void static_body_tangent_product(const struct static_body *body, const struct field *in, struct field *out,

@@ -58,8 +58,8 @@ static real unit_energy(const struct static_body *body)
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* Computes the residual b - K u from the displacements, not by recurrence, in p->f [N]. The reactions on constrained
- * components are measured, then set to 0. */
+/* Computes the residual b - K u in p->f [N] from the displacements u, not by recurrence. The norm of the reactions on
+ * constrained components is stored, then these components are set to 0. */
 static void true_residual(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -100,7 +100,8 @@ static void solver_cg_start(struct static_solver *s, const struct static_body *b
     restart(s, p);
 }
 
-/* Computes u += alpha d and r -= alpha K d, with K d in s->q, and the next search direction d. Returns r . r [N^2]. */
+/* Computes u += alpha d and r -= alpha K d, with K d in s->q, then the next search direction d. alpha: length of the
+ * step. Returns r . r [N^2]. */
 static real solver_cg_advance(struct static_solver *s, real alpha)
 {
     real sum[2];

@@ -9,7 +9,8 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-/* Largest moment of loads, over the sum of |force x distance|, that irregular particles explain. */
+/* Largest moment of the loads, over the sum of |force x distance|, that may follow from the irregular arrangement of
+ * particles alone [1]. */
 #define TURNING_MOST 0.05
 
 static void field_make(struct field *v, int dim, int64_t n)
@@ -28,8 +29,9 @@ struct scaled {
     const struct static_body *body;
 };
 
-/* Computes y = Lambda^-1/2 K Lambda^-1/2 x, x and y of [dim n] values; an operator of largest_eigenvalue. context: a
- * struct scaled. Overwrites s->before and the velocities of the particles. */
+/* Computes y = Lambda^-1/2 K Lambda^-1/2 x with the diagonal Lambda = s->diagonal and the stiffness K, for
+ * largest_eigenvalue. x, y: [dim n]. context: a struct scaled. Overwrites s->before and the velocities of the
+ * particles. */
 static void solver_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled *scaled = context;
@@ -46,9 +48,9 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
 
 #define MARGIN_OF_EIGENVALUE 1.02 /* the iteration converges from below */
 
-/* Computes s->diagonal, Lambda, which scales the unknowns: Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci
- * 2010), with the bonds as springs. It is multiplied by the largest eigenvalue of Lambda^-1 K/4 if the model is stiffer
- * than these springs. */
+/* Computes s->diagonal, the diagonal matrix Lambda that scales the unknowns: Lambda_i >= 1/4 sum_j |K_ij| for a unit
+ * step (Kilic & Madenci 2010), with the stiffness K of the bonds as springs. It is multiplied by the largest eigenvalue
+ * of Lambda^-1 K/4 if the model is stiffer than these springs. */
 static void make_diagonal(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -92,9 +94,9 @@ static void make_weights(struct static_solver *s, const struct static_body *body
     }
 }
 
-/* Returns the number of steps in which supports move to their final positions, 0 if none moves. Relaxation spreads by
- * at most one spacing per step: over as many steps as the body has spacings, supports strain bonds about as much as the
- * body. */
+/* Returns the number of steps in which supports move to their final positions; 0 if none moves. In a step of relaxation
+ * motion spreads by at most one spacing. With as many steps as the body has spacings, supports strain bonds about as
+ * much as they strain the body. */
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
     const real most = field_largest_component(&s->driven, s->dim, s->n);
@@ -133,8 +135,7 @@ static bool component_constrained(const struct loads *l, int d)
     return false;
 }
 
-/* Returns REFUSED, with a message, for applied forces along axis d that are neither balanced nor carried by
- * supports. */
+/* Returns REFUSED, with a message, if the applied forces along axis d are neither balanced nor carried by supports. */
 static status force_balanced(const struct loads *loads, int d)
 {
     real sum = 0, size = 0;
@@ -154,8 +155,8 @@ static status force_balanced(const struct loads *loads, int d)
         "xyz"[d], sum);
 }
 
-/* Returns REFUSED, with a message, for loads that have no equilibrium: forces along each axis are checked, moments for
- * one plane body without supports. */
+/* Returns REFUSED, with a message, if the loads have no equilibrium. Forces are tested along each axis; moments only
+ * for a single plane body without supports. */
 static status loads_balanced(const struct static_body *body)
 {
     struct loads *l = body->loads;

@@ -5,7 +5,7 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-/* Moves the supports by step number `step` of their ramp, i.e. by 1/s->ramp of their final displacements; none after
+/* Moves the supports by step number `step` of their ramp, by 1/s->ramp of their final displacements. Does nothing after
  * the ramp. */
 static void supports_move(const struct static_solver *s, struct particles *p, int64_t step)
 {
@@ -22,8 +22,8 @@ struct relaxing {
     const struct particles *part;
 };
 
-/* Adds over free components: u^T k u to sum[0], with k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}), u^T u to sum[1],
- * and v^T v to sum[2], for particles first .. end - 1. A block function of reproducible_sums. context: a struct
+/* Adds for particles first .. end - 1, over free components: u^T k u to sum[0], u^T u to sum[1], and v^T v to sum[2],
+ * with k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}). A block function of reproducible_sums; context: a struct
  * relaxing. */
 static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
 {
@@ -50,8 +50,9 @@ static real damping(const real *sum)
     return ratio > 0 ? real_min(2 * sqrt(ratio), DAMPING_MOST) : 0;
 }
 
-/* Moves the particles by a unit step with v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c); the first half step
- * from rest is f/(2 Lambda). c: damping coefficient [1]. The forces are stored in s->before. */
+/* Moves the particles by a unit step of pseudo-time with v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c); the
+ * first half step from rest is f/(2 Lambda). step: number of the step; c: damping coefficient [1]. Stores the forces in
+ * s->before. */
 static void particles_move(struct static_solver *s, struct particles *p, int64_t step, real c)
 {
     const real kick = step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);
