@@ -22,9 +22,9 @@ enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };
 
 /* ---- predictor --------------------------------------------------------------------------------------------------- */
 
-/* Returns the relative growth of loads and prescribed displacements from the last equilibrium to pseudo-time t [s], by
- * projection on those of the last equilibrium [1]; 0 if there were none. before: applied forces of the last equilibrium
- * [dim][particles] [N]. */
+/* Returns the relative growth of loads and prescribed displacements from the last equilibrium to pseudo-time t [s]: the
+ * projection of the growth on their values at the last equilibrium [1]; 0 if these are 0. before: applied forces of the
+ * last equilibrium [dim][particles] [N]. */
 static real load_growth(const struct statics *s, const struct particles *part, real t, real *const *before)
 {
     real now = 0, initial = 0;
@@ -79,8 +79,9 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
 
 /* Corrects the energy that the solver has lost since its losses were `lost` [J]. If points yield or faces come into
  * contact, forces do not change linearly over the increment, and the work of loads is known up to +-`range` [J] only. A
- * loss within this range is then moved to the work of loads. in_contact: contact at the start or the end. Returns true
- * if energy was gained in contact beyond this range: faces have then passed through each other. */
+ * loss within this range is then moved to the work of loads. in_contact: true if anything is in contact at the start or
+ * the end of the increment; yields: true if points or bonds may yield. Returns true if energy was gained in contact
+ * beyond this range: faces have then passed through each other. */
 static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, bool in_contact,
                          bool yields)
 {
@@ -92,8 +93,8 @@ static bool losses_store(struct newton_solver *q, struct loads *loads, real lost
 
 /* ---- equilibrium ------------------------------------------------------------------------------------------------- */
 
-/* Returns FAILED with a message that names the position of the largest residual and possible remedies. step: number of
- * the load step. */
+/* Sets the error that no equilibrium was found, with a message that names the position of the largest residual and
+ * possible remedies. step: number of the load step. Returns FAILED. */
 static status equilibrium_failed(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                  int64_t step)
 {
@@ -108,7 +109,7 @@ static status equilibrium_failed(const struct statics *s, const struct particles
         p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
-/* Returns INTERRUPTED if the user has stopped the run. */
+/* Returns INTERRUPTED, with a message, if the user has stopped the run, else OK. */
 static status check_stop(const struct run_report *report, const struct run_clock *clock)
 {
     if (!report->stop || !*report->stop) return OK;
@@ -131,9 +132,9 @@ status equilibrium_solve(struct run *e, real t, real *const *applied)
     return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
 }
 
-/* Finds the equilibrium at pseudo-time t [s] in a single solution and updates all accounts of work and energy.
- * *crossed: set to true if faces have passed through each other, else to false. Returns FAILED, with a message, if
- * there is no equilibrium. */
+/* Finds the equilibrium at pseudo-time t [s] in a single solution, and updates work and energies of loads, supports and
+ * solver. *crossed: set to true if faces have passed through each other, else to false. Returns FAILED, with a message,
+ * if there is no equilibrium. */
 static status solve_at(struct run *e, real t, bool *crossed)
 {
     struct statics *s = e->statics;
@@ -160,8 +161,9 @@ static status solve_at(struct run *e, real t, bool *crossed)
     return found;
 }
 
-/* Finds the equilibria of `substeps` equal increments up to pseudo-time t [s], and stops when faces have passed through
- * each other (*crossed true). Returns FAILED, with a message, if an equilibrium is not found. */
+/* Finds the equilibria after `substeps` equal increments up to pseudo-time t [s] one after the other. Stops, and sets
+ * *crossed to true, when faces have passed through each other. Returns FAILED, with a message, if an equilibrium is not
+ * found. */
 static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 {
     const real from = e->statics->t;
@@ -172,8 +174,8 @@ static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 }
 
 /* Finds the equilibrium at pseudo-time t [s]. If faces pass through each other, restores the initial state and divides
- * the increment into SUBSTEPS_FACTOR times as many substeps, up to TRIES_MOST times; then returns FAILED, with a
- * message. Bodies that yield are solved only once, because yielding is not undone. */
+ * the increment into SUBSTEPS_FACTOR times as many substeps. After TRIES_MOST such divisions returns FAILED, with a
+ * message. For bodies that yield there is one attempt only, because yielding is not undone. */
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;

@@ -41,8 +41,8 @@ static void unconstrained_update(struct run *e)
     if (free_motions(e->statics) != before) statics_preconditioner_free(e->statics);
 }
 
-/* Searches for contact pairs and selects the active contacts. close: gap up to which contacts become active [spacings].
- * Returns the number of changes of the active set. */
+/* Searches for contact pairs and selects the active contacts (those that carry forces). close: gap up to which contacts
+ * become active [spacings]. Returns the number of changes of the set of active contacts. */
 static int64_t statics_contact_search(struct run *e, real close)
 {
     return contact_search_and_select_active(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, close);
@@ -78,8 +78,8 @@ static real energy_present(struct run *e)
 bool statics_in_contact(const struct statics *s, const struct contact *c) { return s->in_contact || c->touching > 0; }
 
 /* Prepares contact for the solution at pseudo-time t [s]: stores the energy, moves rigid bodies, and searches for
- * contacts. The energy before the solution includes contact energy only if anything was in contact. Without contact no
- * fragment is constrained by contact either. */
+ * contacts. The stored energy includes contact energy only if anything was in contact. Without contact, fragments are
+ * not constrained by contact either. */
 void statics_contact_begin(struct run *e, real t)
 {
     struct statics *s = e->statics;

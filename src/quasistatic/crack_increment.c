@@ -66,8 +66,8 @@ static real front_length(const struct crack_tips *t, const struct bond_source *s
     return edges > 0 ? real_min(length, real_max(edges, h)) : length;
 }
 
-/* Returns the area of a crack increment of INCREMENT_SPACINGS spacings [m^2], halved on planes of symmetry. front:
- * length of the crack front [m]. */
+/* Returns the area of a crack increment of INCREMENT_SPACINGS spacings [m^2]; half of it for a crack on a plane of
+ * symmetry. front: length of the crack front in space, 1 for a plane body [m]. */
 static real increment_area(const struct scene *s, const struct crack_tips *t, const struct bond_source *source,
                            real front)
 {
@@ -93,8 +93,8 @@ static int64_t breaks_most(const struct scene *s, real front)
 
 /* Breaks the bonds of one crack increment at the present pseudo-time, with an equilibrium after each group of bonds,
  * and appends them to the list of the next increment. *a: receives the energy cost of the bonds and the energy release.
- * In space, if crack fronts are SIF-driven, the remnant of the body at their far side breaks in larger groups, because
- * no load depends on its path. Returns FAILED, with a message, if an equilibrium is not found. */
+ * In space, the part of the body that is left at the far side of SIF-driven crack fronts breaks in larger groups,
+ * because no load depends on the path there. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
@@ -128,9 +128,10 @@ static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics 
     return any && statics->behind.cost == 0;
 }
 
-/* Determines the next crack increment under the present loads: by the SIF-driven tips if there are any. Without them,
- * or if bonds elsewhere exceed their critical stretch, it is found by a trial in which bonds break and which is undone.
- * Returns FAILED, with a message, if a trial equilibrium is not found. */
+/* Determines the next crack increment under the present loads. SIF-driven tips (growth direction from stress-intensity
+ * factors) determine it, if there are any. Otherwise, or if bonds elsewhere exceed their critical stretch, it is found
+ * by a trial in which bonds break and which is undone. Returns FAILED, with a message, if a trial equilibrium is not
+ * found. */
 static status increment_find_now(struct run *e)
 {
     struct statics *s = e->statics;
@@ -155,10 +156,10 @@ static status increment_find_now(struct run *e)
     return tried;
 }
 
-/* Determines the next crack increment at the load size at which it is due, by the secant method: the energy release
- * grows with the square of the strain, which is not proportional to the load size if supports or rigid bodies move
- * before anything is in contact. Restores the present equilibrium, unless material points have been converted; then the
- * equilibrium of the initial pseudo-time is found again. Returns FAILED, with a message, if an equilibrium is not
+/* Determines the next crack increment at the load size at which it is due, by the secant method. The energy release
+ * grows with the square of the strain, and the strain is not proportional to the load size if supports or rigid bodies
+ * move before anything is in contact. Then restores the present equilibrium or, if material points have been converted,
+ * finds the equilibrium of the initial pseudo-time again. Returns FAILED, with a message, if an equilibrium is not
  * found. */
 static status increment_find_at_due(struct run *e)
 {
@@ -187,8 +188,8 @@ static status increment_find_at_due(struct run *e)
 }
 
 /* Determines the next crack increment and the load size at which it is due. If anything is in contact, the increment is
- * evaluated again at that load size, because the energy release is then not proportional to the square of the load
- * size. Returns FAILED, with a message, if a trial equilibrium is not found. */
+ * evaluated a second time at that load size, because the energy release is then not proportional to the square of the
+ * load size. Returns FAILED, with a message, if a trial equilibrium is not found. */
 status crack_increment_find(struct run *e)
 {
     TRY(increment_find_now(e));

@@ -7,8 +7,8 @@
 
 /* ---- load size --------------------------------------------------------------------------------------------------- */
 
-/* Returns the sum of squares of the displacements of the rigid bodies r->body[n] from the start to pseudo-time t
- * [m^2]. */
+/* Returns the sum of the squares of the displacements of the first n rigid bodies r->body from the start to pseudo-time
+ * t [s] [m^2]. */
 static real rigid_displacement2(const struct rigid_set *r, int n, real t)
 {
     real sum = 0, shift[DIM_MAX];

@@ -51,17 +51,17 @@ static void state_sample(struct run *e)
     rigid_forces_note(e->rigid, e->scene->rigids);
 }
 
-/* Finds the equilibrium at load size `size`, with the pseudo-time limited to least .. most [s]. Returns FAILED, with a
- * message, if there is none. */
+/* Finds the equilibrium at load size `size` (norm of prescribed displacements [m] or of applied forces [N]), with the
+ * pseudo-time limited to least .. most [s]. Returns FAILED, with a message, if there is none. */
 static status go_to_size(struct run *e, real size, real least, real most)
 {
     return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_load_size(e, size), least), most));
 }
 
 /* Finds the equilibrium at pseudo-time t [s], or at an earlier one at which bonds come near their critical stretch, and
- * then determines the next crack increment. Returns FAILED, with a message, if an equilibrium is not found. The earlier
- * one is needed because an equilibrium far beyond the critical stretch is that of a body which would have broken
- * before: its energies hide the energy that an increment releases, and bonds yield that would not yield. */
+ * then determines the next crack increment. The earlier one is needed because a body far beyond the critical stretch
+ * would have broken before: the energies of its equilibrium hide the energy that an increment releases, and bonds yield
+ * that would not yield. Returns FAILED, with a message, if an equilibrium is not found. */
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -87,8 +87,8 @@ static status approach_loads(struct run *e, real t)
 
 /* Makes the next crack increment at the load size at which it is due or, if it was due at smaller loads, at the load
  * size of the previous increment; then determines the increment after it. *size: load size of the previous increment,
- * updated. Contact forces there are counted for the largest forces of the rigid bodies. from, t: range of the
- * pseudo-time [s]. Returns FAILED, with a message, if an equilibrium is not found. */
+ * replaced by that of this one. The largest forces of the rigid bodies are updated at this load size. from, t: range of
+ * the pseudo-time [s]. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_under_loads(struct run *e, real *size, real from, real t)
 {
     struct statics *s = e->statics;
@@ -147,7 +147,7 @@ static status step_by_energy(struct run *e, real most)
     return OK;
 }
 
-/* Returns the opening: how far the two gauge particles have moved apart [m]. */
+/* Returns the increase of the distance between the two gauge particles of the scene, the opening [m]. */
 static real opening_now(const struct particles *part, const struct statics *statics)
 {
     real now = 0, initial = 0;
@@ -174,8 +174,9 @@ static status go_to_opening(struct run *e, real wanted, real t)
     return OK;
 }
 
-/* Returns true if the next crack increment, due at the load size `due`, comes before the opening reaches `wanted` [m];
- * assumes that the opening grows in proportion to the loads. size: present load size [m, N]. */
+/* Returns true if the next crack increment, due at the load size `due`, comes before the opening reaches `wanted` [m].
+ * Assumes that the opening grows in proportion to the loads. size: present load size, in the unit of `due` ([m] or
+ * [N]). */
 static bool increment_before_opening(const struct particles *p, const struct statics *s, real size, real due,
                                      real wanted)
 {
@@ -272,8 +273,9 @@ static status check_opening(const struct scene *scene, const struct particles *p
         "steps.from and steps.to are at the same particle; two positions, on both sides of the crack, are expected");
 }
 
-/* Returns REFUSED, with a message, if loads and supports do not depend on the pseudo-time, although the control (energy
- * or opening) scales them by it. quarter, half, whole: load sizes at these parts of the duration. */
+/* Returns REFUSED, with a message, if loads and supports do not depend on the pseudo-time although the control of load
+ * steps (energy or opening) scales them by it. quarter, half, whole: load sizes at a quarter, at half and at the end of
+ * the duration. */
 static status check_loads_grow(const struct scene *s, real quarter, real half, real whole)
 {
     if (s->steps.control == CONTROL_LOAD || half != whole || quarter != whole) return OK;
@@ -301,8 +303,8 @@ status statics_check_scene(const struct run *e)
     return OK;
 }
 
-/* Warns that crack faces interpenetrate, if K_I is negative and faces have no contact. K_I: of the tip with the largest
- * growth [Pa m^(1/2)]. */
+/* Warns that crack faces interpenetrate if K_I is negative and faces have no contact. K_I: mode I stress-intensity
+ * factor of the tip with the largest growth [Pa m^(1/2)]. */
 static void warn_closed_faces(struct warnings *to, real K_I, const struct contact *c)
 {
     if (K_I < 0 && c->law.between == CONTACT_NONE)
@@ -337,9 +339,9 @@ static void warn_at_end(struct run *e)
     rigid_bodies_warn_missed(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
-/* Checks for fragments that nothing constrains although the loads on them are not balanced, and returns FAILED, with a
- * message, if there is one. Under energy control after bonds have broken, the crack has severed the body instead: then
- * *apart is set to true, a warning is printed, and OK is returned. */
+/* Checks for fragments that nothing constrains although the loads on them are not balanced; returns FAILED, with a
+ * message, if there is one. Under energy control such a fragment means, once bonds have broken, that the crack has
+ * severed the body: then *apart is set to true, a warning is printed, and OK is returned. */
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;

@@ -27,8 +27,8 @@ enum { ENERGY_STEPS = 20 };   /* time steps between checks of the energies */
 /* Number of time steps of the clock of a release, so large that no frame or sample is due. */
 #define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
-/* Sets boundary[scene->boundaries] to those of the scene with the loads of pseudo-time t [s], constant, and with
- * supports at rest. */
+/* Sets boundary[scene->boundaries] to the boundaries of the scene with constant loads, those of pseudo-time t [s], and
+ * with supports at rest. */
 static void boundaries_freeze(const struct scene *scene, struct boundary *boundary, real t)
 {
     for (int b = 0; b < scene->boundaries; b++) {
@@ -49,13 +49,13 @@ static void boundaries_freeze(const struct scene *scene, struct boundary *bounda
     }
 }
 
-/* Sets boundary[scene->boundaries] back to those of the scene, which depend on the pseudo-time. */
+/* Sets boundary[scene->boundaries] back to the boundaries of the scene, whose loads depend on the pseudo-time. */
 static void boundaries_restore(struct boundary *boundary, const struct scene *scene)
 {
     array_copy(boundary, scene->boundary, scene->boundaries, sizeof *boundary);
 }
 
-/* Fixes all rigid bodies (hold true), or lets driven ones move again (hold false). */
+/* Fixes all rigid bodies if `hold` is true; else makes those with a prescribed velocity move with it again. */
 static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bool hold)
 {
     for (int k = 0; k < scene->rigids; k++) {

@@ -51,8 +51,8 @@ static const struct material *material_at(const struct sif_cracks *l, const stru
     return &l->scene->material[p->material[nearest]];
 }
 
-/* Returns a list of *n segments in the plane of the tips: the pre-cracks and the path of the tips. Free it with
- * crack_segments_free. The path of the tips must not change while the list is used. */
+/* Returns a list of *n segments in the plane of the tips: the pre-cracks and the path of the tips. The list refers to
+ * the path, which must not change while it is used. Release it with crack_segments_free. */
 static struct crack *crack_segments(const struct sif_cracks *l, int *n)
 {
     const int given = l->source->cracks;
@@ -75,9 +75,9 @@ static void crack_segments_free(struct crack *crack, int n)
     memory_free(crack);
 }
 
-/* Returns the elastic constants for the crack-tip fields at a tip. radius: mean radius of the ring of particles used
- * for the fit [m]. In space the state is plane stress at a distance of half the thickness and more from the front
- * (Nakamura & Parks 1988), else plane strain. */
+/* Returns the elastic constants for the crack-tip fields at a tip: in a plane body those of its space; in space those
+ * of plane stress at a distance of half the thickness or more from the front (Nakamura & Parks 1988), nearer to it
+ * those of plane strain. radius: mean radius of the ring of particles used for the fit [m]. */
 static struct crack_medium medium_at(const struct sif_cracks *l, const struct particles *p,
                                      const struct sif_crack_tip *tip, real radius)
 {
@@ -121,8 +121,8 @@ void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
-/* Returns the tip that has grown most, the first of equal ones, or NULL if there is none. on: only tips that can still
- * grow are considered. */
+/* Returns the tip that has grown most, the first one of several with equal growth; NULL if there is none. on: true to
+ * consider only tips that can still grow. */
 static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool on)
 {
     const struct sif_crack_tip *first = NULL;
@@ -153,7 +153,8 @@ void sif_leading_tip_position(const struct sif_cracks *l, real position[DIM_MAX]
 
 /* ---- growth ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the fraction of the segment from a to b at which it intersects the crack c; 1 if it does not. */
+/* Returns the fraction of the segment from a to b at which it intersects the segment of crack c [1]; 1 if it does not.
+ * a, b: two coordinates in the plane of the tips [m]. */
 static real intersection_share(const struct crack *c, const real *a, const real *b)
 {
     const real *p = c->corner[0], *q = c->corner[1];
@@ -165,7 +166,8 @@ static real intersection_share(const struct crack *c, const real *a, const real 
     return !parallel && share >= 0 && share < 1 && at >= 0 && at <= 1 ? share : 1;
 }
 
-/* Returns true if one end of crack c is within `within` [m] of the tip, as is one end of the tip's own last segment. */
+/* Returns true if an end of crack c is closer than `within` [m] to the tip. This is so for the tip's own last
+ * segment. */
 static bool crack_ends_at_tip(const struct crack *c, const struct sif_crack_tip *tip, real within)
 {
     return sif_plane_point_distance(c->corner[0], tip->position) <= within ||
@@ -197,8 +199,8 @@ real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, co
     return toughness_of_material(&l->source->family, l->scene->model, material_at(l, p, tip));
 }
 
-/* Returns true if the body continues ahead of the tip: if at least two particles per spacing of width are there whose
- * motion is not prescribed. */
+/* Returns true if the body continues ahead of the tip: if at least two particles whose motion is not prescribed are
+ * there, in space two per spacing of the width of the body along the front. */
 static bool body_continues(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip)
 {
     const real h = l->plane.spacing;
@@ -226,8 +228,8 @@ static void sif_path_add(struct sif_cracks *l, int k, const real *to)
 }
 
 /* Turns the frame of the stress-intensity factors, tip->along, towards the direction of growth, exponentially over the
- * smoothing length. At a kink of a pre-crack it takes that direction at once, and straight growth follows. growth:
- * length of the present increment [m]; h: lattice spacing [m]. */
+ * smoothing length. At a kink of a pre-crack the frame takes this direction at once, and the crack then grows straight
+ * for some spacings. growth: length of the present increment [m]; h: lattice spacing [m]. */
 static void tip_frame_turn(struct sif_crack_tip *tip, real growth, real h)
 {
     const real *a = tip->last, *b = tip->heading, share = -expm1(-growth / (SMOOTHING * h));

@@ -21,8 +21,8 @@ enum { CONVERSIONS_MOST = 4 }; /* of material points and direction, one after th
 
 /* ---- bonds across a segment -------------------------------------------------------------------------------------- */
 
-/* Appends to `list` the intact bonds of row r that cross one of the segments in the plane of the tips. list: receives
- * records that contain row, entry and energy of each bond. */
+/* Appends to `list` the intact bonds of row r that cross one of `segments`, in the plane of the tips. A record of the
+ * list contains row, entry and energy of a bond. */
 static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, const struct particles *p, int64_t r,
                           const struct crack_list *segments, struct break_list *list)
 {
@@ -42,8 +42,8 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     }
 }
 
-/* Lists the segment from .. to of the path of a tip, two coordinates each [m], and its mirror images in `segments`.
- * Free them with crack_list_free. */
+/* Stores in `segments` the segment from .. to of the path of a tip (two coordinates each, in the plane of the tips [m])
+ * and its mirror images. Release them with crack_list_free. */
 static void segment_images(const struct sif_cracks *l, const struct sif_crack_tip *tip, const real from[2],
                            const real to[2], struct crack_list *segments)
 {
@@ -56,10 +56,10 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
                               ON_SURFACE * l->plane.spacing);
 }
 
-/* Replaces the energy costs of the bonds of the next segment of a tip, `held` of each record of `list`, such that their
- * sum is crack area times crack energy per area [J]. Needed for state-based bonds, which have no energy of their own.
- * Also needed in space, where bonds at the sides of the body have surface weights and some bonds at a pre-crack are
- * already broken. */
+/* Replaces the energy costs of the bonds of the next segment of a tip, the members `held` of the records in `list` [J],
+ * such that their sum is crack area times crack energy per area. This is needed for state-based bonds, which have no
+ * energy of their own. It is also needed in space, where bonds at the sides of the body have surface weights and some
+ * bonds at a pre-crack are already broken. */
 static void segment_cost_set(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              struct break_list *list)
 {
@@ -154,9 +154,9 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
     return tried;
 }
 
-/* Stores in tip->behind the fictitious previous increment of a tip at the end of a pre-crack
- * (increment_extrapolate_previous). It follows from the first increment, whose bonds are broken already, and from a
- * trial of a second one straight ahead. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Stores in tip->behind a fictitious previous increment of a tip at the end of a pre-crack. It is extrapolated from the
+ * first increment, whose bonds are broken already, and a trial of a second one straight ahead. Returns FAILED, with a
+ * message, if an equilibrium is not found. */
 static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 {
     struct sif_crack_tip beyond = *tip;
@@ -195,9 +195,9 @@ static bool list_has(const struct break_list *l, const struct broken_bond *recor
     return false;
 }
 
-/* Selects the tips of the next crack increment: the tip that is due at the smallest load size, and those due at nearly
- * the same. Combines their bonds in s->next and their energies in s->ahead and s->behind. list[tips]: bonds of the next
- * segment of each tip. */
+/* Selects the tips of the next crack increment: the one due at the smallest load size, and those due at nearly the same
+ * load size. Combines their bonds in s->next and their energies in s->ahead and s->behind. list[k]: bonds of the next
+ * segment of tip k. */
 static void increment_choose(struct statics *s, struct break_list *list)
 {
     struct sif_cracks *l = &s->sif;
@@ -216,10 +216,10 @@ static void increment_choose(struct statics *s, struct break_list *list)
     s->due = increments_energy_balance_load(&s->ahead, &s->behind);
 }
 
-/* Recomputes the energy release of the selected tips, if there are several, by breaking their bonds together: they
- * release more at once than one after the other. The sum is divided among the tips in proportion to their separate
+/* Recomputes the energy release of the selected tips, if there are several, by breaking their bonds together, which
+ * releases more energy than one tip after the other. The sum is divided among the tips in proportion to their separate
  * values. Also updates the load size at which the increment is due, unless a tip makes its first increment: the
- * fictitious increments before the first ones were not divided in this manner. Returns FAILED, with a message, if an
+ * fictitious increments before the first ones were not divided like this. Returns FAILED, with a message, if an
  * equilibrium is not found. */
 static status increment_try_together(struct run *e)
 {

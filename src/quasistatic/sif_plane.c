@@ -27,9 +27,9 @@ static void make_unit(real *a)
     for (int d = 0; d < 3; d++) a[d] /= length;
 }
 
-/* Sets the axes of the plane across plane->front: axes of space where these are perpendicular to the front, so that
- * planes of symmetry are perpendicular to an axis. plane->front is set exactly to an axis if it is nearly parallel to
- * one. */
+/* Sets the axes of the plane across plane->front. They are axes of space where these are perpendicular to the front, so
+ * that planes of symmetry are perpendicular to an axis. A front nearly parallel to an axis of space is set exactly to
+ * it. */
 static void axes_make(struct sif_plane *plane)
 {
     real *f = plane->front;
@@ -176,7 +176,7 @@ const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 
 /* Returns the share of particle i that belongs to the body [1]: 1, halved for each plane of symmetry across the front
- * on which the particle lies. */
+ * that passes through the particle. */
 static real share_beside_mirrors(const struct sif_plane *plane, const struct particles *p, int64_t i)
 {
     real share = 1;

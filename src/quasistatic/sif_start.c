@@ -29,9 +29,9 @@ static void crack_behind_tip(const struct sif_cracks *l, struct sif_crack_tip *t
     }
 }
 
-/* Moves a tip on a row of particles sideways to half the distance to the next row. crack_cuts_bond assigns the
- * particles of a row on a crack to one of its faces; the tip is moved to the side on which bonds are cut, so that
- * round-off does not decide further growth. Returns true if the tip has been moved. */
+/* Moves a tip on a row of particles sideways to half the distance to the next row, so that round-off does not decide
+ * further growth. It is moved to the side on which bonds are cut: crack_cuts_bond assigns the particles of a row on a
+ * crack to one of its faces. Returns true if the tip has been moved. */
 static bool tip_off_row(const struct sif_plane *plane, const struct particles *p, struct sif_crack_tip *tip)
 {
     const real h = plane->spacing, *along = tip->along;

@@ -9,7 +9,8 @@
 #define FACTOR_ERROR 1e-10 /* relative error of a factor */
 enum { BISECTIONS_MOST = 100 };
 
-/* Loop over the intact bonds that soften: of all rows, `it` iterates over the bonds of row `row`. */
+/* Loop over the intact bonds that have begun to soften: row `row` of all rows, and the iterator `it` over the bonds of
+ * this row. */
 #define FOR_SOFTENING_BONDS(b, row, it)                                                                                \
     for (int64_t row = 0; row < (b)->rows; row++)                                                                      \
         for (struct bond_iterator it = bond_iterator_of_row(b, row);                                                   \
@@ -17,8 +18,8 @@ enum { BISECTIONS_MOST = 100 };
             if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
 
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
-
-/* Appends the bond `bond` of row `row` to the list. */
+/* Appends bond `bond` of row `row`, which softens, to the list l: its present stretch divided by `factor` [1], its
+ * largest stretch at the last equilibrium, its range of softening and its energy scale. */
 static void softening_list_add(struct softening_list *l, const struct bonds *b, const struct particles *p, int64_t row,
                                const struct bond *bond, real factor)
 {
@@ -53,7 +54,8 @@ real softening_list_spent(const struct softening_list *l, real factor)
     return sum;
 }
 
-/* The false position method, with the Illinois rule (Dowell & Jarratt 1971). */
+/* Returns the smallest factor between 0 and `high` at which the listed bonds have dissipated the energy `wanted` [J],
+ * by the false position method with the Illinois rule (Dowell & Jarratt 1971). */
 real softening_list_factor(const struct softening_list *l, real wanted, real high)
 {
     real low = 0, at_low = -wanted, at_high = softening_list_spent(l, high) - wanted;

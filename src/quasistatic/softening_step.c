@@ -55,8 +55,9 @@ static void body_scale(const struct search *f, real factor)
     q->force(q->context, &q->at, &q->z);
 }
 
-/* Returns the factor on the present displacements at which the wanted energy is dissipated, at most `most`, and chooses
- * k by it. most: ratio of the loads at the end to the present ones [1]. */
+/* Returns the factor on the present displacements at which bonds dissipate the energy f->spent, at most `most`, and
+ * sets the largest stretches k of the bonds by it. most: ratio of the loads at the end to the present ones [1]. With
+ * f->spent = INFINITY (given loads) the factor is `most`. */
 static real secants_choose(struct search *f, real most)
 {
     const bool given = !isfinite(f->spent);
@@ -75,8 +76,8 @@ static real secants_choose(struct search *f, real most)
     return factor;
 }
 
-/* Returns the residual of the displacements of the last solution relative to the scale of the solver [1], and stores
- * the forces. */
+/* Returns the residual of the forces at the displacements q->u of the last solution, relative to the scale of the
+ * solver [1]. Stores the forces in q->f. */
 static real residual_now(struct newton_solver *q)
 {
     real sum = 0;
@@ -86,8 +87,9 @@ static real residual_now(struct newton_solver *q)
     return sum > 0 ? sqrt(sum) / q->scale : 0;
 }
 
-/* Finds the next equilibrium, in turn with fixed k and by a new choice of k. Solutions with fixed k need not be more
- * exact than k is. */
+/* Finds the next equilibrium: solves with fixed largest stretches k of the bonds, chooses k anew, and repeats both.
+ * Solutions with fixed k need not be more exact than k is. Returns FAILED, with a message, if an equilibrium is not
+ * found. */
 static status search_run(struct run *e, struct search *f)
 {
     struct statics *s = e->statics;
@@ -119,9 +121,9 @@ static status search_run(struct run *e, struct search *f)
         isfinite(f->spent) ? "a smaller steps.energy" : "steps.control: energy, which follows loads that fall,");
 }
 
-/* Tries to find the equilibrium that ends a load step. spent: energy to be dissipated, INFINITY: the loads are those of
- * the pseudo-time t [J]. Under given loads, work beyond the growth of energies is lost in motion that is not resolved.
- * Restores the state before if the search fails. */
+/* Tries to find the equilibrium that ends a load step. spent: energy to be dissipated [J]; INFINITY: the loads are
+ * those of pseudo-time t [s]. With given loads, work beyond the growth of energies counts as lost, in motion that is
+ * not resolved. If the search fails, restores the state before it and returns its status. */
 static status step_try(struct run *e, real t, real spent)
 {
     struct statics *s = e->statics;
@@ -159,8 +161,8 @@ real softening_least_toughness(const struct scene *s, const struct bond_source *
 }
 
 /* Under control by energy the first step ends where bonds begin to soften: on a coarse lattice that may be the largest
- * load, and the work over a step is computed from both its ends. If no equilibrium is found, bonds dissipate a half, a
- * quarter .. of the energy. */
+ * load, and the work over a step is computed from both its ends. If no equilibrium is found, the search is repeated
+ * with a half, a quarter .. of the energy that bonds dissipate. */
 status softening_step(struct run *e, real t)
 {
     struct statics *s = e->statics;

@@ -59,7 +59,7 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
     return past;
 }
 
-/* Warns of bonds beyond their critical stretch, if there are any. past: number of these bonds. */
+/* Warns of bonds beyond their critical stretch in a static solution. past: number of these bonds; 0: no warning. */
 static void warn_past_limit(struct warnings *to, int64_t past)
 {
     char text[200];
@@ -113,8 +113,8 @@ static void solver_finish(struct run *e)
     warn_large_strain(&e->warnings, p, e->scene->material);
 }
 
-/* Returns FAILED with a message that contains the reason why no equilibrium was found. tolerance: required residual
- * [1]; step: number of the last iteration. */
+/* Sets the error that no equilibrium was found, with a message that contains the reason. tolerance: required residual
+ * [1]; step: number of the last iteration. Returns FAILED. */
 static status not_converged(const struct static_solver *s, real tolerance, int64_t step)
 {
     if (!(s->residual < INFINITY))

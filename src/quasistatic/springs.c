@@ -24,7 +24,7 @@ struct springs {
     int64_t *next; /* [n] next entry of each row to be stored; NULL in the first pass */
 };
 
-/* Adds the block K to the matrix at this row and column. In the first pass (s->next is NULL) the entry is only
+/* Adds the block K to the matrix at `row` and `column`. In the first pass, in which s->next is NULL, the entry is only
  * counted. */
 static void entry_add(struct springs *s, int64_t row, int64_t column, const real K[DIM_MAX][DIM_MAX])
 {
@@ -41,8 +41,8 @@ static void entry_add(struct springs *s, int64_t row, int64_t column, const real
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* The nodes that determine the displacement of a particle, with their weights: the particle itself, or the corners of
- * its cell. */
+/* The unknowns that determine the displacement of a particle, with their weights: that of a peridynamic particle is its
+ * own, that of a point of the mesh follows from the corners of its cell. */
 struct movers {
     int n;
     int64_t node[CORNERS_MAX]; /* [n] unknowns */
@@ -64,16 +64,16 @@ static struct movers movers_list(const struct springs *s, int64_t i)
     return m;
 }
 
-/* Returns the unknowns that determine the displacement of particle or image i. sign: 1 or -1 for each component; an
- * image moves opposite to its source in some of them. */
+/* Returns the unknowns that determine the displacement of particle or mirror image i. sign[d]: receives -1 if component
+ * d of an image moves opposite to that of its source, else 1. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
     image_displacement_signs(&s->e->part, &s->e->loads, i, sign);
     return movers_list(s, image_source_particle(&s->e->part, s->e->loads.image, i));
 }
 
-/* Adds the stiffness of a bond of particle i, as a spring along its reference direction, in tension, to the rows of the
- * unknowns that determine the displacement of i. The row of the bond's other end adds the other half. */
+/* Adds the stiffness of a bond of particle i, a spring along its reference direction for tension, to the rows of the
+ * unknowns that determine the displacement of i. The row of the particle at the other end adds the other half. */
 static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &s->e->part;
@@ -192,8 +192,8 @@ static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
     return kept - first;
 }
 
-/* Moves the rows together after entries have been added up, and updates a->first. kept[a->n]: number of remaining
- * entries of each row. */
+/* Moves the rows of the matrix together after entries of one column have been added up, and updates a->first. kept[i]:
+ * number of remaining entries of row i. */
 static void rows_close(struct block_matrix *a, const int64_t *kept)
 {
     const int size = a->dim * a->dim;

@@ -18,7 +18,8 @@ static void list_find(const struct bonds *bonds, struct break_list *l)
     }
 }
 
-/* Saves or restores the list l of the bonds of the next crack increment. Returns the status of the archive. */
+/* Saves the list l of the bonds of the next crack increment to the archive a if a->saving is true, else restores it.
+ * Returns FAILED if the archive cannot be written or lacks the list. */
 static status statics_list_archive(struct break_list *l, const struct bonds *bonds, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/next", l->n);
@@ -28,7 +29,8 @@ static status statics_list_archive(struct break_list *l, const struct bonds *bon
     return OK;
 }
 
-/* Saves or restores the SIF-driven tips and the path of their cracks. Returns the status of the archive. */
+/* Saves the SIF-driven tips and the path of their cracks to the archive a if a->saving is true, else restores them.
+ * Returns FAILED if the archive cannot be written or lacks them. */
 static status sif_archive(struct sif_cracks *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/led", l->known);
@@ -43,7 +45,8 @@ static status sif_archive(struct sif_cracks *l, struct archive *a)
     return l->segments > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->segments * sizeof *l->path) : OK;
 }
 
-/* Saves or restores the next crack increment and the SIF-driven tips. Returns the status of the archive. */
+/* Saves the next crack increment and the SIF-driven tips to the archive a if a->saving is true, else restores them.
+ * Returns FAILED if the archive cannot be written or lacks them. */
 static status increment_archive(struct statics *s, struct bonds *b, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
@@ -55,8 +58,9 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
     return sif_archive(&s->sif, a);
 }
 
-/* Saves or restores scales and noise level of the solver, its counters, whether its preconditioner is still valid, and
- * the last record of the history. Returns the status of the archive. */
+/* Saves scales and noise level of the solver, its counters, whether its preconditioner is still valid, and the last
+ * record of the history to the archive a if a->saving is true, else restores them. Returns FAILED if the archive cannot
+ * be written or lacks them. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
     struct newton_solver *q = &s->balance;

@@ -35,10 +35,10 @@ static void warn_of_yielding_bonds(const struct scene *s, const struct family *f
     }
 }
 
-/* Warns of load steps in which softening bonds dissipate the energy of more than half a spacing of new crack. Errors of
- * the largest load by edge notches of 0.5 to 1.5 mm in glass, spacings of 0.05 and 0.1 mm, beside the load in steps of
- * a twentieth of a spacing: 4 % at half a spacing, 8 % at one, 15 % at two, 23 % at four, to either side. of_spacing:
- * energy of one spacing of crack [J]. */
+/* Warns of load steps in which softening bonds dissipate the energy of more than half a spacing of new crack.
+ * of_spacing: energy of one spacing of crack [J]. Errors of the largest load by edge notches of 0.5 to 1.5 mm in glass,
+ * at spacings of 0.05 and 0.1 mm, relative to that in steps of a twentieth of a spacing: +-4 % at half a spacing, 8 %
+ * at one, 15 % at two, 23 % at four. */
 static void warn_of_large_steps(const struct scene *s, real of_spacing, struct warnings *to)
 {
     const real given = s->steps.energy, spacings = given / of_spacing;

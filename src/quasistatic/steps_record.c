@@ -66,7 +66,7 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Returns the area along the paths of the SIF-driven tips. */
+/* Returns the area along the paths of the SIF-driven tips, the sum over their segments. */
 static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct particles *p)
 {
     struct crack_area area = {0};

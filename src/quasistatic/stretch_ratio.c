@@ -31,8 +31,8 @@ static real critical_stretch_least(const struct bond_limit *limit, const struct 
     return least * weakest;
 }
 
-/* Returns the larger one of `most` and the largest stretch ratio of an intact bond in row block g [1]. weakest: lower
- * bound of the critical stretches, by which blocks are skipped [1]. */
+/* Returns the larger of `most` and the largest ratio of stretch to critical stretch of the intact bonds in row block g
+ * [1]. weakest: lower bound of the critical stretches, by which most row blocks are skipped [1]. */
 static real row_block_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t g, real weakest, real most)
 {
@@ -123,8 +123,8 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
         }
 }
 
-/* Returns the stretch ratio above which bonds break: just below that of pair number `most` in descending order, but at
- * least `least`. ratio[n]: stretch ratios of directed bonds, two for each pair. */
+/* Returns the ratio of stretch to critical stretch above which bonds break [1]: just below that of pair number `most`
+ * in descending order, but at least `least`. ratio[n]: ratios of directed bonds, two for each pair. */
 static real stretch_ratio_to_break(const real *ratio, int64_t n, real least, int64_t most)
 {
     if (n <= 2 * most) return least;
@@ -163,11 +163,11 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Breaks the bonds whose stretch ratio is within the fraction `tolerance` of the largest one, at most max_pairs pairs,
- * and appends them to the list of the next increment. Adds their energy to *cost [J] and their area to *area [m^2]. The
- * cost of state-based bonds, which have no energy of their own, follows from the energy lost as they break: in a linear
- * body the energy at the critical stretch times the square of the stretch ratio. Returns the number of directed bonds
- * broken. */
+/* Breaks the bonds whose ratio of stretch to critical stretch is within the fraction `tolerance` of the largest one, at
+ * most max_pairs pairs, and appends them to the list of the next increment. Adds their energy to *cost [J] and their
+ * area to *area [m^2]. State-based bonds have no energy of their own; their cost follows from the energy lost as they
+ * break: in a linear body the energy at the critical stretch times the square of the ratio. Returns the number of
+ * directed bonds broken. */
 int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area)
 {
     struct break_list *l = &e->statics->next;
@@ -196,8 +196,8 @@ int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pai
 }
 
 /* Breaks all bonds of list l at once, although the last ones reach their critical stretch only after the first have
- * broken. Each bond therefore costs the fracture energy stored in its record (`held`); the difference from its present
- * energy is booked as lost, in the solver and in the run. */
+ * broken. Each bond therefore adds the energy `held` of its record to the fracture energy. The difference from its
+ * present energy is counted as lost, in the solver and in the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l)
 {
     real more = 0;

@@ -40,15 +40,15 @@ static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, in
     return n;
 }
 
-/* Marks component d of unknown k as prescribed by boundary number `load`; -1: by a mirror. */
+/* Marks component d of unknown k as held. load: number of the boundary that prescribes it; -1: a mirror does. */
 static void component_hold(struct statics *s, int64_t k, int d, int load)
 {
     s->balance.held[k] |= (uint8_t)(1 << d);
     s->load[k * DIM_MAX + d] = (int16_t)load;
 }
 
-/* Marks the particles on planes of symmetry: their normal displacement is 0 (on clamped planes every component), and
- * half of each belongs to the body. */
+/* Marks the particles on planes of symmetry. Their normal displacement is 0, on clamped planes every component, and
+ * half of each particle belongs to the body. */
 static void mirror_particles_mark(struct statics *s, const struct particles *p, const struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {

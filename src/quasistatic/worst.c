@@ -17,8 +17,8 @@ enum { LOAD_TIMES = 64, LOAD_PARTICLES = 1024 }; /* load times, and particles of
 /* The two sorts of loads: prescribed displacements of supports and rigid bodies [m], applied forces [N]. */
 enum { DISPLACEMENTS, FORCES, SORTS };
 
-/* Computes the scalar products of the loads at load times t and u: product[DISPLACEMENTS] of the prescribed
- * displacements [m^2] and product[FORCES] of the applied forces [N^2]. */
+/* Computes the scalar products of the loads at load time t with those at load time u [s]: product[DISPLACEMENTS] of the
+ * prescribed displacements [m^2] and product[FORCES] of the applied forces [N^2]. */
 static void products(const struct run *e, real t, real u, real *product)
 {
     const int dim = e->part.dim;
@@ -53,21 +53,23 @@ struct worst {
     real largest, back, beside;
 };
 
-/* The scalar products at these load times. */
+/* Scalar products of the loads at the times in struct worst: of the largest loads with themselves; of the loads that
+ * point most against them, negative product with the largest loads; of the most perpendicular ones, square of the part
+ * perpendicular to the largest loads. */
 struct found {
     real largest, back, beside;
 };
 
-/* Replaces worst->largest, the time of the largest loads, by t if those at t are larger. own: scalar product of the
- * loads at t with themselves; found: largest scalar product so far. */
+/* Replaces worst->largest, the time of the largest loads, by t [s] if the loads at t are larger. own: scalar product of
+ * the loads at t with themselves; found->largest: largest such product so far, updated. */
 static void largest_update(real t, real own, struct worst *worst, struct found *found)
 {
     if (own > found->largest * (1 + 1e-9)) found->largest = own, worst->largest = t;
 }
 
-/* Replaces the times of the loads most opposed (worst->back) and most perpendicular (worst->beside) to the largest ones
- * by t, if those at t are more so. own: scalar product of the loads at t with themselves; with: with the largest
- * loads. */
+/* Replaces worst->back, the time of the loads that point most against the largest ones, and worst->beside, the time of
+ * those most perpendicular to them, by t [s] if the loads at t do so more. own: scalar product of the loads at t with
+ * themselves; with: that with the largest loads; found: products so far, updated. */
 static void others_update(real t, real own, real with, struct worst *worst, struct found *found)
 {
     const real size = found->largest, back = -with, beside = own - square(with) / size;
