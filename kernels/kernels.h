@@ -48,10 +48,11 @@ static inline real point_conversion_stress(const struct elastic *m, const struct
     return p->strength ? m->trigger_mean * p->strength[i] : m->trigger;
 }
 
-/* Partial stress (src/coupling/partial_stress.c). Where PD-MPM bonds cross the cell of a material point, they carry the
- * part M sigma of its stress sigma, with M = T C^-1 over symmetric components, and the point transmits the rest, sigma
- * - M sigma, to the grid. A point with state-based bonds of its own transmits P Q local in addition, with P Q =
- * particles.end_pull / volume. */
+/* Partial stress (src/coupling/partial_stress.c). Where bonds between peridynamic particles and material points (PD-MPM
+ * bonds) cross the cell of a material point, they carry the part M sigma of its stress sigma, and the point transmits
+ * the rest, sigma - M sigma, to the grid. M = T C^-1 over symmetric components, with the stiffness T of these bonds and
+ * C of the material. A point with state-based bonds of its own also transmits `local` times P Q =
+ * particles.end_pull/volume to the grid. */
 struct partial_stress {
     int32_t *index; /* [n] entry of a particle in `matrix`, -1: transmits all of its stress; NULL: all particles do */
     real *matrix;   /* M, [entries][symmetric^2], row major [1] */
@@ -105,38 +106,40 @@ struct pd_motion {
 
 /* Computes the force of all intact bonds on the particle of every active row (a row: all bonds of one particle),
  * overwriting p->f there, then breaks bonds stretched beyond `limit`. A breaking bond acts until the time within the
- * step at which it exceeds its limit (pd/bond_last.h), so crack path and fracture energy are of second order in the
- * time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where neither particle is driven), damage, counts of broken bonds
- * and fracture energy. motion: NULL, or step sizes with which active peridynamic particles that are neither on the
- * grid nor `loaded` are also integrated in time in the same pass (pd/sweep.h). Returns the number of directed bonds
- * broken. */
+ * step at which it exceeds its limit (pd/bond_last.h), so that crack path and fracture energy are of second order in
+ * the time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where the motion of neither particle is prescribed), damage,
+ * counts of broken bonds and fracture energy. motion: step sizes, with which active peridynamic particles that are
+ * neither on the grid nor motion->loaded are also moved in this loop (pd/sweep.h); NULL: none is moved. Returns the
+ * number of directed bonds broken. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
 
-/* Computes the forces of all bonds by the kernel `sweep` of the model. Adds the reactions of bonds to mirror images in
- * clamped planes (planes of symmetry along which motion is prevented, too) to the forces on the sources of these images
- * (pd/clamp_force.c). Particles with such bonds, and these sources, must be set in motion->loaded, so that they are
- * moved later. All callers compute bond forces through this function. limit, motion: as in bond_force_fn. Returns the
- * number of directed bonds broken. */
+/* Computes the forces of all bonds by the kernel `sweep` of the model, and breaks bonds stretched beyond `limit`. Adds
+ * the reactions of bonds to mirror images in clamped planes (planes of symmetry along which motion is prevented, too)
+ * to the forces on the sources of these images (pd/clamp_force.c). motion: step sizes with which particles are moved in
+ * the same loop; NULL: none is moved. Particles with such bonds, and these sources, must be set in motion->loaded, so
+ * that they are moved later. Returns the number of directed bonds broken. All callers compute bond forces through this
+ * function. */
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
 
-/* Starts the softening of all bonds that are stretched beyond their onset, in the row blocks (the bonds of eight
- * particles) that the last sweep has marked as due, unless the stress across the bond forbids it (pd/bond_begin.c).
- * Both rows of a bond decide alike. Adds the energy that such a bond loses at once, as it was beyond its onset already,
- * to the fracture energy. Called by bond_forces. */
+/* Starts the softening of all bonds that are stretched beyond their onset and that the stress across the bond allows to
+ * soften (pd/bond_begin.c). Examines the row blocks (the bonds of eight particles) in which the last force computation
+ * has found such a bond. Both rows of a bond decide alike. A bond beyond its onset already loses some energy at once,
+ * which is added to the fracture energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
-/* Starts the softening of all bonds that are stretched beyond their onset at the present positions, as
- * bonds_begin_to_soften does, without a preceding sweep. For load steps. */
+/* Starts the softening of all bonds that are stretched beyond their onset at the present positions and that the stress
+ * across the bond allows to soften. Needs no preceding force computation. For load steps. */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
-/* Lets the bonds of state-based models that have begun to soften do so up to the present positions, where that sets
- * energy free (pd/state_soften.c), and ends those at the end of their softening. The pressures, springs and rotations
- * in b->state must be those of the present positions; they are stale where *changed is set to true: in the row blocks
- * (bonds of eight particles) with b->soft.begun. Marks row blocks with bonds beyond their onset as due. Returns the
- * number of directed bonds that have ended. */
+/* Increases the damage of bonds of state-based models that have begun to soften to that of the present positions, where
+ * that sets energy free (pd/state_soften.c), and breaks those at the end of their softening. The pressures, springs and
+ * rotations in b->state must be those of the present positions. *changed: set to true if the damage of a bond has
+ * changed; the states in row blocks (bonds of eight particles) with b->soft.begun must then be recomputed. Row blocks
+ * with bonds beyond their onset are marked (b->soft.due) for bonds_begin_to_soften. Returns the number of directed
+ * bonds broken. */
 KERNEL(int64_t, state_soften,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
 
@@ -357,23 +360,25 @@ KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, co
  * by their interpolation weights. Serial. */
 KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p));
 /* Computes Cauchy stress and volume of all material points of the mesh into p. m: elastic constants by material;
- * finite: strain measure as in mesh_force. */
+ * finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 /* Updates the plastic state of all material points of the mesh whose flow law has mode LAW_EXPLICIT, for a step of dt
- * [s] that has ended with the present displacements. p->mesh_stress holds their stresses at the start of the step,
- * which are replaced by those at its end. m, finite: as in mesh_force. */
+ * [s] that has ended with the present displacements. p->mesh_stress holds their stresses at the start of the step and
+ * receives those at its end. m: elastic constants by material; finite: true for finite strain, false for small
+ * strain. */
 KERNEL(void, mesh_points_flow, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, real dt,
                                 bool finite));
 /* Computes the displacement gradient du_a/dX_b of every material point i of the mesh into to[a dim + b][i] [1]. */
 KERNEL(void, mesh_points_gradient, (const struct mesh *mesh, real *const *to));
 /* Sets FLAG_STRESSED on material points whose largest principal stress exceeds their conversion stress, in the cells
- * that the last mesh_force marked as `stressed`. m: elastic constants by material; finite: as in mesh_force. */
+ * that the last mesh_force marked as `stressed`. m: elastic constants by material; finite: true for finite strain,
+ * false for small strain. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 
 /* Sets mark[cell] = 1 for whole cells (with all points, of one material, without bonds) in which the principal stress
- * of a point may exceed `share` times [1] the conversion stress; other entries are not changed. mark: [grid.n]. all:
- * true examines all such cells, false only those that the last mesh_force marked as `stressed`. m, finite: as in
- * mesh_force. */
+ * of a point may exceed `share` times [1] the conversion stress; other entries are not changed. mark: [grid.n]; all:
+ * true to examine all such cells, false only those that the last mesh_force marked as `stressed`; m: elastic constants
+ * by material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_cells_mark, (const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark,
                                bool finite));
 
@@ -388,10 +393,10 @@ KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
  * velocities are half a step behind, to the time of the positions. */
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
 /* Returns the elastic energy of all cells of the mesh [J], including their contribution to the families of bonded
- * points. m: elastic constants by material; finite: strain measure as in mesh_force. */
+ * points. m: elastic constants by material; finite: true for finite strain, false for small strain. */
 KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 /* Computes end_strain and end_rotation of the bonded material points in p (state-based models) from the deformation of
- * their cells. finite: strain measure as in mesh_force. */
+ * their cells. finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_ends_update, (const struct mesh *mesh, struct particles *p, bool finite));
 
 #endif

@@ -26,15 +26,17 @@ struct law_points {
     lanes_mask active; /* lanes whose points have this law; the others are left as they are */
 };
 
-/* Index of component c of particles.stress among the components of struct law_points, which has all six. */
+/* law_place[dim][c]: index of component c of particles.stress among the six components xx yy zz xy yz zx of struct
+ * law_points, in dim dimensions. */
 static const int law_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
 
-/* Maps the trial stresses of the active points back to the yield surface and updates their state. law: must be given.
- * In plane stress the return is within sigma_zz = 0, in 1D within uniaxial stress. The plastic work of an explicit step
- * is that of the mean of the stresses at its start and end, each times its volume: with the elastic energy 1/2 s : C^-1
- * : s the energy balance of leap-frog steps then closes to round-off. That of a load step is the integral along the
- * path on which the trial stress grows in proportion, without recall a potential of the state; `before` and the volumes
- * are not read. Returns the bits of the active points that yield; the others are left as they are. */
+/* Maps the trial stresses of the active points of eight (p->active) back to the yield surface of the flow law `law`,
+ * not NULL, and updates their plastic state. In plane stress the return is within sigma_zz = 0, in 1D within uniaxial
+ * stress. mode LAW_EXPLICIT: the plastic work is that of the mean of the stresses at start and end of the step, each
+ * times its volume; with the elastic energy 1/2 s : C^-1 : s the energy balance of leap-frog steps then closes to
+ * round-off. LAW_LOAD_STEP: the plastic work is the integral along the path on which the trial stress grows in
+ * proportion, a potential of the state without recall; `before` and the volumes are not read. Returns a bit for each
+ * point, set if it is active and yields; other points are not changed. */
 KERNEL(unsigned, law_update, (const struct law *law, struct law_points *p, enum space space, enum law_mode mode));
 
 #endif

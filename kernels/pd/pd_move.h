@@ -57,8 +57,9 @@ static ALWAYS_INLINE bool pd_leapfrog_step(struct particles *p, const int32_t *l
     return any;
 }
 
-/* Advances those of the first n of eight listed particles that pd_particles_to_move selects by a leap-frog step. list:
- * ascending, aligned to 32 bytes; loaded: as in pd_particles_to_move. Returns true if one of them has diverged. */
+/* Advances those of the first n of eight listed particles by a leap-frog step that are not moved by the grid and not
+ * loaded. list: ascending, aligned to 32 bytes; loaded: [particles] not 0 for particles that are moved later; NULL:
+ * none. Returns true if one of the moved particles has diverged. */
 static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
                                         const struct pd_motion *m, const int dim)
 {

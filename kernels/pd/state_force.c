@@ -130,9 +130,9 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
 }
 
 /* Stores in particles.end_moment the moment of the bonds about those of eight material points that are set in the mask
- * `end`, 0 for the others [N m]. It is the axial vector of g R^T M with M = sum w Y (x) xi: component k is entry ji
- * less entry ij. row, own: as in ends_rotate; rows: number of points that exist; sum: sums of the row block; spring:
- * spring stiffness g. */
+ * `end` [N m], 0 for the others. It is the axial vector of g R^T M with M = sum w Y (x) xi: component k is entry ji
+ * less entry ij. row: numbers of the points; own: the first of them if they are consecutive, else -1; rows: number of
+ * points that exist; sum: sums over the bonds of the points; spring: spring stiffness g [N/m]. */
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)
 {
