@@ -12,16 +12,16 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
-/* Returns true if particle i, or the particle of which i is an image, already had a row with bonds to its whole family
- * in `old`, as peridynamic particles have. */
+/* Returns true if particle i already had a row in `old` that holds bonds to all particles within the cutoff, as rows
+ * of peridynamic particles do. For an image, the row of the particle that it mirrors is tested. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_source_particle(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
-/* Returns true if the previous rows can be reused: there are such rows, and no particle with a whole family in them has
- * become a material point again. */
+/* Returns true if rows of `old` can be reused: `old` is not NULL, and no particle whose row holds bonds to all its
+ * neighbours (a peridynamic particle then) has become a material point again. */
 static bool rows_reusable(const struct bonds *old, const struct particles *p)
 {
     if (!old) return false;
@@ -30,9 +30,9 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Marks particle or image i and all particles within the cutoff of it: wanted[groups of eight] for the groups of
- * consecutive particles that get rows, fresh[particles] for the particles to be searched again. found[capacity]:
- * working memory. */
+/* Marks particle or image i and all particles within the cutoff of it. wanted[(particles + 7)/8]: 1 for groups of
+ * eight consecutive particles that get rows; fresh[particles]: 1 for particles whose neighbours must be searched
+ * again. found[capacity]: working memory. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -42,10 +42,10 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
         if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
 }
 
-/* Marks in `wanted` the groups of eight consecutive particles that get rows: peridynamic particles, and material points
- * with a peridynamic neighbour. A row block keeps its eight particles for as long as it exists, is written as whole
- * vectors, and on a lattice its neighbours are consecutive. Rows of unmarked particles in a group have no bonds. Marks
- * in fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. old:
+/* Marks in wanted[(n + 7)/8] the groups of eight consecutive particles that get rows: groups with a peridynamic
+ * particle or with a material point that has a peridynamic neighbour. Rows of other particles of a marked group have
+ * no bonds. Whole groups are used, since a row block keeps its eight particles for as long as it exists. Marks in
+ * fresh[n] the particles to be searched again: those that have become peridynamic and all within their cutoff. old:
  * previous rows or NULL; capacity: largest number of neighbours of a particle. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int capacity, uint8_t *wanted, uint8_t *fresh)
@@ -69,8 +69,9 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0; all 1 for state-based
- * models. Release its array `ratio` with memory_free. */
+/* Returns the micro-moduli c of bonds for all pairs of materials of s, divided by that of material 0: 2 c_a c_b/(c_a
+ * + c_b) between materials a and b; all 1 for state-based models. Release the array `ratio` of the table with
+ * memory_free. */
 struct pair_table material_pair_table_make(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
@@ -99,8 +100,9 @@ static int32_t *row_of_make(struct bonds *old, int64_t n)
     return row_of;
 }
 
-/* Lists the particles of all groups of eight that are marked in wanted[groups] as rows of b: b->particle, b->row_of.
- * The last row block is filled up with its last particle. old: previous rows or NULL. */
+/* Makes rows for the particles of all groups of eight consecutive ones that are marked in wanted[groups]: sets
+ * b->particle (particle of each row) and b->row_of (row of each particle). Unused rows of the last row block repeat
+ * its last particle. old: previous rows or NULL. */
 static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
 {
     const int64_t eights = (p->n + LANES - 1) / LANES;
@@ -137,7 +139,8 @@ static void rows_arrays(struct bonds *b)
     active_set_make(&b->active, b->row_blocks);
 }
 
-/* Inputs and results of the two passes over the row blocks. */
+/* Inputs and results of the two passes over the row blocks: the first one counts their columns, the second one fills
+ * these. */
 struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
@@ -178,8 +181,8 @@ static void reach_widen(int32_t *reach, int32_t distance)
 }
 
 /* Raises room->reach to the largest difference of the indices of two bonded particles in row block g (rows of eight
- * particles). Images do not count, as they have no rows. regular: true if the bonds are in room->regular, false if they
- * are in room->row. */
+ * particles). Images do not count, as they have no rows. regular: true if the bonds are in room->regular (found from
+ * the lattice map), false if they are in room->row (found by search). */
 static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -223,8 +226,8 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Finds the row blocks that are taken over from the previous rows, and lists the others, so that threads share these
- * evenly. */
+/* Finds for each row block the unchanged one of the previous rows that is taken over (pass->kept), and lists the row
+ * blocks that must be made in pass->list. Threads then share the list evenly. */
 static void rows_pass_begin(struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
@@ -260,7 +263,8 @@ static void rows_pass(const struct rows_pass *pass)
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
 }
 
-/* Copies the row blocks that are taken over, and counts the directed bonds of all. */
+/* Copies the row blocks that are taken over from the previous rows, and sets b->n to the number of directed bonds of
+ * all row blocks. */
 static void rows_pass_end(const struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
@@ -273,8 +277,9 @@ static void rows_pass_end(const struct rows_pass *pass)
     b->n = made;
 }
 
-/* Makes all row blocks (rows of eight particles each) of b in two passes. If previous rows exist, few row blocks
- * change, and the neighbours found in the first pass are stored for the second one. */
+/* Makes all row blocks (rows of eight particles each) of b in two passes: one counts columns, one fills them. If
+ * previous rows exist, few row blocks change, and the neighbours found in the first pass are stored for the second
+ * one. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = material_pair_table_make(maker.source);

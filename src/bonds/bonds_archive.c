@@ -5,9 +5,10 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Copies the weights of changed row blocks to w (saving), or from w into the row blocks; other row blocks have the
- * weights with which they are made. After restoring, bonds of weight 0 are marked as broken, and the row blocks store
- * their columns instead of using a stencil. w: LANES numbers for each column of a changed row block. */
+/* Copies the weights of changed row blocks (those with a bond that broke or softened) to w if `saving`, else from w
+ * into the row blocks. Other row blocks have the weights with which they are made. After restoring, bonds of weight
+ * 0 are marked as broken, and changed row blocks store their columns instead of using a stencil. w[8 columns of the
+ * changed row blocks]. */
 static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {
@@ -24,8 +25,8 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
     }
 }
 
-/* Saves the marks and weights of changed row blocks to the archive a, or restores them. Returns FAILED if the archive
- * does not have them. */
+/* Saves the marks and weights of changed row blocks to the archive a if a->saving, else restores them from it.
+ * Returns FAILED if the archive does not have them. */
 static status weights_archive(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;

@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 
-/* Computes sign[d], 1 or -1: component d of the displacement of image j is sign[d] times that of the particle of which
- * it is an image. Returns true if one of the mirrors of the image is clamped. */
+/* Computes sign[DIM_MAX], 1 or -1: component d of the displacement of image j is sign[d] times that of the particle
+ * that it mirrors, directly or through other images. Returns true if one of these mirrors is clamped. */
 static bool image_rotates(const struct bond_source *s, const struct particles *p, int64_t j, int8_t *sign)
 {
     bool clamp = false;
@@ -20,8 +20,8 @@ static bool image_rotates(const struct bond_source *s, const struct particles *p
     return clamp;
 }
 
-/* Returns an array [n_all - n] with 1 for images in clamped planes and 0 for others; NULL if there are none. Release it
- * with memory_free. */
+/* Returns an array [n_all - n] with 1 for images in clamped planes and 0 for others, or NULL if no image is in a
+ * clamped plane. Release it with memory_free. */
 static uint8_t *clamped_images(const struct bond_source *s, const struct particles *p)
 {
     bool any = false;
@@ -34,8 +34,9 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts in c->n the intact bonds of column k of row block g (rows of eight particles) to images in clamped planes. If
- * c->entry is allocated, also stores these bonds. is[image]: 1 for images in clamped planes. */
+/* Counts in c->n the intact bonds of column k of row block g (rows of eight particles) to images in clamped planes.
+ * If c->entry is not NULL, also stores index and both particles of each of these bonds. is[image]: 1 for images in
+ * clamped planes. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -51,9 +52,9 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
     }
 }
 
-/* Counts or stores the bonds of all row blocks (rows of eight particles each) to images in clamped planes
- * (column_note). Images have indices behind those of the body, so that most columns are excluded by one comparison.
- * is[image]: 1 for images in clamped planes. */
+/* Counts in c->n the bonds of all row blocks (rows of eight particles each) to images in clamped planes, and stores
+ * them if c->entry is not NULL. Images have indices behind those of the body, so that one comparison excludes most
+ * columns. is[image]: 1 for images in clamped planes. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;

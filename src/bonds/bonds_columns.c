@@ -78,8 +78,8 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Allocates the column arrays of b for b->room columns. sparse: reserves addresses that get memory when they are
- * written, since on a lattice most row blocks (rows of eight particles each) write no column. */
+/* Allocates the column arrays of b for b->room columns. sparse: true to reserve addresses only, which get memory
+ * when they are written; on a lattice most row blocks (rows of eight particles each) write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
     void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_lazy_uninitialised : memory_new_uninitialised;

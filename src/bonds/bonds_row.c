@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Relative amount by which the stretch is reduced above which the vector test reports a bond, so that round-off hides
- * no broken bond [1]. The scalar test that follows is exact. */
+/* Relative reduction of the stretch above which the vector test reports a bond [1]. It makes sure that round-off
+ * hides no broken bond; the scalar test of the reported bonds is exact. */
 #define TRIGGER_MARGIN 1e-9
 
 void row_buffer_make(struct row *row, int capacity)
@@ -44,8 +44,8 @@ static int family_search(const struct bond_source *s, const struct particles *p,
     return kept;
 }
 
-/* Removes from found[n] those neighbours of particle i for which the line to i passes through a void. Returns the
- * number of remaining ones. */
+/* Removes from found[n] those neighbours of particle i for which the line to i passes through a void (a hole of the
+ * body without particles). Returns the number of remaining neighbours. */
 static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
 {
     int kept = 0;
@@ -110,9 +110,9 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     return weight;
 }
 
-/* Lists in row->nbr the neighbours with which particle i has bonds: of a peridynamic particle the whole family, of a
- * material point the peridynamic neighbours only. Stores the volume of the family in row->family_volume. map: lattice
- * sites; capacity: size of row->nbr. */
+/* Lists in row->nbr[capacity] the neighbours with which particle i has bonds: of a peridynamic particle all within
+ * the cutoff, of a material point the peridynamic ones only. Stores the volume of all neighbours within the cutoff
+ * in row->family_volume [m^3]. map: lattice sites. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
@@ -198,8 +198,8 @@ static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t r
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
-/* Copies the state of broken and yielded bonds of a particle to `row` from its row number old_row of the previous rows
- * `old`, which may have other neighbours. */
+/* Copies the state of broken, yielded and softened bonds of a particle to `row` from its row number old_row of the
+ * previous rows `old`. Both rows may have different neighbours. */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t row_block = old_row / LANES;

@@ -4,8 +4,7 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Returns true if the differences between the indices of the neighbours of a row and its particle are exactly offset[0
- * .. n - 1]. */
+/* Returns true if row->n == n and the neighbours of the row have the indices particle + offset[0 .. n - 1]. */
 static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
 {
     int32_t other = 0;
@@ -32,9 +31,10 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
     return n;
 }
 
-/* Returns the number of columns of a row block (rows of eight particles), and stores in *by_offset how its bonds are
- * arranged: true if each column has bonds of one index distance, false if rows are packed without gaps. Rows of
- * irregular particles are packed, since columns by distance would be mostly padding. particle[rows]: its particles. */
+/* Returns the number of columns of a row block (rows of eight particles). Stores in *by_offset how its bonds are
+ * arranged: true if all bonds of a column have one index distance (neighbour minus particle), false if each row has
+ * its bonds in the first columns, without gaps. The latter is used off a lattice, where columns by distance would be
+ * mostly padding. particle[rows]: particles of the rows. */
 int row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int rows, bool *by_offset)
 {
     int longest = 0;
@@ -60,9 +60,9 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
     b->pair[q] = pair;
 }
 
-/* Stores for row block g (rows of eight particles) whether its particles are consecutive, and for each of its rows the
- * smallest stretch at which a bond may break, the volume of its family and that of the neighbours whose bonds are
- * broken. */
+/* Stores properties of row block g (rows of eight particles) in b: whether its particles are consecutive, and for
+ * each of its `rows` rows the smallest stretch at which a bond may break, the volume of all neighbours and that of
+ * the neighbours whose bonds are broken. */
 static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -77,8 +77,9 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Returns true if the next bond of row l, number `used`, belongs to column k. With by_offset it must have the index
- * distance of the column; else rows are packed, and any bond belongs to it. particle: particles of the row block. */
+/* Returns true if bond number `used` of row l (0 to 7), the first one that has no column yet, belongs to column k.
+ * With by_offset it must have the index distance of the column (neighbour minus particle); else any bond belongs to
+ * it. particle[8]: particles of the row block. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
@@ -86,8 +87,8 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
-/* Stores the softening of the bonds of row block g (rows of eight particles), if one of them has begun to soften, in
- * the columns in which row_block_fill has put the bonds. */
+/* Stores the softening of the bonds of row block g (rows of eight particles, `rows` used) if one of them has begun
+ * to soften, in the columns in which row_block_fill has put the bonds. */
 static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
 {
     bool begun = false;
@@ -131,9 +132,9 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
     row_block_store(b, buffer, g, p);
 }
 
-/* Makes the stencil of row block g (rows of eight particles) from its columns in `room`. Returns false if the row block
- * must store its columns: its particles are not consecutive, bonds are plastic or changed, or a column has unequal
- * bonds. */
+/* Makes room->stencil for row block g (rows of eight particles) from the columns in `room`. A stencil describes each
+ * column by its index distance and the properties that its eight bonds share. Returns false if the row block must
+ * store its columns: its particles are not consecutive, bonds are plastic or changed, or a column has unequal bonds. */
 static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
@@ -211,8 +212,9 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
     }
 }
 
-/* Computes trigger[l] for particle i + l, l = 0 .. 7: the smallest stretch at which one of its bonds may break or begin
- * to soften [1]. bonds: the bonds of the eight particles; m: limits of bonds. */
+/* Computes trigger[l] for particle i + l, l = 0 .. 7: the smallest stretch at which one of its bonds may break or
+ * begin to soften [1]. bonds: the bonds of the eight particles; m: inputs from which rows are made, with the
+ * strengths of bonds. */
 static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
                              int32_t i)
 {
@@ -235,9 +237,9 @@ static bool whole_families(const struct regular_bonds *bonds)
     return without == 0;
 }
 
-/* Fills row block g (rows of eight particles) from the bonds in buffer->regular, which the map of lattice sites gives,
- * without making single rows. If a recent row block had the same bonds, and families are whole, its stencil and sums
- * are used. */
+/* Fills row block g (rows of eight particles) from the bonds in buffer->regular, which follow from the map of
+ * lattice sites. If the particles have bonds to all their neighbours, and a recent row block had equal bonds, its
+ * stencil and its sums over bonds are used again. */
 void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, int64_t g, const struct row_maker *m)
 {
     const struct regular_bonds *bonds = &buffer->regular;

@@ -32,8 +32,8 @@ int64_t site_map_find_site(const struct site_map *map, const struct particles *p
     return site;
 }
 
-/* Computes the box of all lattice sites of the body in l, with a margin of the reach of bonds. Returns the number of
- * sites, 0 if it is too large. */
+/* Computes the box of all lattice sites of the body: lower corner l->low and index strides l->stride, with a margin
+ * as wide as the longest bond. Returns the number of sites, or 0 if there are too many for a map. */
 static int64_t box_sites(struct site_map *l, const struct particles *p)
 {
     real site_map = 1;
@@ -88,8 +88,8 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     return regular;
 }
 
-/* Returns true if the positions of the body along axis d, in units of the last place of the largest, are whole
- * multiples of one step: neighbours then have exactly equal distances everywhere. */
+/* Returns true if the coordinates of the particles along axis d are whole multiples of one step, in units of the
+ * last place of the largest coordinate. Equal lattice distances are then equal to the last bit everywhere. */
 static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
     real low, high;
@@ -177,9 +177,9 @@ int site_map_find_neighbours(const struct site_map *map, const struct particles 
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Appends the bonds of particles i .. i + 7 to neighbours on one lattice row to *to. site: index of the site of
- * particle i; row: the lattice row relative to it; number: number of the first site of the row among the neighbours of
- * a full family. Returns false if the indices of the particles on the row are not consecutive. */
+/* Appends the bonds of particles i .. i + 7 to their neighbours on one lattice row to *to. site: index of the site
+ * of particle i in the map; row: the lattice row, relative to that site; number: how many sites of a full family
+ * precede this lattice row. Returns false if the particles on the lattice row do not have consecutive indices. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
                       int64_t i, int number, struct regular_bonds *to)
 {
@@ -201,7 +201,8 @@ static bool row_bonds(const struct site_map *l, const struct particles *p, int64
     return true;
 }
 
-/* Returns true if all eight particles have a neighbour at every index distance of the list b. */
+/* Returns true if each of the eight particles has a neighbour at every index distance (neighbour minus particle) of
+ * b. */
 static bool is_full(const struct regular_bonds *b)
 {
     unsigned other = 0;
@@ -257,8 +258,9 @@ void regular_bonds_free(struct regular_bonds *to)
     stencil_cache_free(to->stencil_cache);
 }
 
-/* Computes inverse length and weight of the bonds from particle i + l to j + l for eight lanes l, with the same bits as
- * row_weigh. inverse[LANES] [1/m], w[LANES] [1]; dim: dimensions, a constant. */
+/* Computes inverse length [1/m] and weight [1] of the bonds from particle i + l to j + l for l = 0 .. 7, in
+ * inverse[8] and w[8]. The numbers have the same bits as those of row_weigh, which handles one particle. pairs:
+ * stiffness ratios by materials; dim: number of dimensions, a constant of the compiler. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                                 int64_t i, int64_t j, real *inverse, real *w, const int dim)
 {

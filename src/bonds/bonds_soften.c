@@ -6,8 +6,9 @@
 #include "base/team.h"
 #include "bonds_parts.h"
 
-/* Allocates b->soft.near and sets the stretch from which on it marks row blocks (the bonds of eight particles), if a
- * material has a strength surface. Rows that are rebuilt keep their mark; new ones have it. */
+/* Allocates b->soft.near, marks of row blocks (bonds of eight particles) that may be near a strength surface, if a
+ * material has such a surface. Sets b->soft.gate, the stretch from which on a row block is marked [1]. Rows that are
+ * rebuilt from `previous` (or NULL) keep their mark; new ones are marked. */
 static void rows_watch(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                        const struct particles *p)
 {
@@ -25,8 +26,8 @@ static void rows_watch(struct bonds *b, const struct bonds *previous, const stru
     }
 }
 
-/* Allocates b->soft.rate if the strength of a material depends on the strain rate. Rows that are rebuilt keep their
- * rate. */
+/* Allocates the strain rates b->soft.rate of rows if the strength of a material depends on the strain rate. Rows
+ * that are rebuilt from `previous` (or NULL) keep their rate. */
 static void rates_make(struct bonds *b, const struct bonds *previous, const struct bond_limit *limit)
 {
     bool any = false;
@@ -94,8 +95,8 @@ void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i
     }
 }
 
-/* Copies the softening of the bond at entry q of the rows `old` to the bond of row `row` in b whose neighbour is nbr,
- * if it exists; in state-based models its weight, too. */
+/* Copies the softening of the bond at entry q of the rows `old` to the bond in row `row` of b whose neighbour is
+ * nbr. State-based models also copy its weight. Does nothing if b has no such bond. */
 static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struct bonds *old, int64_t q)
 {
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
@@ -117,8 +118,8 @@ void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const 
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous, it.bond.entry);
 }
 
-/* Copies the softening of all bonds in row blocks (rows of eight particles each) where softening has begun to `packed`
- * (saving), or from it. */
+/* Copies the softening of all bonds in row blocks (rows of eight particles each) where softening has begun: to
+ * `packed` if `saving`, else from `packed`. packed[bonds of these row blocks, with padding]. */
 static void pack_softness(struct bonds *b, struct bond_softness *packed, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
@@ -172,7 +173,8 @@ real bonds_dissipated_softening_energy(const struct bonds *b)
     return b->soft.curve ? reproducible_sum(b->row_blocks, row_block_spent, b) : 0;
 }
 
-/* Returns true if a row has an intact bond that has begun to soften or been started (begun), or one that has not. */
+/* Returns true if a row has an intact bond whose softening has begun (`begun` true), or one whose softening has not
+ * (`begun` false). */
 static bool row_has_bond(const struct bonds *b, int64_t row, bool begun)
 {
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)

@@ -12,10 +12,11 @@ real state_row_intact_weighted_volume(const struct bonds *b, int64_t row)
     return Q;
 }
 
-/* Computes the weighted volume Q = sum w r^2 of each row (the bonds of a particle) of row block g [m^2]. With
- * b->state.local, and if all lattice sites within the horizon of the particle are occupied, the sum is over the present
- * bonds, and those that have softened or ended so, with their weights before. Otherwise it is that of the undamaged
- * family: of a full one on the lattice or, near faces, of the particle's surface class (surface.h). */
+/* Computes the weighted volume Q = sum w r^2 over the bonds of each row of row block g (rows of eight particles)
+ * [m^2]. If b->state.local, and if all lattice sites within the horizon of the particle are occupied, the sum is
+ * over the bonds that exist; bonds that soften, or that broke by softening, count with the weight that they had
+ * before. Else Q is that of the undamaged family: of a full one on the lattice or, near faces, of the particle's
+ * surface class (surface.h). */
 static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)
 {
     const struct family *f = &s->family;
@@ -45,8 +46,8 @@ void state_update_weighted_volumes(struct bonds *b, const struct particles *p, c
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, s, g);
 }
 
-/* Computes the weighted volume Q of rebuilt row blocks, where it is still 0. Row blocks taken from the previous rows
- * keep theirs. */
+/* Computes the weighted volume Q of the row blocks in which it is still 0: those that are rebuilt. Row blocks taken
+ * from the previous rows keep their Q. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
 #pragma omp parallel for schedule(static)

@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Number of row blocks (rows of eight particles each) in the cache of recent ones: enough for the different ones in a
- * few lattice rows, inside and at their ends; empirical. */
+/* Number of recent row blocks (rows of eight particles each) in the cache. It suffices for the different row blocks
+ * of a few lattice rows, inside and at their ends; empirical. */
 enum { REMEMBERED = 32 };
 
 struct stencil_cache {
@@ -56,7 +56,7 @@ static bool same_around(const real *around, const struct regular_bonds *b, int64
     return true;
 }
 
-/* Stores the bonds b of particles i .. i + 7 in the cache, in place of the oldest entry. */
+/* Stores the bonds b of particles i .. i + 7 in the cache t. If the cache is full, they replace its oldest entry. */
 static void remember(struct stencil_cache *t, const struct regular_bonds *b, int64_t i)
 {
     struct cached *to = &t->cached[t->next];

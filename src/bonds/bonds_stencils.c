@@ -92,8 +92,8 @@ static bool stencils_equal(const struct stencil *a, const struct stencil *b)
            arrays_equal(a->w, b->w, a->columns, sizeof *a->w);
 }
 
-/* Returns the hash of Fowler, Noll and Vo over index distances and weights of a stencil, which distinguish most
- * stencils; below HASHES. */
+/* Returns a hash of the stencil p from 0 to HASHES - 1, over its index distances and its first weight per column
+ * (Fowler, Noll and Vo). */
 static int hash_of(const struct stencil *p)
 {
     const uint64_t prime = UINT64_C(0x100000001b3);

@@ -23,7 +23,7 @@
 #define SUDDEN 1e-4     /* relative distance of onset and end of a bond that is started beyond its critical stretch */
 #define SPANS 1e-6      /* least determinant of a moment over that of an isotropic one; below it, directions lack */
 
-/* One evaluation of the surfaces. Rows are those of the bonds b. */
+/* One evaluation of the strength surfaces (failure criteria in stress) of particles. Rows are those of the bonds b. */
 struct evaluation {
     const struct bonds *b;
     const struct particles *p;
@@ -60,7 +60,7 @@ static ALWAYS_INLINE bool square_matrix_invert(const matrix a, matrix inverse, c
     return true;
 }
 
-/* Computes the product of two matrices of dim rows, of the transpose of the first one if `turned`. */
+/* Computes the product a b of two matrices of dim rows, or a^T b if `turned`. */
 static ALWAYS_INLINE void matrix_multiply(const matrix a, bool turned, const matrix b, matrix product, const int dim)
 {
     for (int i = 0; i < dim; i++)
@@ -71,20 +71,21 @@ static ALWAYS_INLINE void matrix_multiply(const matrix a, bool turned, const mat
         }
 }
 
-/* Sums over the bonds of a row: M of the stiffness that is left, L of what is lost, so that K = M + L, and Y = sum
- * omega V (1 - d) y xi. */
+/* Sums over the bonds of a row, with reference vectors xi, present vectors y, weights omega V (omega = 1/r) and
+ * damage d: M = sum omega V (1 - d) xi xi^T, L = sum omega V d xi xi^T, Y = sum omega V (1 - d) y xi^T. */
 struct moments {
     matrix M, L, Y;
 };
 
-/* Adds weight a b^T to m. */
+/* Adds weight a b^T to the matrix m of dim rows; a, b: vectors [dim]. */
 static ALWAYS_INLINE void moment_add(matrix m, real weight, const real *a, const real *b, const int dim)
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) m[i * dim + j] += weight * a[i] * b[j];
 }
 
-/* Computes the sums over the bonds of a row, without those that a pre-crack cuts. */
+/* Computes the sums *sum over the bonds of a row, without bonds that a pre-crack cuts. Bonds broken by load count as
+ * lost stiffness. */
 static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -110,8 +111,8 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     }
 }
 
-/* Computes the sums over the bonds of the eight rows of a row block that follows a stencil: intact bonds at equal index
- * distances that have not begun to soften. */
+/* Computes sum[8], the sums over the bonds of the eight rows of row block g, which has a stencil: its bonds are
+ * intact, have not begun to soften, and each column of them has one index distance. */
 static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -139,8 +140,8 @@ static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g,
     }
 }
 
-/* Computes the symmetric components of the strain E from the sums over the bonds of a row, which it overwrites; 0 where
- * they do not span the space. */
+/* Computes the symmetric components strain[SYM_MAX] of the strain E of a row from the sums over its bonds [1].
+ * Overwrites *sum. The strain is 0 if the bonds do not span the space. */
 static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, const int dim)
 {
     matrix inverse, F, R, back, E;
@@ -159,7 +160,8 @@ static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, cons
     }
 }
 
-/* Computes the strains of the rows of row block g that are marked in `wanted` [LANES] into e->strain[0]. */
+/* Computes the strains of the rows of row block g (rows of eight particles) that are marked in wanted[8], into
+ * e->strain[0]. dim: number of dimensions, a constant of the compiler. */
 static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, const bool *wanted, const int dim)
 {
     struct moments sum[LANES];
@@ -172,7 +174,8 @@ static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, c
     }
 }
 
-/* As row_block_strain_of, for any dimension. Does nothing if no row is marked. */
+/* Computes the strains of the rows of row block g that are marked in wanted[8] into e->strain[0]. Does nothing if no
+ * row is marked. */
 static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted)
 {
     bool any = false;
@@ -183,9 +186,9 @@ static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted
 
 /* ---- means ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the row whose strain is that of particle or image j, mirrored: its own, or that of its source; -1 if the row
- * does not hold the whole family, or if the plane of symmetry is clamped. sign [components of a vector]: -1 along axes
- * that are mirrored. */
+/* Returns the row whose strain is that of particle or image j, up to mirrors: the row of j, or for an image that of
+ * the particle that it mirrors. Returns -1 if that row does not hold bonds to all neighbours, or if a mirror is
+ * clamped. sign[dim]: receives -1 for axes that are mirrored, else 1. */
 static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
 {
     const struct particles *p = e->p;
@@ -199,8 +202,8 @@ static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
     return row >= 0 && e->b->whole[row] ? row : -1;
 }
 
-/* Sets the distance of the rows to which the intact bonds of a row lead to `distance` if they have none. Several
- * threads may set one row. */
+/* Sets e->distance to `distance` for the rows of all neighbours to which intact bonds of a row lead, where it is
+ * still 0. Several threads may set one row. */
 static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distance)
 {
     for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
@@ -211,7 +214,8 @@ static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distanc
     }
 }
 
-/* Computes the mean of the strains of a row and of the rows to which its intact bonds lead, into e->strain[1]. */
+/* Computes the mean of the strains of a row and of the rows of all neighbours to which its intact bonds lead, from
+ * e->strain[0] into e->strain[1]. */
 static void row_average(struct evaluation *e, int64_t row)
 {
     const int dim = e->p->dim, count = symmetric_component_count(dim);
@@ -231,7 +235,8 @@ static void row_average(struct evaluation *e, int64_t row)
     for (int s = 0; s < count; s++) e->strain[1][row][s] = sum[s] / terms;
 }
 
-/* Returns the share of the surface of the particle of a row, by the strain e->strain[0] [1]. */
+/* Returns the stress of the particle of a row relative to its strength surface, from the strain e->strain[0]; 1: on
+ * the surface [1]. */
 static real row_share(const struct evaluation *e, int64_t row)
 {
     const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
@@ -244,14 +249,15 @@ static real row_share(const struct evaluation *e, int64_t row)
     return material_stress_share(m, e->source->family.space, stress);
 }
 
-/* Returns the material of the particle of a row if it has a surface, else NULL. */
+/* Returns the material of the particle of a row if it has a strength surface, else NULL. */
 static const struct material *row_material(const struct evaluation *e, int64_t row)
 {
     const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
     return material_has_surface(m) ? m : NULL;
 }
 
-/* Returns the share of the surface at which the bonds of the particle of a row are started [1]. */
+/* Returns the relative strength of the particle of a row [1]: the stress over that on the strength surface at which
+ * its bonds begin to soften. */
 static real row_strength(const struct evaluation *e, int64_t row)
 {
     return e->p->strength ? e->p->strength[e->b->particle[row]] : 1;
@@ -259,7 +265,8 @@ static real row_strength(const struct evaluation *e, int64_t row)
 
 /* ---- evaluation -------------------------------------------------------------------------------------------------- */
 
-/* Returns an evaluation of the surfaces for the bonds b, with its arrays allocated. Release with evaluation_free. */
+/* Returns an evaluation of the strength surfaces of particles for the bonds b, with its arrays allocated. Release it
+ * with evaluation_free. */
 static struct evaluation evaluation_make(const struct bonds *b, const struct particles *p,
                                          const struct bond_source *source)
 {
@@ -279,11 +286,12 @@ static void evaluation_free(struct evaluation *e)
     memory_free(e->strain[0]), memory_free(e->strain[1]);
 }
 
-/* Returns true if the surface may have been reached in a row block (the bonds of eight particles). */
+/* Returns true if a particle of row block g (the bonds of eight particles) may have reached its strength surface. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
-/* Computes the strains of the rows of row block g that have a surface and a bond to start, and sets the distance of
- * those that are beyond the surface to 1. Returns true if there is one. */
+/* Computes the strains of the rows of row block g whose material has a strength surface and that have a bond which
+ * has not begun to soften. Sets the distance of those that are beyond the surface to 1. Returns true if there is
+ * one. */
 static bool row_block_find(struct evaluation *e, int64_t g)
 {
     const struct bonds *b = e->b;
@@ -299,8 +307,8 @@ static bool row_block_find(struct evaluation *e, int64_t g)
     return any;
 }
 
-/* Sets the distance of the rows that are beyond the surface by their own strain, and have a bond to start, to 1.
- * Returns true if there is one. */
+/* Sets e->distance to 1 for all rows that are beyond their strength surface by their own strain, and that have a
+ * bond which has not begun to soften. Returns true if there is one. */
 static bool find_candidates(struct evaluation *e)
 {
     bool any = false;
@@ -310,8 +318,9 @@ static bool find_candidates(struct evaluation *e)
     return any;
 }
 
-/* Computes the strains of all rows within e->means families of those of distance 1, and the shares of the latter, each
- * after the number of means of its material. */
+/* Computes e->share, stress relative to the strength surface, of all rows with e->distance 1, from their strains
+ * averaged as many times as their material requires. For these averages, strains are computed of all rows that are
+ * at most e->means bonds away. */
 static void evaluate_surfaces(struct evaluation *e)
 {
     const struct bonds *b = e->b;
@@ -355,8 +364,8 @@ void bonds_surface_shares(const struct bonds *b, const struct particles *p, cons
 
 /* ---- start ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the least onset of the bonds that the particle j, an image or a particle, starts now [1]; INFINITY if it
- * starts none. */
+/* Returns the least stretch at which bonds of particle or image j begin to soften now, because its stress is on its
+ * strength surface [1]; INFINITY if it is not. */
 static real start_of(const struct evaluation *e, int32_t j)
 {
     const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);
@@ -366,8 +375,9 @@ static real start_of(const struct evaluation *e, int32_t j)
     return LEAST_ONSET * row_strength(e, row) * m->tensile_strength / m->young;
 }
 
-/* Returns the state of a bond that a surface starts, whose least onset is `least`: it softens from its present stretch
- * on, which no curve lies below. i, j: its particles. */
+/* Returns the state of the bond from particle i that begins to soften because a strength surface is reached. It
+ * begins at its present stretch, but not below the smaller of `least` and the stretch at which its material softens
+ * [1]. */
 static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
 {
     const struct particles *p = e->p;
@@ -382,7 +392,8 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
     return (struct bond_softness){(float)onset, (float)onset, (float)end, 0};
 }
 
-/* Starts the bonds of row block g that have not begun to soften and lead from or to a particle on its surface. */
+/* Starts the softening of the bonds of row block g (rows of eight particles) that are intact, have not begun to
+ * soften, and lead from or to a particle on its strength surface. */
 static void row_block_start(const struct evaluation *e, struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
@@ -400,7 +411,8 @@ static void row_block_start(const struct evaluation *e, struct bonds *b, struct 
     }
 }
 
-/* Marks in `touched` [row blocks] those that a row on its surface is in or leads to. Several threads may mark one. */
+/* Marks in touched[row blocks] the row block of a row that is on its strength surface, and those of all neighbours
+ * to which its bonds lead. Several threads may mark one row block. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);

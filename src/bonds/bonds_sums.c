@@ -8,8 +8,8 @@
 
 #include "base/memory.h"
 
-/* Relative difference of volumes that counts as round-off [1]: they are sums of some hundred terms in different
- * order. */
+/* Relative difference up to which two volumes count as equal [1]: they are sums of some hundred terms in different
+ * orders, and differ by round-off. */
 #define WHOLE 1e-12
 
 /* Returns the sum of the volumes of the neighbours of particle i times their weights in the family f [m^3]. map:
@@ -83,7 +83,7 @@ void bonds_compute_neighbour_volume(real *volume, const struct particles *p, con
 }
 
 /* Returns an upper bound of omega^2 m for particle i of mass m [N/m], with its largest angular frequency omega, from
- * the springs of the bonds in its row. stiffness: of a bond of weight 1. */
+ * the springs of the bonds in its row. stiffness: force per stretch of a bond of weight 1 [N]. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -109,15 +109,16 @@ real bonds_row_largest_eigenvalue_bound(const struct bonds *b, const struct part
     return spring_bound_largest_eigenvalue(&bound, p->dim);
 }
 
-/* Sums of the springs on eight consecutive particles, from which bounds of their frequencies follow: stiffness matrix
- * of the particle's own displacement and total stiffness [N/m]. */
+/* Sums over the springs on eight consecutive particles, from which upper bounds of their frequencies follow. block:
+ * 3 x 3 stiffness matrix that relates the force on a particle to its own displacement; total: sum of stiffnesses
+ * [N/m]. */
 struct eight_bounds {
     real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
 };
 
-/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound of the eight particles. inverse, w: inverse
- * lengths [1/m] and weights of the bonds; w = 0: no spring (adding zeros changes no bit); stiffness: of a bond of
- * weight 1. */
+/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound of the first eight particles. inverse[8]:
+ * inverse lengths of the bonds [1/m]; w[8]: their weights [1], 0 for no spring; stiffness: force per stretch of a
+ * bond of weight 1 [N]; dim: number of dimensions, a constant of the compiler. */
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                                      const real *inverse, const real *w, real stiffness, const int dim)
 {
@@ -131,9 +132,9 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
     for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
 }
 
-/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound, as bounds_add does, with the number of
- * dimensions of the particles as a constant. inverse, w: inverse lengths [1/m] and weights of the bonds; stiffness: of
- * a bond of weight 1. */
+/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound of the first eight particles. Calls the
+ * copy of bounds_add that is compiled for the dimensions of p. inverse[8]: inverse lengths of the bonds [1/m]; w[8]:
+ * their weights [1]; stiffness: force per stretch of a bond of weight 1 [N]. */
 static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                            const real *inverse, const real *w, real stiffness)
 {
@@ -164,9 +165,9 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
     return largest;
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2] from the
- * bonds that the map of lattice sites gives, without making their rows. pairs: stiffness ratios by materials;
- * stiffness: of a bond of weight 1. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2] from their
+ * bonds, which follow from the map of lattice sites; no rows are made. pairs: stiffness ratios by materials;
+ * stiffness: force per stretch of a bond of weight 1 [N]. */
 static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
@@ -211,9 +212,9 @@ real bonds_critical_time_step_of_rows(const struct bonds *b, const struct partic
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
-/* Returns the stiffnesses of bonds between two materials divided by that of material 0, for bounds of frequencies. For
- * state-based models it is the mean of both materials, because each row of a bond responds with its own modulus.
- * Release `ratio` with memory_free. */
+/* Returns the stiffnesses of bonds for all pairs of materials, divided by that of material 0, for bounds of
+ * frequencies. State-based models have the mean of both materials, because each row of a bond responds with its own
+ * modulus. Release the array `ratio` of the table with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
     struct pair_table pairs = material_pair_table_make(s);
@@ -226,9 +227,9 @@ static struct pair_table pairs_of_bound(const struct bond_source *s)
     return pairs;
 }
 
-/* Returns marks [n] of the first particle of each class of equal surroundings; the other particles of a class have rows
- * of equal stiffness. Returns NULL if there are no classes, or if particles of a class may have unequal bonds. Release
- * it with memory_free. */
+/* Returns an array [n] with 1 for the first particle of each class of particles with equal surroundings, else 0. The
+ * other particles of a class have rows of equal stiffness and need not be examined. Returns NULL if there are no
+ * classes, or if particles of a class may have unequal bonds. Release it with memory_free. */
 static uint8_t *first_of_classes(const struct surface_weights *w, const struct site_map *map, int64_t n)
 {
     if (!w || !map->uniform) return NULL;

@@ -21,7 +21,7 @@ static real ramp(const struct family *f, real r)
 /* Returns the volume share beta of a neighbour at distance r [m] [1] (Seleson 2014); 1 if whole volumes are used. */
 static real family_beta(const struct family *f, real r) { return f->volume == VOLUME_WHOLE ? 1 : ramp(f, r); }
 
-/* Returns the influence function omega at distance r [m] [1]. */
+/* Returns the influence function omega of the family f at distance r [m] [1]. */
 static real influence(const struct family *f, real r)
 {
     switch (f->influence) {
@@ -38,8 +38,8 @@ static real influence(const struct family *f, real r)
     }
 }
 
-/* Returns r [m] without the round-off of positions if it is a distance of the lattice, else r: equal bonds then have
- * equal weights to the last bit. */
+/* Returns the distance r [m] without the round-off of positions, if the lattice has such a distance, else r. Bonds
+ * of equal length then have weights that are equal to the last bit. */
 static real true_length(const struct family *f, real r)
 {
     const real squares = square(r / f->spacing), whole = floor(squares + 0.5);
@@ -58,7 +58,9 @@ real family_bond_weight(const struct family *f, const real *bond_vector, real le
     return family_beta(f, length) * influence(f, length) * f->shell_weight[axial ? 0 : 1];
 }
 
-/* Sums over the lattice points of a full family. */
+/* Sums over all neighbours of a particle inside a lattice. r: distance [m]; V: volume of a lattice cell; beta: share
+ * of V that counts; n: unit vector of the bond. Class 0 are bonds nearer the axes, class 1 bonds nearer the
+ * diagonals. */
 struct lattice_sums {
     real volume;             /* sum V beta                    */
     real sigma;              /* sum r V beta times shell weight */
@@ -97,9 +99,9 @@ static struct lattice_sums lattice_sums(const struct family *f)
     return s;
 }
 
-/* Computes weights of bonds nearer the axes and of bonds nearer the diagonals such that the family is isotropic: sum r
- * n1^4 = 3 sum r n1^2 n2^2, i.e. C11 = C12 + 2 C44 with C12 = C44. Their scale keeps sum r V unchanged. Without a
- * solution the weights remain as they are. */
+/* Computes the factors f->shell_weight of bonds nearer the axes and of bonds nearer the diagonals such that the
+ * family is isotropic: sum r n1^4 = 3 sum r n1^2 n2^2, i.e. C11 = C12 + 2 C44 with C12 = C44. Their scale keeps sum
+ * r V unchanged. If there is no solution, the factors remain as they are. */
 static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;

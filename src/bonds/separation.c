@@ -16,8 +16,9 @@
 #include "bonds/softening_work.h"
 #include "base/memory.h"
 
-/* A bond across the plane of separation: the opening at which it breaks over s_c [m], and its contributions to the
- * weighted volume Q and, at unit opening, to sum w r e and sum w |eta|^2. */
+/* A bond across the plane on which two halves of a lattice separate. breaks: opening at which it breaks, divided by
+ * the critical stretch [m]; weighted: its part of the weighted volume Q; sum, energy: its parts of sum w r e and sum
+ * w |eta|^2 at unit opening. */
 struct crossing {
     real breaks, weighted, sum, energy;
 };
@@ -30,7 +31,7 @@ static int later(const void *a, const void *b)
 }
 
 /* Lists in c the bonds that cross a plane from a particle of a full lattice at `height` [m] above the plane. Returns
- * their number. */
+ * their number. c must have room for a whole family. */
 static int crossings(const struct family *f, real height, struct crossing *c)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), depth = dim > 2 ? reach : 0;
@@ -47,10 +48,10 @@ static int crossings(const struct family *f, real height, struct crossing *c)
     return n;
 }
 
-/* Returns the work per volume for s_c = 1 that separates the bonds of a layer of particles at `height` [m] above a
- * plane: the integral of dW over the opening, with the energy density W of a particle, summed from the last bond that
- * breaks back to the first. m: constants of the state-based law. local: true if the weighted volume Q is that of the
- * intact bonds; c: working memory for the bonds that cross the plane. */
+/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, for
+ * the critical stretch 1: the integral of dW over the opening, with the energy density W of a particle. The sum runs
+ * from the last bond that breaks back to the first. m: constants of the state-based law; local: true if the weighted
+ * volume Q is that of the intact bonds; c: working memory for the bonds that cross the plane. */
 static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
                        struct crossing *c)
 {
@@ -80,10 +81,11 @@ real family_separation_work_per_area(const struct family *f, const struct state_
 
 enum { OPENINGS = 1000 }; /* steps of the quadrature over the opening; 4000 give 1e-5 less */
 
-/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, which
- * soften: the integral over the opening D of dW/dD at constant damage, with the energy density W of a particle,
- * W = D^2/2 [A (sum q w z/Q)^2 + B/Q sum q w |e/D|^2], q: share of its stiffness that a bond keeps at the stretch D
- * z/r^2. c: working memory for the bonds that cross the plane. */
+/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, if
+ * bonds soften: the integral over the opening D of dW/dD at constant damage. W = D^2/2 [A (sum q w z/Q)^2 + B/Q sum
+ * q w |e/D|^2] is the energy density of a particle, q the share of its stiffness that a bond keeps at the stretch D
+ * z/r^2. m: constants of the state-based law; rotates: true for a model with rotations; curve, range: softening
+ * curve and its stretches; c: working memory for the bonds that cross the plane. */
 static real layer_softening_work(const struct family *f, real height, const struct state_modulus *m, bool rotates,
                                  const struct softening_curve *curve, struct softening_range range, struct crossing *c)
 {
@@ -121,8 +123,9 @@ real family_softening_work_per_area(const struct family *f, const struct state_m
     return 2 * f->spacing * work;
 }
 
-/* Returns the energy per area of all bonds across a plane at the critical stretch of material m [J/m^2]. Each column of
- * the lattice has n parallel bonds across the plane if their normal component is n spacings. */
+/* Returns the energy per area of all bonds across a plane at the critical stretch of material m [J/m^2]. A bond
+ * whose component normal to the plane is n spacings counts n times: n parallel bonds per lattice cell of the plane
+ * cross it. */
 real family_crack_energy_per_area(const struct family *f, const struct material *m)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);

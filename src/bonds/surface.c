@@ -6,8 +6,9 @@
 #include "base/memory.h"
 #include "surface_parts.h"
 
-/* Fills the tables of factors of bonds by class and offset, and of the weighted volumes of the classes (particles with
- * equal surroundings). factor[groups]: factor of each group of bonds that share one; bonds of no group have 1. */
+/* Fills the tables to->factor [classes, offsets], factors of bonds, and to->weighted [classes], weighted volumes. A
+ * class consists of particles with equal surroundings. factor[groups]: factor of each group of bonds that share one;
+ * bonds that are in no group have factor 1. */
 static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct bond_classes *a,
                         const struct family *f, const real *factor)
 {

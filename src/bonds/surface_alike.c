@@ -11,7 +11,7 @@
 
 enum { RADIUS = 2 };
 
-/* Returns the hash of Fowler, Noll and Vo, extended by a word of 64 bits. */
+/* Returns the hash of Fowler, Noll and Vo, extended by `word`. */
 static uint64_t mixed(uint64_t hash, uint64_t word)
 {
     hash = (hash ^ word) * UINT64_C(0x100000001b3);
@@ -21,9 +21,9 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
 
 /* ---- kinds of particles ------------------------------------------------------------------------------------------ */
 
-/* Kinds of particles: those of one kind have equal surroundings without any mirror, some families deep. Each kind has
- * 2^dim consecutive colours (hashes of the surroundings), one for each set of mirrors. Kinds are numbered in the order
- * of their first particle. */
+/* Kinds of particles near faces: particles of one kind have equal surroundings, some families deep, without being
+ * mirrored. Each kind has 2^dim consecutive colours: hashes of its surroundings, mirrored across each of the 2^dim
+ * sets of axes. Kinds are numbered in the order of their first particle. */
 struct kinds {
     int32_t n, *of;   /* number of kinds; [near n] kind of a particle */
     int64_t *first;   /* [n] first particle of a kind */
@@ -37,7 +37,7 @@ static void kinds_free(struct kinds *s)
     memory_free(s->colour);
 }
 
-/* Initialises the kinds of particles with equal surroundings: all particles near faces are of one kind. */
+/* Initialises the kinds of particles (a kind has equal surroundings): all particles near faces are of one kind. */
 static void kinds_start(struct kinds *s, const struct near_faces *b)
 {
     *s = (struct kinds){.n = 1, .of = NEW("surface.kind", b->n, int32_t)};
@@ -105,7 +105,8 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 }
 
 /* Divides the kinds (particles with equal surroundings) by the kinds of their neighbours, so that surroundings are
- * compared one family deeper. colours: true to compute the colours, hashes of the surroundings, of the new kinds. */
+ * compared one family deeper. colours: true to compute also the colours of the new kinds, hashes of their
+ * surroundings. */
 static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
 {
     const int dim = b->offset.dim;
@@ -127,8 +128,8 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 
 /* ---- classes ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the first set of mirrors >= `from`, one bit per axis, in which the hash of the surroundings (colour) of the
- * particles of a kind is smallest; -1 if there is none. */
+/* Returns the first set of mirrors >= `from` (bit d: mirrored across axis d) for which the colour of a kind, the
+ * hash of its mirrored surroundings, is smallest; -1 if there is none. kind: particles with equal surroundings. */
 static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
@@ -140,8 +141,9 @@ static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t
     return -1;
 }
 
-/* Assigns kinds of particles to classes: kinds whose smallest colours (hashes of surroundings) are equal are mirror
- * images of each other. of[kinds]: receives the number of each kind's class, from 0. */
+/* Assigns kinds of particles (with equal surroundings) to classes: kinds are mirror images of each other if the
+ * smallest hashes of their mirrored surroundings are equal. of[kinds]: receives the number of each kind's class,
+ * from 0. Sets a->classes and a->member. */
 static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
 {
     struct kinds least = {.of = of};
@@ -200,16 +202,17 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
         parent[x] = y;
 }
 
-/* Returns the index of bond k of particle t in the tables by class (particles with equal surroundings up to mirrors)
- * and offset. The offset is reflected by the mirrors that map the particle to its class. */
+/* Returns the index of bond k of particle t (an index among those near faces) in tables [classes, offsets]. The
+ * offset of the bond is reflected by the mirrors that map the particle to its class, i.e. to particles with equal
+ * surroundings. */
 static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* Joins the table entries of both directions of every bond whose factor may change, so that they get one factor, in the
- * union-find forest `parent`. first[n]: first particles of the kinds (particles with equal surroundings) that determine
- * the kinds of all neighbours. */
+/* Joins the table entries of both directions of every bond whose factor may change, so that they get one factor.
+ * first[n]: first particles of the kinds (particles with equal surroundings), whose neighbours represent those of
+ * all others. parent: union-find forest of the table entries [classes, offsets]. */
 static void bonds_join(const struct bond_classes *a, const struct near_faces *b, const int64_t *first, int32_t n,
                        int64_t *parent)
 {

@@ -67,8 +67,8 @@ static void offsets_free(struct offsets *o)
     memory_free(o->mirrored);
 }
 
-/* Returns the index in the list o of the offset from particle i to j; -1 if they are not on one lattice. spacing
- * [m]. */
+/* Returns the index in the list o of the offset from particle i to j; -1 if they are not a whole number of spacings
+ * apart, or too far. spacing: lattice spacing [m]. */
 static int offset_between(const struct offsets *o, const struct particles *p, real spacing, int64_t i, int64_t j)
 {
     int place = 0;
@@ -122,16 +122,17 @@ static void search_free(struct search *search)
     memory_free(search->found);
 }
 
-/* Prepares the neighbour search of the particles first .. first + 7, whose families are taken from the map where that
- * is possible. */
+/* Prepares the neighbour search of the particles first .. first + 7. Finds their families from the map of lattice
+ * sites if it is regular there. */
 static void search_turn(struct search *search, const struct near_faces *b, int64_t first)
 {
     search->first = first;
     search->eight = regular_bonds_find_uncut(search->map, b->source, b->p, first, &search->regular);
 }
 
-/* Finds the neighbours of particle i, one of the eight of the search, from their regular families, and stores them in
- * to[offsets] unless it is NULL. near: true if a pre-crack may separate some. Returns their number. */
+/* Finds the neighbours of particle i, one of the eight of the last search_turn, from the families that the map of
+ * lattice sites gave. Stores them by offset in to[offsets] unless `to` is NULL. near: true if a pre-crack may
+ * separate some of them. Returns their number. */
 static int regular_neighbours(const struct near_faces *b, const struct search *search, int64_t i, bool near,
                               int32_t *to)
 {
@@ -150,9 +151,9 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
     return kept;
 }
 
-/* Finds the neighbours of particle i, one of the eight of the last search_turn, that no pre-crack separates from it,
- * and stores them by offset in to[offsets], -1 where there is none; to NULL: they are only counted. Returns their
- * number, or -1 if one is not on the lattice of the particle. */
+/* Finds the neighbours of particle i, one of the eight of the last search_turn, that no pre-crack separates from it.
+ * Stores them by offset in to[offsets], -1 for offsets without a neighbour; if `to` is NULL, only counts them.
+ * Returns their number, or -1 if a neighbour is not on the lattice of the particle. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
@@ -172,7 +173,8 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     return kept;
 }
 
-/* Sets b->whole[i] for the particles with whole families. Returns false if a particle is not on the lattice. */
+/* Sets b->whole[i] to 1 for particles that have neighbours at all offsets within the cutoff. Returns false if a
+ * particle is not on the lattice. */
 static bool whole_mark(struct near_faces *b, const struct site_map *map)
 {
     bool lattice = true;
@@ -201,8 +203,8 @@ static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
     near[i] = 1;
 }
 
-/* Sets near[i] for the particles near faces: those without whole families, and the neighbours of these. Images count
- * too, because their families reach into the body. */
+/* Sets near[i] to 1 for the particles near faces: those without a neighbour at some offset within the cutoff, and
+ * their neighbours. Images are examined too, because particles of the body may be their neighbours. */
 static void near_mark(uint8_t *near, const struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;

@@ -13,8 +13,9 @@
 #define FLAT 0.2 /* variance [spacings^2]; a staircase of any slope has at most 1/12 + 1/12 */
 #define ROUGH 0.4
 /* Exponent by which strains that load a face gain weight where fewer faces are nearby than at a plane face
- * (surface_fit.c). With 0, particles ahead of a crack are soft as well, and K is 1 % larger at 100 particles. In models
- * with rotations K hardly changes, and frequencies of beams of 20 layers are 1 % lower: there 0 is used. Empirical. */
+ * (surface_fit.c). With 0, particles ahead of a crack are too soft as well, and stress-intensity factors are 1 %
+ * larger at 100 particles. Models with rotations use 0: it hardly changes stress-intensity factors there, and makes
+ * frequencies of beams of 20 layers 1 % lower. Empirical. */
 #define NEAR 3
 
 enum { CHAIN = 3 }; /* layers over which area and dipole of a face are distributed */
@@ -25,13 +26,15 @@ struct exposed_face {
     real area[DIM_MAX], centre[DIM_MAX], size;
 };
 
-/* Area vectors of the faces of single particles near faces, sums of unit vectors along the axes without a neighbour. */
+/* Area vectors [near n] of the faces of the particles near faces, on the lattice: sums of unit vectors along the
+ * axes on which a particle has no neighbour [spacings^(dim-1)]. */
 struct raw_faces {
     const struct near_faces *body;
     real (*area)[DIM_MAX];
 };
 
-/* Returns true if particle t has no neighbour up (1) or down (0) an axis, so that it has a face there. */
+/* Returns true if particle t (an index among those near faces) has a face at the positive (up = 1) or negative (up =
+ * 0) end of an axis, because it has no neighbour there. */
 static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
 {
     return near_face_neighbour_of(b, t, b->offset.axis[axis][up]) < 0;
@@ -64,8 +67,8 @@ struct mean_face {
     real normal[DIM_MAX], variance;
 };
 
-/* Adds a face, times `weight`, to the sum of areas area[dim] and to sums[13]: size, first and second moments of
- * positions relative to from[dim] [spacings]. */
+/* Adds a face, times `weight`, to the sum of area vectors area[dim] and to sums[13]: size (1), first (3) and second
+ * (9) moments of the position of the face relative to from[dim] [spacings]. */
 static void mean_add(const struct exposed_face *f, const real *from, real weight, int dim, real *area, real *sums)
 {
     real x[DIM_MAX];
@@ -102,8 +105,9 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
     return mean;
 }
 
-/* For each particle with a face: the projection that turns axis-parallel face areas into the mean normal, and its
- * contribution to N (x) N. Both are interpolated to those of the single face where faces are not in one plane. */
+/* Smoothed face of a particle. project: matrix that turns its axis-parallel face areas into the mean normal N of the
+ * faces nearby; square: its contribution to N (x) N. Where the faces nearby are not in one plane, both are
+ * interpolated to those of the particle's own face. */
 struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
@@ -129,8 +133,8 @@ static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t 
         }
 }
 
-/* Returns the sum of the weights (nearness) of all faces of particles on an infinite plane face, seen from a particle
- * in its first layer [1]. */
+/* Returns the sum of the weights of all faces of particles on an infinite plane face, as a particle of its first
+ * layer weighs them: linearly falling with distance [1]. */
 static real plane_of_faces(const struct offsets *o)
 {
     real sum = 1;
@@ -138,8 +142,8 @@ static real plane_of_faces(const struct offsets *o)
     return sum;
 }
 
-/* The smoothed faces of all particles with faces, and the index of each particle near faces among them, -1 if it has no
- * face. */
+/* The smoothed faces of the n particles with faces. at: index in `smooth` of each particle near faces, -1 if it has
+ * no face. */
 struct smooth_faces {
     int64_t n;
     int32_t *at;           /* [near n] */
@@ -163,9 +167,9 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
         if (s->at[t] >= 0) smooth_make(&s->smooth[s->at[t]], raw, t);
 }
 
-/* Computes f->normal2[t], N (x) N of particle t, as the mean over the faces of its family weighted by nearness. It is
- * reduced where fewer faces are near than at a plane face. plane: sum of weights at a plane face; rotates: true for a
- * model with rotations, which has no such reduction. */
+/* Computes f->normal2[t]: the mean of N (x) N, the product of unit normals, over the faces near particle t, weighted
+ * by nearness. It is reduced where fewer faces are near than at a plane face. plane: sum of weights at a plane face;
+ * rotates: true for a model with rotations, which has no such reduction. */
 static void normals_gather(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth_faces *s,
                            real plane, bool rotates, int64_t t)
 {
@@ -188,10 +192,10 @@ static void normals_gather(struct surface_fit_targets *f, const struct near_face
         for (int c = 0; c < dim; c++) f->normal2[t][a][c] = trace > 1e-12 ? near * sum[a][c] / trace : 0;
 }
 
-/* Distributes the face of particle t at one end of an axis over the layers behind it, as area and as dipole. The area
- * is extrapolated from the middles of the layers to the face. The weights of the dipole have sum 0: without rotations
- * the difference 1, -1 of the first two layers; with rotations (`rotates`) 2, -3, 1, a one-sided first derivative of
- * second order at the face. up: 1 for the end in positive direction, else 0. */
+/* Distributes the face of particle t at one end of an axis over the layers of particles behind it, as area (to
+ * f->area) and as dipole (to f->dipole). The area is extrapolated from the middles of the layers to the face. The
+ * weights of the dipole have sum 0: 1, -1 on the first two layers; with rotations (`rotates`) 2, -3, 1, a one-sided
+ * first derivative of second order at the face. up: 1 for the end in positive direction, else 0. */
 static void face_spread(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth *smooth,
                         int64_t t, int axis, int up, bool rotates)
 {

@@ -24,7 +24,8 @@
 #define MOST 3.0
 enum { STRAINS = 6 };
 
-/* Components of symmetric tensors of rank `rank`: axes in ascending order. */
+/* The independent components of symmetric tensors of rank `rank` in ascending order: component k has the axes
+ * axis[k][rank], each >= the one before. */
 struct components {
     int n, rank, axis[FOURTHS][4];
 };
@@ -66,7 +67,8 @@ static real component_value(const struct components *c, int k, const real *n)
     return value;
 }
 
-/* Moments of the bonds by offset, of a full family, and the basis of strains, which are the same for all classes. */
+/* Moments of the bonds by offset (direction n, weight w, length r): third w nnn, fourth w r nnnn; fourth moment M of
+ * a full family; and a basis B_k of symmetric strain tensors. They are the same for all classes of particles. */
 struct moments {
     int dim, strains;
     struct components third, fourth;
@@ -84,8 +86,9 @@ static real full_of(const struct moments *m, int a, int b, int c, int d)
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
-/* Computes the basis of strains B_k, their stresses M:B_k with the fourth moment M of a full family, and the
- * coefficients by which the products of B_k with a moment follow from the components of that moment. */
+/* Computes an orthonormal basis of symmetric strain tensors B_k, their stresses M:B_k with the fourth moment M of a
+ * full family, and the coefficients by which products of B_k with a moment tensor follow from the components of that
+ * tensor. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -107,8 +110,8 @@ static void strains_make(struct moments *m)
                     }
 }
 
-/* Computes the third and fourth moments of the bonds of all offsets and the fourth moment M of a full family, divided
- * by M_1111, and the basis of strains. */
+/* Computes the third and fourth moments of the bonds of all offsets, the fourth moment M of a full family (all
+ * divided by M_1111), and the basis of strains. */
 static void moments_make(struct moments *m, const struct offsets *o)
 {
     real sum[FOURTHS] = {0};
@@ -132,9 +135,10 @@ static void moments_make(struct moments *m, const struct offsets *o)
     strains_make(m);
 }
 
-/* Returns the coefficient alpha by which the dipole of a face raises the target of the fourth moments, (1 + alpha
- * dipole) M, for bonds without rotation. It is the value for a plane face along which the body is stretched; in an
- * isotropic family it is the same for shear along the face. */
+/* Returns alpha, the increase of the target of the fourth moments, (1 + alpha dipole) M, near a face, for bonds
+ * without rotation. dipole is 1 in the first layer and -1 in the second; M is the moment of a full family. alpha is
+ * the value for a plane face along which the body is stretched; in an isotropic family it is the same for shear
+ * along the face. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -151,7 +155,7 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
 
 /* Inverts the symmetric positive definite matrix a of n rows in place by Gauss-Jordan elimination. capacity: numbers
- * from one row to the next. */
+ * from the start of one row to that of the next. */
 static void invert(real *a, int n, int capacity)
 {
     for (int k = 0; k < n; k++) {
@@ -169,8 +173,9 @@ static void invert(real *a, int n, int capacity)
     }
 }
 
-/* Computes the weights P of strains: the inverse of 1 + STIFF Q with Q_kl = (M:B_k) : N (x) N : (M:B_l), the product of
- * their tractions. normal2: mean N (x) N of the faces nearby. */
+/* Computes P = (1 + STIFF Q)^-1, the weights of the basis strains B_k. Q_kl = (M:B_k) : N (x) N : (M:B_l) is the
+ * product of the tractions that two strains cause on faces nearby, M the fourth moment of a full family, STIFF a
+ * constant. normal2: mean of N (x) N over the faces nearby, with unit normals N. */
 static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], real (*P)[STRAINS])
 {
     const int dim = m->dim;
@@ -199,15 +204,15 @@ static void quadratic(const real *by, int rows, int strains, int n, int capacity
         }
 }
 
-/* Mean over the members of a class of face area, dipole and N (x) N, from which its target follows. Members are
- * averaged over all mirrors under which the class is its own image: beyond the surroundings that define the class,
- * members and their sides may differ. */
+/* Means over the particles of a class of what determines the target of its moments: face area, dipole and product of
+ * face normals N (x) N. Particles are averaged in all mirrors under which the class is its own image: beyond the
+ * surroundings that define the class, particles and their sides may differ. */
 struct class_goal {
     real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX];
 };
 
-/* Adds face area, dipole and N (x) N of particle t, reflected by the axes in `mirrors`, with the weight `share` to the
- * goal of a class (particles with equal surroundings). */
+/* Adds face area, dipole and N (x) N (N: unit normal of faces nearby) of particle t, reflected across the axes in
+ * `mirrors` (one bit each) and times `share`, to the goal of its class (particles with equal surroundings). */
 static void class_goal_add(struct class_goal *to, int dim, const struct surface_fit_targets *f, int64_t t, int mirrors,
                            real share)
 {
@@ -219,8 +224,8 @@ static void class_goal_add(struct class_goal *to, int dim, const struct surface_
     }
 }
 
-/* Computes goal[classes]: the means of face area, dipole and N (x) N over the members of each class (particles with
- * equal surroundings). */
+/* Computes goal[classes]: the means of face area, dipole and product of face normals N (x) N over the particles of
+ * each class (particles with equal surroundings). */
 static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b,
                         const struct surface_fit_targets *f, const struct bond_classes *a)
 {
@@ -233,9 +238,9 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
     }
 }
 
-/* Computes the quadratic form of a class (particles with equal surroundings) and the target of its moments, less those
- * of the bonds whose factors do not change. goal: means over the members of the class; alpha: coefficient of the
- * dipole. */
+/* Computes, for a class (particles with equal surroundings), the quadratic form of the least-squares problem and the
+ * target of its moments, less the moments of bonds whose factors are fixed. goal: means over the particles of the
+ * class; alpha: coefficient by which the dipole raises the target of the fourth moments. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -260,8 +265,8 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
     }
 }
 
-/* Returns the sum, over the bonds of a class (particles with equal surroundings) whose factors may change, of the
- * class's quadratic form of the moments of the bond. */
+/* Returns the sum of m . Q m over the bonds of a class (particles with equal surroundings) whose factors may change:
+ * m are the moments of the bond, Q is the quadratic form of the class in the least-squares problem. */
 static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];
@@ -300,8 +305,8 @@ static void group_entries(struct surface_fit_problem *q, real *bonds)
     memory_free(next);
 }
 
-/* Computes the weight of the prior of each group (bonds with one factor), and inverts the quadratic forms of the
- * classes (particles with equal surroundings). */
+/* Computes q->prior, the weight of (f - 1)^2 in the least-squares problem for each group of bonds that share the
+ * factor f, and inverts the quadratic forms of the classes (particles with equal surroundings). */
 static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 {
     const struct bond_classes *a = q->alike;
@@ -363,8 +368,8 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors of the bonds of a class (particles with equal surroundings) by equal bounds: to the factor of the
- * volume method (Le & Bobaru 2018), or to 1 if `one`. */
+/* Fixes the factors of the bonds of a class (particles with equal surroundings) by equal lower and upper bounds: to
+ * the factor of the volume method (Le & Bobaru 2018), or to 1 if `one`. */
 static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;
@@ -378,10 +383,11 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
     }
 }
 
-/* Fixes the factors of bonds at ends of cracks and in parts with too few layers: to those of the volume method, in
- * models with rotations (`rotates`) to 1. If bonds may break, those at ends of cracks break next and get factor 1, for
- * which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts come last, so that a
- * bond between both does not depend on the order of its particles. */
+/* Fixes the factors of bonds at ends of cracks and in thin parts, which have too few layers of particles: to those
+ * of the volume method, or to 1 for models with rotations (`rotates`). Bonds at ends of cracks also get factor 1 if
+ * bonds may break: they break next, and the critical stretch is calibrated for factor 1 (otherwise Kalthoff's crack
+ * turns to 61 degrees at 1 mm). Thin parts are treated last, so that a bond between both does not depend on the
+ * order of its particles. */
 static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {
@@ -393,8 +399,8 @@ static void plain_parts(struct surface_fit_problem *q, const struct near_faces *
         if (f->thin[a->member[class]]) class_fix(q, b, class, rotates);
 }
 
-/* Sets the bounds q->low, q->high of the factors of all groups (bonds with one factor): LEAST and MOST, or equal ones
- * where plain_parts fixes the factor. rotates: true for a model with rotations. */
+/* Sets the bounds q->low, q->high of the factors of all groups (bonds with one factor): LEAST and MOST, or equal
+ * bounds at ends of cracks and in thin parts, where the factor is fixed. rotates: true for a model with rotations. */
 static void bounds_make(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

@@ -19,8 +19,9 @@
 #define ROUGH 0.1   /* largest residual of a linear system, relative to R */
 #define STEEP 0.1   /* largest slope after a step, relative to that before it */
 #define WORK 2.5e10 /* largest number of multiplications: 10 s on two cores */
-/* TOGETHER: number of classes of particles whose blocks of the matrix are stored interleaved, and solved together by
- * vector instructions. */
+/* SHORTENINGS: largest number of shortenings of a Newton step. BLOCK: numbers in the lower triangle of a class's
+ * block of the matrix. TOGETHER: number of classes whose blocks are stored interleaved, so that vector instructions
+ * solve with all of them at once. A class consists of particles with equal surroundings. */
 enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2, TOGETHER = 4 };
 
 /* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
@@ -59,9 +60,10 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes value[offsets]: the products of the moments of the bonds of a class (particles with equal surroundings) with
- * the vector `by`. changes: marks of pairs of opposite bonds, of which those without a mark are skipped; NULL: none is.
- * thirds, fourths: numbers of moments, constants. */
+/* Computes value[offsets]: the scalar products of the moments of each bond of a class (particles with equal
+ * surroundings) with the vector by[thirds + fourths]. changes[offsets/2]: pairs of opposite bonds whose mark is 0
+ * are skipped; NULL: none is. thirds, fourths: numbers of moments of third and fourth rank, constants of the
+ * compiler. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
 {
@@ -78,10 +80,10 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
     }
 }
 
-/* Subtracts from the vector `to` of a class (particles with equal surroundings) the sum over its bonds of their moments
- * times x[group] of the bond. group[offsets]: group of each bond, -1: none. changes: marks of pairs of opposite bonds,
- * of which those without a mark are skipped, since their x is 0; NULL: none is. thirds, fourths: numbers of moments,
- * constants. */
+/* Subtracts from the vector to[thirds + fourths] of a class (particles with equal surroundings) the sum over its
+ * bonds of their moments times x[group] of the bond. group[offsets]: group of each bond (bonds with one factor), -1:
+ * none. changes[offsets/2]: pairs of opposite bonds whose mark is 0 are skipped, since their x is 0; NULL: none is.
+ * thirds, fourths: numbers of moments of third and fourth rank, constants of the compiler. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -97,8 +99,8 @@ static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const u
     for (int m = 0; m < thirds + fourths; m++) to[m] -= sum[m];
 }
 
-/* Computes the vector to = Q^-1 `of` for a class (particles with equal surroundings), with the inverse of its quadratic
- * form Q in c. thirds, fourths: numbers of moments, constants. */
+/* Computes the vector to = Q^-1 `of` of a class (particles with equal surroundings). c: holds the inverse of its
+ * quadratic form Q. thirds, fourths: numbers of moments of third and fourth rank, constants of the compiler. */
 static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of, real *to, const int thirds,
                                       const int fourths)
 {
@@ -109,15 +111,15 @@ static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of,
         for (int x = 0; x < fourths; x++) to[thirds + x] += c->fourth[y][x] * of[thirds + y];
 }
 
-/* Returns the marks of the pairs of opposite bonds of a class (particles with equal surroundings), in the array
- * `changes` of all classes; NULL if that is NULL. */
+/* Returns the marks [offsets/2] of the pairs of opposite bonds of one class (particles with equal surroundings), a
+ * part of the array changes[classes, offsets/2]; NULL if `changes` is NULL. */
 static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_t *changes, int32_t class)
 {
     return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
 }
 
-/* Computes d->value of the bonds, the products of their moments with the vector x [classes width]. changes: marks of
- * pairs of opposite bonds to which it is limited; NULL: all. */
+/* Computes d->value[classes, offsets]: the scalar products of the moments of each bond with its class's part of the
+ * vector x[classes, moments]. changes: pairs of opposite bonds whose mark is 0 are skipped; NULL: none is. */
 static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -134,9 +136,10 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
     }
 }
 
-/* Computes the vector `to` of all classes (particles with equal surroundings): Q^-1 `by`, minus the sum over the bonds
- * of each class of their moments times x[group], plus the goals if `goals`. changes: marks of pairs of opposite bonds,
- * without which x is 0; NULL: all are marked. */
+/* Computes the vector to[classes, moments] of all classes (particles with equal surroundings): Q^-1 by - sum m
+ * x[group], plus the targets of the moments if `goals`. The sum is over the bonds of a class, m are the moments of a
+ * bond, Q is the quadratic form of the class. changes: pairs of opposite bonds whose mark is 0 are skipped, since
+ * their x is 0; NULL: none is. */
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {
@@ -167,8 +170,8 @@ static real group_sum(const struct descent *d, int64_t g)
     return sum;
 }
 
-/* Computes d->factor, the factors of the bonds, from the multipliers x, and the residual R of the least-squares problem
- * from both. */
+/* Computes d->factor, the factors of the bonds, from the multipliers x[classes, moments], and residual[classes,
+ * moments] of the least-squares problem from x and these factors. */
 static void residual_make(struct descent *d, const real *x, real *residual)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -180,7 +183,7 @@ static void residual_make(struct descent *d, const real *x, real *residual)
     d->products++;
 }
 
-/* Computes d->image, the product of the matrix of the linear system with d->direction. */
+/* Computes d->image = A d->direction with the matrix A of the linear system. */
 static void image_make(struct descent *d)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -207,8 +210,9 @@ static void cholesky(real *a, int n)
     }
 }
 
-/* Solves A x = x in place for TOGETHER systems of n rows at once. a: lower triangles of their Cholesky factors, stored
- * by columns, with inverted diagonals. */
+/* Solves A x = b for TOGETHER systems of n rows at once by vector instructions. a: lower triangles of the Cholesky
+ * factors of the matrices A, stored by columns, with inverted diagonals. x: right-hand sides b, overwritten by the
+ * solutions. */
 static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER])
 {
     const real(*column)[TOGETHER] = a;
@@ -229,8 +233,8 @@ static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER]
     }
 }
 
-/* Counts in d->images for each bond of a class (particles with equal surroundings) the bonds of this class with the
- * same factor: the bond and its mirror images. */
+/* Counts in d->images, for each bond of a class (particles with equal surroundings), the bonds of this class that
+ * share its factor: the bond itself and its mirror images. */
 static void images_count(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -240,9 +244,9 @@ static void images_count(const struct descent *d, int32_t class)
         for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
 }
 
-/* Returns the weight of bond k in the preconditioner's block of its class (particles with equal surroundings); 0 if its
- * factor is at a bound. Each of n mirror images of a bond has n times the weight, which is exact for multipliers with
- * the symmetry of the class. */
+/* Returns the weight of bond k in the block of its class (particles with equal surroundings) of the preconditioner;
+ * 0 if its factor is at a bound. If n bonds of the class are mirror images of each other, each has n times its
+ * weight: that is exact for multipliers with the symmetry of the class. */
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
     const int64_t at = (int64_t) class * d->fit->offsets + k, group = d->fit->alike->group_of[at];
@@ -289,8 +293,8 @@ static bool class_turned(const struct descent *d, int32_t class)
     return false;
 }
 
-/* Marks in d->changes the pairs of opposite bonds of a class (particles with equal surroundings) of which a factor is
- * between its bounds. */
+/* Marks in d->changes the pairs of opposite bonds of a class (particles with equal surroundings) in which the factor
+ * of a bond is between its bounds. */
 static void class_mark(struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -301,9 +305,9 @@ static void class_mark(struct descent *d, int32_t class)
     }
 }
 
-/* Sets the matrix of the linear system for the present factors of bonds: marks the factors between their bounds, and
- * computes the preconditioner's blocks of the classes (particles with equal surroundings) where that has changed since
- * the last linear system. */
+/* Sets the matrix of the linear system for the present factors of bonds. Marks the factors that are between their
+ * bounds. Computes the preconditioner's block of a class (particles with equal surroundings) again if such a mark
+ * has changed since the last linear system. */
 static void system_make(struct descent *d)
 {
 #pragma omp parallel for schedule(static)
@@ -342,8 +346,8 @@ static void left_weigh(struct descent *d)
 
 /* ---- Newton's method --------------------------------------------------------------------------------------------- */
 
-/* Solves the linear system of Newton's method for the step of the multipliers, d->step, by preconditioned conjugate
- * gradients until its residual is `share` of the residual R of the problem. */
+/* Computes d->step, the Newton step of the multipliers, by preconditioned conjugate gradients until the residual of
+ * its linear system is `share` [1] of the residual R of the least-squares problem. */
 static void step_solve(struct descent *d, real share)
 {
     real before = 0;
@@ -363,8 +367,9 @@ static void step_solve(struct descent *d, real share)
     }
 }
 
-/* Moves the multipliers along d->step, and updates factors and residual. Shortens the step while the convex function
- * whose gradient is R rises at its end with more than STEEP of the slope with which it falls at the start. */
+/* Moves the multipliers along d->step, and updates factors and residual R. R is the gradient of a convex function:
+ * while its slope along the step, at the end of the step, is positive and more than STEEP times the negative slope
+ * at the start, the step is shortened. */
 static void step_take(struct descent *d)
 {
     const real slope = inner(d->n, d->residual, d->step);
@@ -380,8 +385,8 @@ static void step_take(struct descent *d)
     array_copy(d->residual, d->next_residual, d->n, sizeof(real));
 }
 
-/* Makes steps of Newton's method until the residual R of the least-squares problem is small, or the allowed matrix
- * products are used up. Returns |R| over its first value [1]. */
+/* Makes Newton steps until the residual R of the least-squares problem is below CLOSE times its first value, or
+ * until d->most products with the matrix are used up. Returns |R| over its first value [1]. */
 static real descend(struct descent *d)
 {
     residual_make(d, d->multiplier, d->residual);
