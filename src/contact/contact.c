@@ -11,10 +11,10 @@
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
-/* Initialises the contact of a run; no pairs are searched yet. between: what may come into contact; law: form, contact
- * distance and friction; the stiffness k follows from the materials of `source` times `stiffness_factor` [1]. shape:
- * shapes of the bodies, for the surface above particles. shape and rigid[rigids] are kept by reference and must outlive
- * c. Release with contact_free. */
+/* Initialises the contact of a run; no pairs are searched yet. between: what may come into contact; law: form,
+ * contact distance and friction. The stiffness k of a contact follows from the materials of `source` times
+ * `stiffness_factor` [1]. shape[bodies]: shapes of the bodies, which give the surface above their particles. `shape`
+ * and rigid[rigids] are kept by reference and must outlive c. Release with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids)
@@ -71,9 +71,8 @@ void contact_free(struct contact *c)
 }
 
 /* Returns the largest squared frequency [1/s^2] of a free rigid body with particles in contact on both sides: one
- * particle per spacing of both faces, a stiffness of 2 k each (contact_rigid.c), and the mass of the body. m: material
- * of the particles; stiffness: k per squared volume; volume: of a particle [m^3]. Returns 0 without free rigid
- * bodies. */
+ * particle per spacing of each face, with a stiffness of 2 k each. m: material of the particles; stiffness: k over
+ * the squared particle volume [N/m^7]; volume: of a particle [m^3]. Returns 0 if no rigid body is free. */
 static real rigid_swing(const struct contact *c, const struct particles *p, const struct material *m, real stiffness,
                         real volume)
 {
@@ -87,13 +86,13 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     return most;
 }
 
-/* Returns the critical time step of bodies in contact [s], INFINITY if contact is not possible. bonds_time_step:
+/* Returns the critical time step of bodies in contact [s], or INFINITY if contact is not possible. bonds_time_step:
  * critical time step of their bonds alone [s]; material: the materials.
- * Two particles in contact have the squared frequency 2 k/mass. A particle of a flat face has half of its bonds. Of the
- * other face one particle is opposite, or in 2D two and in 3D three are next to it, at 60 degrees or more to the face:
- * a normal stiffness of 1, 1.5 and 2 k in total. Rubble, with up to eight contacts per particle, needs 0.61 of the
- * critical step of the bonds in 2D; the safety factor where bonds may break is 0.5. (The rule of LAMMPS adds contact
- * with all 2, 8 or 26 neighbours to full families.) */
+ * Two particles in contact have the squared frequency 2 k/mass, with the stiffness k of a contact. A particle of a
+ * flat face has half of its bonds. Opposite it is one particle of the other face, or two in 2D and three in 3D, at
+ * 60 degrees or more to the face: a normal stiffness of 1, 1.5 and 2 k in total. Rubble, with up to eight contacts
+ * per particle, needs 0.61 of the critical step of the bonds in 2D; the safety factor where bonds may break is 0.5.
+ * (The rule of LAMMPS adds contact with all 2, 8 or 26 neighbours to full families.) */
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *material,
                                 real bonds_time_step)
 {
@@ -115,7 +114,7 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Adds the contacts that one thread has found, `own`, to those of all threads: number, largest overlap and its
+/* Adds the contacts that one thread has found, *own, to those of all threads, *all: number, largest overlap and its
  * particle. */
 static void found_join(struct contact_found *all, const struct contact_found *own)
 {
@@ -124,9 +123,9 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Evaluates contact for all rows of the contact list (particles that may come into contact) in parallel. With the form
- * `surface` the gaps are computed, from which faces_force computes forces; with the form `pair` the forces are added to
- * p->f. *all: receives number, largest overlap and its particle. dt: time step [s]. */
+/* Evaluates contact for all rows of the contact list (particles that may come into contact) in parallel. With the
+ * form `surface` only the gaps are computed, and faces_force adds the forces afterwards; with the form `pair` the
+ * forces are added to p->f. all: receives number of contacts, largest overlap and its particle. dt: time step [s]. */
 static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
@@ -223,8 +222,9 @@ real contact_energy(const struct contact *c, const struct particles *p)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves an array to the archive if a->saving, else allocates *array and restores it. name: of the entry; count: number
- * of elements of `size` bytes. Returns the status of the archive. */
+/* Saves the array *array to the archive a if a->saving, else frees it, allocates it anew and restores it from a.
+ * name: name of the entry in the archive; count: number of elements of `size` bytes. Returns the status of the
+ * archive. */
 status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size)
 {
     if (!a->saving) {
@@ -244,8 +244,9 @@ static status contact_check(const struct contact *c, const struct particles *p)
     return good ? OK : status_set(FAILED, "cannot resume: pairs in contact of the checkpoint are none of this body");
 }
 
-/* Saves or restores the state of contact. The list of pairs, which determines which pairs act and where their contact
- * begins, is restored without a search. Returns FAILED, with a message, if the archive contains no valid list. */
+/* Saves the state of contact to the archive a if a->saving, else restores it. The list of pairs, which determines
+ * which pairs act and at which distance their contact begins, is restored without a search. Returns FAILED, with a
+ * message, if the archive contains no valid list. */
 status contact_save_or_load(struct contact *c, const struct particles *p, struct archive *a)
 {
     int64_t numbers[] = {c->made,   c->n,       c->rows,       c->pairs,        c->searched,

@@ -11,7 +11,7 @@
  * energy by a force along the rate when the account is negative makes vibrating bodies unstable.) */
 #include "contact_internal.h"
 
-/* largest part against the rate, relative to the change of the contact force in a step [1]; empirical */
+/* Largest force against the rate of the gap, relative to the change of the contact force in a step [1]; empirical. */
 #define BALANCE_DRAG 0.1 /* force against the rate over the change of the contact force in the step [1]; empirical */
 
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool advance)

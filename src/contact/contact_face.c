@@ -23,8 +23,8 @@ static real kernel_slope(real q) { return -20 * q * (1 - q) * square(1 - q); }
 
 /* ---- depth of a face by the density above it --------------------------------------------------------------------- */
 
-/* Computes the density of a face at height s [spacings] above a particle of it, and its derivative by s, for a face
- * that is a layer of a square or cubic lattice. */
+/* Computes the density of a face at height s [spacings] above one of its particles, and its derivative by s. The
+ * density is a weighted number of particles nearby; the face is a layer of a square or cubic lattice. */
 static void layer_density(int dim, real s, real *density, real *slope)
 {
     *density = *slope = 0;
@@ -49,8 +49,9 @@ void contact_density_profile_make(struct contact_profile *profile, int dim)
     }
 }
 
-/* Returns the depth [spacings] of a face below a point with this density, from the table `profile`, and its derivative
- * by the density in *slope: cubic between nodes, linear for higher densities, constant for lower ones. */
+/* Returns the depth [spacings] of a point below the surface of a face from the density there (weighted number of
+ * particles of the face), by the table `profile`. *slope: receives the derivative by the density. The depth is cubic
+ * between the nodes of the table, linear for higher densities and constant for lower ones. */
 static real table_depth(const struct contact_profile *profile, real density, real *slope)
 {
     int low = 0, high = PROFILE_NODES - 1;
@@ -74,8 +75,9 @@ static real table_depth(const struct contact_profile *profile, real density, rea
 
 /* ---- field of the faces ----------------------------------------------------------------------------------------- */
 
-/* Returns the weight of list entry l in the density of a face at list entry k: the ratio of the spacing of l to their
- * mean, to the power dim - 1 [1]. *reach: receives the range of the density [m]. */
+/* Returns the weight of list entry l (a particle that may come into contact) in the density of a face at list entry
+ * k: the spacing of l over the mean of both spacings, to the power dim - 1 [1]. *reach: receives the distance from
+ * which on the contribution is 0 [m]. */
 static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, real *reach)
 {
     const real mean = 0.5 * (c->size[k] + c->size[l]), ratio = c->size[l] / mean;
@@ -83,13 +85,14 @@ static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, 
     return dim == 3 ? square(ratio) : dim == 2 ? ratio : 1;
 }
 
-/* Density and mean rise of the faces at a particle. */
+/* Density of the faces at a particle (weighted number of particles nearby) and mean rise: height of the surface
+ * above the particles of the faces, minus 1/2 [spacings]. */
 struct face_field {
     real density, mean;
 };
 
-/* Computes density and mean rise of the faces around the particle of row `row` of the contact list, from the positions
- * place[dim][particles] (present or reference) [m]. */
+/* Computes density and mean rise (height of the surface above its particles) of the faces around the particle of row
+ * `row` of the contact list. place[dim][particles]: positions, present or reference [m]. */
 static struct face_field face_field_at(const struct contact *c, const struct particles *p, real *const *place,
                                        int64_t row)
 {
@@ -108,15 +111,16 @@ static struct face_field face_field_at(const struct contact *c, const struct par
     return field;
 }
 
-/* Height of a particle above the face, and gap between the surfaces [spacings]; derivative of both by the density.
- * leans: the gap depends on the mean rise; false at the lower bound of the gap. */
+/* Height of a particle above a face and gap between both surfaces [spacings], and slope, the derivative of both by
+ * the density of the face. leans: true if the gap depends on the mean rise, the height of the surface above the
+ * particles of the face; false if the gap is at its lower bound. */
 struct face_gap {
     real height, gap, slope;
     bool leans;
 };
 
-/* Computes height and gap [spacings] of a particle above a face from the field of the face at the particle, and their
- * derivative by the density. zero: height at which contact begins [spacings]. */
+/* Computes height and gap [spacings] of a particle above a face from density and mean rise of the face at the
+ * particle (*field), and their derivative by the density. zero: height at which contact begins [spacings]. */
 static struct face_gap face_gap(const struct contact *c, const struct face_field *field, real zero)
 {
     struct face_gap at;
@@ -158,8 +162,8 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
                                                                        : 0;
 }
 
-/* Returns the derivative of the contact energy of list entry k by the weight of list entry l in the density at k
- * [J]. */
+/* Returns the derivative of the contact energy of list entry k by the weight that list entry l has in the density of
+ * the face at k [J]. */
 static real face_pull(const struct contact *c, int64_t k, int64_t l)
 {
     const struct contact_face *face = &c->face[c->root[k]];
@@ -184,8 +188,8 @@ struct contact_weight contact_face_weight(const struct contact *c, const struct 
     return w;
 }
 
-/* Adds the contact force on the particle of row `row` of the contact list to p->f: the derivatives of the energy of
- * this row, and of the energies of all rows whose density contains the particle. */
+/* Adds the contact force on the particle of row `row` of the contact list to p->f: the derivatives of the contact
+ * energy of this row, and of those of all rows for whose density of the face this particle counts. */
 void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -228,8 +232,8 @@ void contact_face_spring(const struct contact *c, const struct particles *p, int
 
 /* ---- begin of contact -------------------------------------------------------------------------------------------- */
 
-/* Returns the stiffness k of row `row` of the contact list, for gaps in spacings [J]: that of the softest of its pairs;
- * without pairs, that of two particles of its kind. */
+/* Returns the stiffness k of row `row` of the contact list for gaps in spacings [J]: that of the softest pair of its
+ * particle with another one. Without pairs it is that of two particles like its own. */
 static real face_stiffness(const struct contact *c, const struct particles *p, int64_t row)
 {
     real least = INFINITY;
@@ -255,9 +259,9 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
-/* Returns a lower bound of the gap of row `row` of the contact list [spacings], from its density field, but with the
- * largest rise of its pairs in place of the mean rise. The mean rise changes abruptly when a particle comes into the
- * range of others. */
+/* Returns a lower bound of the gap of row `row` of the contact list [spacings]: the gap for the density in *field,
+ * with the largest rise (height of the surface above a particle) of its pairs in place of the mean rise. The mean
+ * rise changes abruptly when a particle comes into the range of others. */
 static real least_gap(const struct contact *c, const struct face_field *field, int64_t row)
 {
     struct face_field highest = *field;
@@ -266,8 +270,8 @@ static real least_gap(const struct contact *c, const struct face_field *field, i
     return face_gap(c, &highest, c->face[row].zero).gap;
 }
 
-/* Returns true if row `row` of the contact list has the same pairs as row `was` of the previous list `before`, and
- * therefore the same density field. */
+/* Returns true if row `row` of the contact list c has pairs with the same particles as row `was` of the previous
+ * list `before`. */
 static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
 {
     const int64_t n = c->first[row + 1] - c->first[row];
@@ -277,10 +281,10 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* Determines at which height above the face contact of row `row` begins, after a search. previous_entry: row of the
- * particle in the previous list `previous`, -1: none. A row already in contact gets the overlap with which its energy
- * does not change. Otherwise contact begins where the surfaces of the bodies meet, or later if the particle is closer
- * in the reference or the present configuration. */
+/* Sets the height above the face at which contact of row `row` of the contact list begins, after a search.
+ * previous_entry: row of the particle in the previous list `previous`, -1: none. A row that is in contact already
+ * gets the overlap at which its energy does not change. For any other row, contact begins where the surfaces of the
+ * bodies meet, or at a smaller height if the particle is closer in the reference or the present configuration. */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row)
 {

@@ -4,16 +4,15 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
-/* Returns false if the faces beside row `row` of the contact list are too far to come into contact before the next
- * search. Both sides approach by at most half the skin CONTACT_SKIN, and the density of a face is nearly flat along
- * it. */
+/* Returns false if the faces near the particle of row `row` of the contact list are too far away to come into
+ * contact before the next search. Until then both sides approach by at most half of CONTACT_SKIN spacings. */
 static bool may_meet(const struct contact *c, int64_t row)
 {
     return c->law.form == CONTACT_PAIR || c->face[row].far <= CONTACT_FLATNESS * 0.5 * CONTACT_SKIN;
 }
 
-/* Returns true if row `row` of the contact list, or a row whose density contains its particle, may come into contact
- * before the next search. False for rows without pairs. */
+/* Returns true if row `row` of the contact list, or a row with which its particle forms a pair, may come into
+ * contact before the next search. Returns false if the row has no pairs. */
 static bool row_is_near(const struct contact *c, int64_t row)
 {
     if (c->first[row + 1] == c->first[row]) return false;
@@ -40,8 +39,9 @@ static bool row_has_moved(const struct contact *c, const struct particles *p, in
     return moved;
 }
 
-/* Returns true if a neighbour of row `row` in its pairs is marked ROW_ACTIVE. Other threads may change that mark from
- * ROW_NEAR to ROW_SOURCE meanwhile, which does not change the result; therefore both accesses are atomic. */
+/* Returns true if a neighbour in the pairs of row `row` is marked ROW_ACTIVE. Meanwhile other threads may change
+ * marks from ROW_NEAR to ROW_SOURCE, which does not change the result; therefore reads and writes of marks are
+ * atomic. */
 static bool beside_active(const struct contact *c, int64_t row)
 {
     bool beside = false;
@@ -54,9 +54,9 @@ static bool beside_active(const struct contact *c, int64_t row)
     return beside;
 }
 
-/* Marks rows of the contact list that may come into contact and have a moving particle nearby as ROW_ACTIVE, so that
- * their contact is evaluated. Their neighbours, on which contact forces act too, are marked ROW_SOURCE. Returns true if
- * a row was marked ROW_ACTIVE. */
+/* Marks rows of the contact list that may come into contact and have a moving particle in their pairs as ROW_ACTIVE,
+ * so that their contact is evaluated. Marks their neighbours, on which contact forces act too, as ROW_SOURCE.
+ * Returns true if a row was newly marked ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {
     int64_t found = 0;
@@ -77,8 +77,8 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     return found > 0;
 }
 
-/* Marks the particles on which contact may act as loaded in l, and their row blocks in b as active, so that they are
- * moved after the contact forces are known. */
+/* Marks the particles on which contact may act as loaded in l, and the row blocks of their bonds in b as active, so
+ * that they are moved after the contact forces are known. */
 static void rows_touch(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);

@@ -51,11 +51,13 @@ void contact_spring_advance(struct contact_spring *s, int dim, const real *norma
  * and the forces conjugate to this slip are the drag f on i and -w_j (f + (I^-1 (a x f)) x r_j) on j: their sum and the
  * sum of their moments are 0. Rotation about an axis along which all particles lie is omitted (a single particle, in
  * space a row of particles): the moment of the drag about this axis then remains. */
-/* limit of the sum of squares of the forces of the couple, over the square of the drag; empirical */
+/* Largest sum of squares of the forces of the couple, over the square of the drag [1]; empirical. */
 #define COUPLE_MOST 10
 #define INERTIA_LEAST 1e-6 /* relative to the largest principal value of I and to a^2; smaller values are round-off */
 
-/* The particles of the face beside a row, as a rigid body. */
+/* The particles of the face near the particle of a row, seen as one rigid body. Symbols: a is the position of the
+ * row's particle relative to the mean position of the face, v the mean velocity, I the inertia tensor of the face
+ * per weight. */
 struct contact_partner {
     real force[DIM_MAX];                  /* normal force on the particle of the row [N] */
     real density;                         /* sum of the weights before normalisation */
@@ -64,8 +66,9 @@ struct contact_partner {
     real slip[DIM_MAX];                   /* slip [m/s] */
 };
 
-/* Computes the normal force on the particle of row `row`, and density, mean position and mean velocity of the face
- * beside it, at the positions x - lag v. lag: time [s]. Other members of the result are 0. */
+/* Computes the normal force on the particle of row `row` of the contact list, and density, mean position and mean
+ * velocity of the face near it, at the positions x - lag v. lag: time before now [s]. Other members of the returned
+ * structure are 0. */
 static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner sum = {.density = 0};
@@ -84,8 +87,8 @@ static struct contact_partner partner_mean(const struct contact *c, const struct
     return sum;
 }
 
-/* Adds share (r^2 1 - r r^T) to the symmetric tensor[6], in the order of tensor_principal_values: xx, yy, zz, xy, yz,
- * zx. */
+/* Adds share (r^2 1 - r r^T) to the symmetric tensor[6], with components in the order xx, yy, zz, xy, yz, zx. r[3]:
+ * a position [m]. */
 static void inertia_add(real *tensor, const real *r, real share)
 {
     for (int a = 0; a < 3; a++) {
@@ -103,9 +106,9 @@ static real quadratic_form(const real *tensor, const real *e)
     return sum;
 }
 
-/* Computes to->inverse, the pseudo-inverse of the tensor I of the particles of a face. inertia: I; squares: the same
- * sum with squared weights, which bounds the forces of a couple. Axes with too small inertia, or too large forces, are
- * left out. */
+/* Computes to->inverse, the pseudo-inverse of the inertia tensor I of a face. inertia[6]: I, in the order xx, yy,
+ * zz, xy, yz, zx [m^2]; squares[6]: the same sum with squared weights, which bounds the forces of a couple. Axes
+ * with too small inertia, or too large forces, are left out. */
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
@@ -119,9 +122,9 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
     }
 }
 
-/* Computes the pseudo-inverse of the tensor I of the particles of the face beside row `row` about their mean position,
- * and their angular velocity omega[3] [1/s], at the positions x - lag v. to: contains density, arm and velocity of the
- * face. lag: time [s]. */
+/* Computes to->inverse, the pseudo-inverse of the inertia tensor of the face near row `row` of the contact list
+ * about its mean position, and the angular velocity omega[3] of the face [1/s], at the positions x - lag v. *to must
+ * contain density, arm and velocity of the face. lag: time before now [s]. */
 static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
                          real lag, real *omega)
 {
@@ -142,8 +145,8 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Computes the rigid motion of the face beside row `row` of the contact list and the slip of the row's particle
- * relative to it, at the positions x - lag v. lag: time [s]. */
+/* Returns the rigid motion of the face near row `row` of the contact list and the slip of the row's particle
+ * relative to it, at the positions x - lag v. lag: time before now [s]. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);
@@ -180,8 +183,8 @@ void contact_face_advance_spring(struct contact *c, const struct particles *p, i
     }
 }
 
-/* Adds to f[dim] [N] the part of the reaction to the friction on row l that acts on the particle of row `row`, which
- * belongs to the face that the particle of row l touches. */
+/* Adds to f[dim] the part of the reaction to friction that acts on the particle of row `row` [N]. The friction is
+ * that on the particle of row l, which touches the face that contains the particle of `row`. */
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
@@ -233,8 +236,8 @@ void contact_reactions_make(struct contact *c)
     c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
 }
 
-/* Creates the friction springs of a new contact list. Springs of particles that were in the previous list `previous`
- * are copied from it; the energy of the other springs is lost. Does nothing without friction. */
+/* Allocates the friction springs of a new contact list c. Springs of particles that were in the list `previous` are
+ * copied from it. The elastic energy of springs that are not copied is lost. Does nothing without friction. */
 void contact_springs_copy(struct contact *c, const struct contact *previous)
 {
     if (!(c->law.friction > 0)) return;

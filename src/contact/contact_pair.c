@@ -3,14 +3,14 @@
 
 #include "contact_internal.h"
 
-/* A pair: overlap d - r, negative without contact, and distance r [m]; stiffness k [N/m]. Bitwise equal from both
- * rows. */
+/* A pair of particles: overlap d - r [m], with the contact distance d and the distance r, negative without contact;
+ * stiffness k [N/m]; vector between both [m]. The numbers are bitwise equal from both particles. */
 struct contact_pair {
     real overlap, r, k, apart[DIM_MAX];
 };
 
-/* Returns pair number q of row `row` of the contact list: overlap, distance, stiffness and distance vector. Overlap and
- * stiffness are 0 if the pair is not in contact. */
+/* Returns pair q of row `row` of the contact list: overlap, distance, stiffness and vector between both particles.
+ * Overlap and stiffness are 0 if the pair is not in contact. */
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     struct contact_pair pair = {0};
@@ -51,10 +51,10 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
     return sqrt(contact_pair_vector(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
-/* Returns the distance at which contact between list entries k and l begins [m]: the smaller of their distance in the
- * reference configuration and their mean spacing, minus the width of a notch between them. If the pair is closer when
- * it is found, it is the present distance until the pair opens. previous_distance: contact distance on the previous
- * list [m], NAN if the pair is new. Bitwise equal for (k, l) and (l, k). */
+/* Returns the distance at which contact between list entries k and l begins [m]: the smaller of their distance in
+ * the reference configuration and their mean spacing, minus the width of a notch between them. If a new pair is
+ * closer than that, it is its present distance until the pair opens. previous_distance: contact distance in the
+ * previous list [m], NAN if the pair is new. Bitwise equal for (k, l) and (l, k). */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
                            real previous_distance)
 {

@@ -44,8 +44,8 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
     return rigid_may_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
-/* Returns the entry of particle `particle` in the previous list near rigid body `body`, by bisection, or -1 if it was
- * not in it. */
+/* Returns the entry of particle `particle` in the previous list of particles near rigid body `body`, or -1 if it was
+ * not in that list. before: previous contact list. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
     const int64_t row = before->made ? contact_list_find_particle(before, particle) : -1;
@@ -60,9 +60,9 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
     return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
 
-/* Lists the rows whose particles may come into contact with rigid body `body` before the next search, i.e. with a gap
- * of less than `skin` [m]. before: previous lists, from which friction springs and gaps are copied. Contact of a
- * particle that overlaps when it is found begins at its present gap, until the gap opens. */
+/* Lists in c->near[body] the rows whose particles may come into contact with rigid body `body` before the next
+ * search, i.e. with a gap below `skin` [m]. before: previous lists, from which friction springs and gaps are copied.
+ * If a particle overlaps the body when it is found, its contact begins at that gap until the gap opens. */
 static void near_find_body(struct contact *c, const struct contact *before, const struct particles *p, int body,
                            real skin)
 {
@@ -129,9 +129,9 @@ real contact_rigid_gap(const struct contact *c, const struct particles *p, int b
     return gap_of(c, p, &c->rigid[body], near->row[q], normal) - near->zero[q];
 }
 
-/* Returns the overlap of entry q in the list near rigid body `body` with this body [m], 0 if contact does not act. In
- * equilibria it can be negative, because marks determine which contacts act. normal: receives the outward unit normal
- * of the body. */
+/* Returns the overlap of entry q in the list near rigid body `body` with this body [m]; 0 if contact does not act.
+ * In equilibria, marks determine which contacts act, and the overlap can be negative. normal: receives the outward
+ * unit normal of the body. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_rigid_selection_marks(c, body);
@@ -153,8 +153,8 @@ real contact_patch_diagonal(const struct contact *c, const struct particles *p, 
     return sqrt(width2);
 }
 
-/* Updates the account of energy errors (contact_balance.c) of entry q in the list near rigid body `body`, after a
- * step. */
+/* Updates the account of energy that contact gains or loses by time integration, for entry q in the list near rigid
+ * body `body`. Must be called once per time step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];
@@ -197,8 +197,9 @@ struct rigid_sum {
     int body;
 };
 
-/* Adds force (3 components) and moment about the body's position (3) of the particles of list entries first .. end - 1
- * on a rigid body to sum[6]; a block function of reproducible_sums. context: a struct rigid_sum. */
+/* Adds force (3 components) [N] and moment about the body's position (3) [N m] that the particles of list entries
+ * first .. end - 1 exert on a rigid body to sum[6]. context: a struct rigid_sum. A block function of
+ * reproducible_sums. */
 static void rigid_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -216,9 +217,9 @@ static void rigid_block(const void *context, int64_t first, int64_t end, real *s
 
 enum { RIGID_TERMS = 2 * DIM_MAX };
 
-/* Adds the contact forces of rigid body `body` to p->f, and stores the opposite force and moment in the body. Called
- * for one body after the other, since a particle may touch several. dt: time step [s], 0: springs are not advanced;
- * all: receives largest overlap and number of contacts. */
+/* Adds the contact forces of rigid body `body` to p->f, and stores the opposite force and moment in the body. Bodies
+ * are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction springs
+ * are not advanced. all: receives largest overlap and number of contacts. */
 static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_found *all)
 {
     const struct contact_near *near = &c->near[body];

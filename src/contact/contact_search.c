@@ -11,24 +11,24 @@ enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces op
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Returns the fraction of a full family (all neighbours within the horizon) below which a particle is part of the first
- * layer of a body [1]. Particles of the first layer have 0.50 (1D) to 0.67 (two spacings in 2D), of the second layer
- * 0.79 or more at 3 spacings. With nearest neighbours alone the first layer has up to 5/6 and the second a full
- * family. */
+/* Returns the volume of bonded neighbours, relative to a full family, below which a particle counts as part of the
+ * first layer of a body [1]. Particles of the first layer have 0.50 (1D) to 0.67 (2D, horizon of two spacings),
+ * those of the second layer 0.79 or more at horizons of 3 spacings. With bonds to nearest neighbours alone the first
+ * layer has up to 5/6 and the second a full family. */
 static real first_layer_share(const struct family *f)
 {
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
-/* Returns true if the family of row `row` of the bonds, without the volume `lost`, is smaller than `least`, or if there
- * is no row (-1). lost, least: volumes [m^3]. */
+/* Returns true if the volume of the neighbours of row `row` of the bonds, minus `lost`, is below `least`, or if
+ * there is no row (-1). lost, least: volumes [m^3]. */
 static bool lacks_family(const struct bonds *b, int64_t row, real lost, real least)
 {
     return row < 0 || b->family_volume[row] - lost < least;
 }
 
-/* Returns true if particle i is peridynamic and near a face: it is damaged, or its family is smaller than least_volume
- * [m^3]. everywhere: every peridynamic particle counts. */
+/* Returns true if particle i is peridynamic and near a face: it is damaged, or its neighbours have less volume than
+ * least_volume [m^3]. everywhere: true to accept every peridynamic particle. */
 static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, bool everywhere, int64_t i)
 {
     const int64_t row = b->row_of[i];
@@ -72,8 +72,8 @@ static real contact_spacing(const struct contact_law *law, const struct particle
     return law->spacing * pow(share, 1.0 / p->dim);
 }
 
-/* Returns the height of the surface of the body above particle i, from the shapes of the scene, minus 1/2 [spacings]; 0
- * at faces that were inside the body. size: spacing of the particle [m]. */
+/* Returns the height of the body's surface above particle i, by the shape of the body in the scene, minus 1/2
+ * [spacings]; 0 at faces that were inside the body. size: spacing of the particle [m]. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
     const struct region *shape = law->shape[p->body[i]];
@@ -103,8 +103,8 @@ void contact_list_compute_arrays(struct contact *c, const struct particles *p)
     }
 }
 
-/* Lists the exposed peridynamic particles (those near a face), ascending, and then their mirror images, in c->particle,
- * and stores their present positions. f: family, for the volume of full neighbourhoods. */
+/* Lists the exposed peridynamic particles (those near a face) in c->particle, ascending, followed by their mirror
+ * images, and stores their present positions. f: family of the bonds, whose full volume decides what is near a face. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
@@ -142,7 +142,8 @@ struct contact_search {
     real reach; /* range of the search [m] */
 };
 
-/* The pairs of consecutive rows that one thread has found: list entries of the other particles. */
+/* The pairs of consecutive rows of the contact list that one thread has found. other[n]: list entries of the second
+ * particles. */
 struct pair_list {
     int64_t n;
     int32_t *other;
@@ -154,9 +155,9 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Appends the pairs of row k to the list `to`: list entries within the range of the search, without neighbours that
- * share a bond, or in other bodies only, as the law requires. near: working memory; marks: one bit per particle, 0
- * before and after. */
+/* Appends the pairs of list entry k to *to: entries within the range of the search. Depending on the law, these are
+ * the particles without a bond to the first one, or only particles of other bodies. near: working memory; marks: one
+ * bit per particle, all 0 before and after. */
 static void row_pairs(const struct contact_search *s, struct neighbour_list *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {
@@ -175,8 +176,8 @@ static void row_pairs(const struct contact_search *s, struct neighbour_list *nea
     }
 }
 
-/* Converts c->first[k + 1], the number of pairs of each row k, to the index of the first pair of each row, and
- * allocates c->other, the pairs. */
+/* Converts c->first[k + 1] from the number of pairs of row k of the contact list to the end of its pairs, and
+ * allocates c->other for all pairs. */
 static void pairs_room(struct contact *c)
 {
     for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
@@ -184,8 +185,8 @@ static void pairs_room(struct contact *c)
     c->other = BARE("contact.other", c->pairs, int32_t);
 }
 
-/* Finds the pairs of all rows: each thread finds the pairs of its consecutive rows, then copies them to their positions
- * in c->other. */
+/* Finds the pairs of all rows of the contact list. Each thread finds those of its consecutive rows, then copies them
+ * to their location in c->other. */
 static void pairs_find(struct contact *c, const struct contact_search *s)
 {
     c->first = NEW("contact.first", c->rows + 1, int64_t);
@@ -215,8 +216,8 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
     }
 }
 
-/* Returns the contact distance of particle j and the particle of row `row` on the previous list [m], or NAN if the pair
- * was not on it or row is -1. */
+/* Returns the contact distance of particle j and the particle of row `row` in the previous list `before` [m]; NAN if
+ * that list does not contain the pair or row is -1. */
 static real distance_before(const struct contact *before, int64_t row, int32_t j)
 {
     if (row < 0) return NAN;
@@ -225,8 +226,8 @@ static real distance_before(const struct contact *before, int64_t row, int32_t j
     return NAN;
 }
 
-/* Determines where contact of each row (form `surface`) or of each of its pairs (form `pair`) begins. before: previous
- * contact list, whose contacts continue. */
+/* Determines the gap at which contact of each row (form `surface`) or the distance at which contact of each pair
+ * (form `pair`) begins. before: previous contact list, whose contacts continue. */
 static void pairs_begin(struct contact *c, const struct contact *before, const struct particles *p)
 {
     if (c->law.form == CONTACT_SURFACE) {
@@ -255,8 +256,9 @@ static real search_reach(const struct contact *c)
     return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_list_margin(c);
 }
 
-/* Finds the exposed particles and the pairs that may come into contact, at the present positions, and transfers the
- * state of pairs, friction springs and rigid bodies from the previous list, which is freed. */
+/* Finds the exposed particles (those near faces) and the pairs that may come into contact, at the present positions.
+ * Copies the state of pairs, friction springs and contacts with rigid bodies from the previous list, and frees that
+ * list. */
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
@@ -305,8 +307,9 @@ static bool has_come_far(const struct contact *c)
     return !(c->moved < far) || contact_rigid_has_moved(c, far);
 }
 
-/* Requests a search for contact if one of the particles list[n], which have just become peridynamic, is part of the
- * first layer of a face. Particles with few broken bonds form no face; they are listed by the next search. */
+/* Requests a search for contact if one of the particles list[n], which have just become peridynamic, is in the first
+ * layer of a face. A particle that is near no face but has few broken bonds requires no search; the next search
+ * lists it. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *list, int64_t n)
 {

@@ -30,8 +30,9 @@ void contact_selection_activate_all(struct contact *c)
     c->waiting = 0;
 }
 
-/* Sets the mark *touch of a contact, 1 for active, from its gap [spacings]. A contact becomes active at gaps below
- * `close` [spacings], and stays active up to round-off (KEPT). Returns true if the mark has changed. */
+/* Sets *touch, the mark of an active contact (1) or inactive one (0), from its gap [spacings]. A contact becomes
+ * active at gaps below `close`, and stays active up to gaps of KEPT [spacings]. Returns true if the mark has
+ * changed. */
 static bool mark_set(uint8_t *touch, real gap, real close)
 {
     const uint8_t was = *touch;
@@ -39,15 +40,15 @@ static bool mark_set(uint8_t *touch, real gap, real close)
     return *touch != was;
 }
 
-/* Returns the gap up to which contact of row `row` with list entry l becomes active [spacings]: `close` between
- * different bodies. Between faces of one body it is 0, since the faces of a crack coincide without force. */
+/* Returns the gap below which contact of row `row` with list entry l becomes active [spacings]: `close` if they are
+ * in different bodies, 0 if they are in one body, since the faces of a crack coincide without force. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
     return p->body[c->particle[row]] != p->body[image_source_particle(p, c->law.image, c->particle[l])] ? close : 0;
 }
 
-/* Sets the marks of active contacts of row `row` from their gaps. close: gap up to which contacts of different bodies
- * become active [spacings]. Returns the number of marks that have changed. */
+/* Sets the marks of active contacts of row `row` of the contact list from their gaps. close: gap below which
+ * contacts of different bodies become active [spacings]. Returns the number of marks that have changed. */
 static int64_t mark_row(struct contact *c, const struct particles *p, int64_t row, real close)
 {
     int64_t changed = 0;
@@ -63,8 +64,8 @@ static int64_t mark_row(struct contact *c, const struct particles *p, int64_t ro
     return changed;
 }
 
-/* Sets the forces that contact_balance computed in the last time step to 0, because an equilibrium must not contain
- * them. */
+/* Sets the forces that compensate energy errors of time integration (contact_balance.c) to 0 in all contacts,
+ * because an equilibrium must not contain them. */
 static void balances_rest(struct contact *c)
 {
     for (int64_t row = 0; row < c->rows && c->balance; row++) c->balance[row].drag = 0;
@@ -113,7 +114,7 @@ void contact_end_selection(struct contact *c)
 
 /* ---- terms ------------------------------------------------------------------------------------------------------- */
 
-/* Parameters of the visit of active contacts, and the contact that is passed to the function `visit`. */
+/* Function that is called for each active contact, its context, and the contact that is passed to it. */
 struct visit {
     const struct contact *c;
     const struct particles *p;
