@@ -9,7 +9,7 @@
 #include "base/memory.h"
 
 #define FASTEST 0.9 /* limit of the tip speed over the Rayleigh speed */
-/* limit over the Rayleigh speed below which the fields at rest are used: factors differ by 1e-4 */
+/* Tip speed over the Rayleigh speed below which the fields of a crack at rest are used [1]: factors differ by 1e-4. */
 #define SLOWEST 0.01
 #define SMOOTHING 0.3 /* time of the mean of the speed over the settling time T (growth.h) */
 
@@ -27,8 +27,8 @@ void growing_crack_free(struct growing_crack *g)
 
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
-/* Updates the target speed of the tip for new stress-intensity factors `control`, by one secant step of the crack-tip
- * equation of motion (growth.h), smoothed in time. settling: time T of the filter [s]. */
+/* Updates the target speed of the tip from new stress-intensity factors `control`, by one secant step of the
+ * crack-tip equation of motion K = k(v) K_c, smoothed in time. settling: time constant T of the smoothing [s]. */
 static void target_speed_find(struct growing_crack *g, const struct growth_control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
@@ -43,9 +43,9 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Updates the filtered speed of the tip by its speed in the last step dt [s], and the target speed if `control` has new
- * stress-intensity factors. control: NULL if no factors are known, then the target is 0; horizon: of the bonds [m].
- * Must be called before g->speed is overwritten. */
+/* Updates the filtered speed of the tip by its speed in the last step of length dt [s], and its target speed from
+ * new stress-intensity factors at time t [s]. control: these factors; if NULL, the target speed becomes 0. horizon:
+ * of the bonds [m]. Must be called before g->speed is overwritten. */
 static void target_speed_update(struct growing_crack *g, const struct growth_control *control, real horizon, real t,
                                 real dt)
 {
@@ -62,8 +62,8 @@ static void target_speed_update(struct growing_crack *g, const struct growth_con
 
 /* ---- growth and direction ---------------------------------------------------------------------------------------- */
 
-/* Returns true if the crack grows at time t [s]: it has started and not reached its length and, if SIF-controlled, has
- * a positive target speed or factors that reach the toughness. */
+/* Returns true if the crack grows at time t [s]: it has started and is shorter than its final length. If
+ * stress-intensity factors control it, its target speed must also be positive, or its factor reach the toughness. */
 static bool grows(const struct growing_crack *g, real t)
 {
     const struct growth_rule *r = g->rule;
@@ -73,8 +73,8 @@ static bool grows(const struct growing_crack *g, real t)
     return g->intensity >= r->toughness;
 }
 
-/* Sets the heading of the tip to the direction of the largest hoop stress, from the factors K and the direction of the
- * crack in `control`. */
+/* Sets the heading of the tip to the direction of the largest hoop stress. control: stress-intensity factors K_I,
+ * K_II and the present direction of the crack. */
 static void growth_turn(struct growing_crack *g, const struct growth_control *control)
 {
     const real angle = crack_kink_angle_of_sif(control->factors.K), c = cos(angle), s = sin(angle);
@@ -100,8 +100,8 @@ static void growth_advance(struct growing_crack *g, real increment, real horizon
 
 /* ---- bonds that the tip crosses ---------------------------------------------------------------------------------- */
 
-/* Returns true if the entry of bond i-j in the row of particle i is in the list of fading bonds, i.e. of bonds behind
- * the tip whose weights decrease as the crack grows. */
+/* Returns true if the bond from particle i to particle j is in the list of fading bonds: bonds behind the tip whose
+ * weights decrease as the crack grows. The bond from j to i is a separate entry. */
 static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
 {
     for (int64_t k = g->n - 1; k >= 0; k--)
@@ -109,16 +109,16 @@ static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
     return false;
 }
 
-/* Appends the entry of bond i-j, with weight w, to the list of fading bonds. length: length by which the crack has
- * grown when the tip crosses the bond [m]. */
+/* Appends the bond from particle i to particle j, of weight w, to the list of fading bonds, whose weights decrease
+ * as the crack grows. length: growth of the crack when its tip crosses the bond [m]. */
 static void fading_add(struct growing_crack *g, int32_t i, int32_t j, real w, real length)
 {
     GROW("growth.fading", g->fading, g->n + 1);
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Appends the intact bonds in the row of particle i that cross `path`, the last increment of the tip, to the list of
- * fading bonds. Bonds already in the list are skipped. */
+/* Appends the intact bonds of particle i that cross `path`, the last increment of the tip, to the list of fading
+ * bonds. Bonds that are already in the list are skipped. */
 static void cross_row(struct growing_crack *g, const struct bonds *b, const struct particles *p,
                       const struct crack *path, int32_t i)
 {
@@ -132,8 +132,8 @@ static void cross_row(struct growing_crack *g, const struct bonds *b, const stru
     }
 }
 
-/* Finds the particles within the cutoff of bonds plus the length of the path around `from` [m]. *found: receives an
- * allocated list of them, freed by the caller. Returns their number. */
+/* Finds the particles around `from` within the cutoff of bonds plus the distance from `from` to `to` [m]. *found:
+ * receives an allocated list of their indices, which the caller frees. Returns their number. */
 static int near_path(const real from[2], const real to[2], struct particles *p, const struct bond_source *s,
                      int32_t **found)
 {
@@ -193,8 +193,11 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Sets the weights of the fading bonds to their values of the previous step. Bonds that load has broken since then are
- * removed from the list. */
+/* Reduces the weights of the fading bonds to w0 (1 - grown/damping)^exponent, with `grown` the growth of the crack
+ * since its tip crossed the bond. The energy lost is booked at the present positions: half of the loss of the
+ * previous step and half of that of this step. Rows change one after the other, each from its weights of the
+ * previous step, so that the losses sum to the whole energy. Returns the number of directed bonds whose weight
+ * becomes 0. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;

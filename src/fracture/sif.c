@@ -29,9 +29,9 @@ void sif_contour_weight(enum sif_weight form, const struct contour *c, real dist
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the integrand of the interaction integral that the gradient of the weight q multiplies, per area and for a
- * unit gradient along n [Pa]: the energy flux of the actual motion a and the auxiliary motion b. density: of the
- * material [kg/m^3]. */
+/* Returns the integrand of the interaction integral that the gradient of the weight function q multiplies, per area,
+ * for a unit gradient along n [Pa]: the mutual energy flux of the actual motion a and the auxiliary motion b.
+ * density: of the material [kg/m^3]. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
 {
     real flux = 0, energy = 0;
@@ -45,8 +45,8 @@ static real ring_density(const struct crack_state *a, const struct crack_state *
     return flux - n[0] * energy;
 }
 
-/* Returns the inertial integrand of the interaction integral, per area and for weight q = 1 [Pa/m], from the actual
- * motion a and the auxiliary motion b. density: of the material [kg/m^3]. */
+/* Returns the inertial integrand of the interaction integral, per area and for the weight q = 1 [Pa/m]. a: actual
+ * motion; b: auxiliary motion; density: of the material [kg/m^3]. */
 static real disc_density(const struct crack_state *a, const struct crack_state *b, real density)
 {
     real sum = 0;
@@ -113,8 +113,9 @@ static void local_place(const struct sif_tip *tip, const struct particles *p, in
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Lists in s->particle the particles of the tip's body within the largest of n contours, and allocates s->point. In
- * equilibrium, particles within the smallest inner circle contribute nothing and are left out. */
+/* Lists in s->particle the particles of the tip's body within the outer radius of the largest of n contours, and
+ * allocates s->point for them. In equilibrium, particles within the smallest inner radius contribute nothing and are
+ * left out. */
 static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
 {
     real least = INFINITY, most = 0, x[2];
@@ -129,8 +130,8 @@ static void points_find(struct sif_points *s, const struct contour *contour, int
     s->point = memory_new("sif.point", s->n, sizeof *s->point);
 }
 
-/* Computes the stress of particle i in the axes of the crack, state->stress [Pa]: by Hooke's law from state->gradient,
- * or the stress of m, depending on tip->stress. */
+/* Computes state->stress of particle i in the axes of the crack [Pa]: by Hooke's law from state->gradient if
+ * tip->stress is SIF_HOOKE, else from the stress in m. */
 static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion *m, int64_t i,
                              struct crack_state *state)
 {
@@ -142,9 +143,9 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
     local_tensor(tip, global, state->stress);
 }
 
-/* Computes position, area and fields of number k of the listed particles, s->point[k], in the axes of the crack:
- * displacement gradient, stress and, with inertia, velocity and acceleration minus that caused by loads. stencil:
- * working memory with the gradient weights of this particle. */
+/* Computes s->point[k], position, area and fields of the particle s->particle[k] in the axes of the crack:
+ * displacement gradient, stress and, if there is inertia, velocity and acceleration minus that caused by loads. m:
+ * motion of the particles; stencil: weights by which the gradient at this particle is computed. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
                        const struct gradient_stencil *stencil, const struct particles *p)
 {
@@ -189,9 +190,9 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
     }
 }
 
-/* Returns the weight of the inertial part of the interaction integral at distance r [m] from the tip [1]. It increases
- * gradually from 0 to 1 around tip->core. With a sharp edge particles would enter and leave the sum as the tip moves,
- * and the factors would oscillate with the period of a spacing. */
+/* Returns the weight of the inertial part of the interaction integral at distance r [m] from the tip [1]. It
+ * increases gradually from 0 to 1 around r = tip->core. A sharp edge would let particles enter and leave the sum as
+ * the tip moves, and the stress-intensity factors would oscillate with the period of a spacing. */
 static real core_share(const struct sif_tip *tip, real r)
 {
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
@@ -201,8 +202,8 @@ static real core_share(const struct sif_tip *tip, real r)
     return 1 - q;
 }
 
-/* Adds the interaction integrals over the listed particles first .. end - 1 to sum[MODES + 1]: with the auxiliary
- * fields of modes I and II, then of the actual motion with itself. context: a struct sif_points. */
+/* Adds the interaction integrals over the listed particles first .. end - 1 to sum[3]: with the auxiliary fields of
+ * modes I and II, then of the actual motion with itself. context: a struct sif_points. */
 static void points_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct sif_points *s = context;
@@ -245,9 +246,9 @@ void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct
 
 /* ---- path independence ------------------------------------------------------------------------------------------- */
 
-/* Returns the largest relative difference between the results of `contours` contours [1]: of K_I or K_II over |K|, or
- * of J over J, with means over the contours in the denominators; NAN if one of them is 0. result: `contours` results of
- * sif_compute_by_interaction_integral. */
+/* Returns the largest relative difference between the results of several contours [1]: of K_I or K_II over the mean
+ * of |K|, or of J over its mean; NAN if a denominator is 0. result[contours]: stress-intensity factors and J of each
+ * contour. */
 real sif_contour_spread(const struct sif *result, int contours)
 {
     real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];

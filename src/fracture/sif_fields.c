@@ -36,8 +36,9 @@ void crack_stress_from_gradient(const struct crack_medium *m, real gradient[2][2
 
 /* ---- a crack at rest --------------------------------------------------------------------------------------------- */
 
-/* Computes the angular functions g of the displacements around a crack tip at rest, u = K sqrt(r/(2 pi))/(2 G)
- * g(theta), and their derivatives slope = dg/dtheta (Williams 1957). kappa: Kolosov's constant [1]. */
+/* Computes the angular functions g of the displacements u = K sqrt(r/(2 pi))/(2 G) g(theta) around a crack tip at
+ * rest, and slope = dg/dtheta (Williams 1957). kappa: Kolosov's constant [1]; theta: angle from the crack direction
+ * [rad]. */
 static void williams_angular(real kappa, enum crack_mode mode, real theta, real g[2], real slope[2])
 {
     const real c = cos(0.5 * theta), s = sin(0.5 * theta);
@@ -75,8 +76,8 @@ static void slownesses(const struct crack_medium *m, real v, real a[2])
     a[1] = sqrt(1 - square(v / m->shear_speed));
 }
 
-/* Returns D(v) = 4 a_d a_s - (1 + a_s^2)^2 for tip speed v, with a_d and a_s of `slownesses` [1]; its root is the
- * Rayleigh speed. */
+/* Returns D(v) = 4 a_d a_s - (1 + a_s^2)^2 for tip speed v [m/s], with a_d = sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 -
+ * v^2/c_s^2) [1]. Its root is the Rayleigh speed. */
 static real crack_rayleigh_function(const struct crack_medium *m, real v)
 {
     real a[2];
@@ -84,8 +85,9 @@ static real crack_rayleigh_function(const struct crack_medium *m, real v)
     return 4 * a[0] * a[1] - square(1 + a[1] * a[1]);
 }
 
-/* Computes the coefficients weight[i][w] of dilatational (w = 0) and shear (w = 1) waves in the displacements around a
- * tip of speed v: u_i = Re or Im of sum_w weight[i][w] sqrt(z_w), z_w = x1 + i a_w x2. a: factors of `slownesses`. */
+/* Computes weight[i][w], the coefficients of dilatational (w = 0) and shear (w = 1) waves in the displacements
+ * around a tip of speed v [m/s]: u_i = Re or Im of sum_w weight[i][w] sqrt(z_w), z_w = x1 + i a_w x2. a[2]: the
+ * factors a_w = sqrt(1 - v^2/c_w^2) with the wave speeds c_w. */
 static void wave_weights(const struct crack_medium *m, enum crack_mode mode, real v, const real a[2], real weight[2][2])
 {
     const real size = sqrt(2 / pi) / (m->shear * crack_rayleigh_function(m, v)), b = 1 + a[1] * a[1];
@@ -141,7 +143,8 @@ real crack_universal_function(const struct crack_medium *m, enum crack_mode mode
 
 /* ---- growth at constant speed ------------------------------------------------------------------------------------ */
 
-/* Returns the angle in the integrand of k(v) at slowness z [s/m], between 1/c_d and 1/c_s (Freund 1990, eq. 6.4.26). */
+/* Returns the angle in the integrand of the speed factor k(v) at slowness z [s/m], which is between 1/c_d and 1/c_s,
+ * with the speeds c_d of dilatational and c_s of shear waves (Freund 1990, eq. 6.4.26). */
 static real factor_angle(const struct crack_medium *m, real z)
 {
     const real a = 1 / m->longitudinal, b = 1 / m->shear_speed;

@@ -6,9 +6,10 @@
 
 enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 
-/* visibility is tested from this distance ahead of the tip, since its own crack ends there [inner radius] */
+/* Distance ahead of the tip from which visibility is tested, since the crack itself ends at the tip [inner radius]. */
 #define AHEAD 1e-3
-/* distance to the line of the last part of the crack below which a particle is on neither side [inner radius] */
+/* Distance from the line of the last segment of the crack below which a particle counts as on neither side [inner
+ * radius]. */
 #define ON_FACE 0.03
 #define SINGULAR 1e-12 /* least pivot over the diagonal entry */
 
@@ -25,7 +26,8 @@ static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real
     mode_2[1] = -q * ((kappa - half + s) * c + half * d);
 }
 
-/* Normal equations of the fit. */
+/* Normal equations A x = y of the least-squares fit of the Williams series, for coefficients x, and the number of
+ * particles in it. */
 struct surface_fit_problem {
     real A[UNKNOWNS][UNKNOWNS], y[UNKNOWNS];
     int particles;
@@ -40,7 +42,7 @@ static void fit_add(struct surface_fit_problem *f, const real *row, real value)
     }
 }
 
-/* Returns true for a position X [m], relative to the tip, on the line of the crack behind the tip: round-off would
+/* Returns true if position X [m], relative to the tip, is on the line of the crack behind the tip. Round-off would
  * decide on which side of the crack a particle there is. */
 static bool on_face(const struct tip_view *v, const real X[2])
 {
@@ -86,7 +88,7 @@ static bool fit_solve(struct surface_fit_problem *f)
     return true;
 }
 
-/* Returns true if no crack is between the tip, moved slightly ahead, and position X [m]. */
+/* Returns true if no crack is between position X [m] and a point slightly ahead of the tip. */
 static bool seen(const struct tip_view *v, const real *X)
 {
     real eye[DIM_MAX] = {0};

@@ -19,7 +19,8 @@ void tips_free(struct crack_tips *t)
 
 /* ---- particles of each crack ------------------------------------------------------------------------------------- */
 
-/* State of one sample, in which newly damaged particles are assigned to cracks from neighbour to neighbour. */
+/* State of one sample of crack tips, in which newly damaged particles are assigned to cracks from neighbour to
+ * neighbour. */
 struct flood {
     struct crack_tips *t;
     struct tip_search search;
@@ -44,7 +45,7 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
     return bits;
 }
 
-/* Returns true if one of the particles at[n] has lost a bond. The bits of the damages are combined instead of comparing
+/* Returns true if one of the particles at[n] is damaged. Combines the bits of their damages instead of comparing
  * numbers, which is faster. */
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
@@ -87,8 +88,8 @@ static int tips_root_of(const struct flood *f, int tip)
     return tip;
 }
 
-/* Joins cracks a and b, which touch. Cracks that start at ends of pre-cracks stay separate from each other. Any other
- * crack becomes part of the one that it touches, the later one of the earlier one. */
+/* Joins cracks number a and b, which touch. Two cracks that both start at ends of pre-cracks stay separate. Else one
+ * becomes part of the other: a crack without a pre-crack of one with, the later one of the earlier one. */
 static void flood_join(struct flood *f, int a, int b)
 {
     a = tips_root_of(f, a), b = tips_root_of(f, b);
@@ -99,8 +100,8 @@ static void flood_join(struct flood *f, int a, int b)
     f->grown_by[keep] = true;
 }
 
-/* Assigns all damaged particles connected with those in the queue to the cracks of these, in the order of the queue,
- * and empties the queue. Cracks that touch are joined. */
+/* Assigns all damaged particles that are connected with a particle in the queue to the crack of that particle, in
+ * the order of the queue, and empties the queue. Cracks that touch are joined. */
 static void flood_run(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -168,9 +169,9 @@ static int tip_nearest(const struct crack_tips *t, const struct particles *p, in
     return nearest;
 }
 
-/* Starts a new crack at the most damaged of the new particles without a crack, and assigns the damaged particles
- * connected with it. If there is no room for more tips, they are assigned to the crack with the nearest tip. Returns
- * false if all new particles have a crack already. */
+/* Starts a new crack at the most damaged of the newly damaged particles that belong to no crack, and assigns the
+ * damaged particles connected with it. If there is no room for more tips, they are assigned to the crack with the
+ * nearest tip. Returns false if all newly damaged particles belong to a crack already. */
 static bool flood_nucleate(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -243,8 +244,9 @@ static void flood_free(struct flood *f)
     memory_free(f->search.found);
 }
 
-/* Assigns every newly damaged particle to a crack, by the first of these rules that applies: the start of a crack or a
- * crack is near the particle; a damaged particle that is connected with it has a crack; else a new crack begins. */
+/* Assigns every newly damaged particle to a crack, by the first of these rules that applies: (1) the start of a
+ * crack, or a particle of a crack, is near; (2) a damaged particle that is connected with it belongs to a crack; (3)
+ * a new crack begins. */
 static void flood_all(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -262,8 +264,8 @@ static void flood_all(struct flood *f)
 
 /* ---- length and speed -------------------------------------------------------------------------------------------- */
 
-/* Updates position, growth and times of a tip from the extent r of its crack at time `time` [s]. took_in: another crack
- * has become part of this crack, so that a jump in growth is booked as joined, not grown. */
+/* Updates position, growth and times of a tip from the extent r of its crack at time `time` [s]. took_in: true if
+ * another crack has become part of this one; the jump in growth then counts as joined, not as grown. */
 static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const struct crack_tips *t, real time,
                      bool took_in)
 {
@@ -280,8 +282,8 @@ static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const str
     if (!isnan(tip->start_time)) tip->arrest_time = time;
 }
 
-/* Returns the slope of the least-squares line through the growth of tip k in samples first .. last [m/s]; NAN if all
- * have one time. */
+/* Returns the slope of the least-squares line through the growth of tip k over time, samples first .. last [m/s];
+ * NAN if all samples have one time. */
 static real regression(const struct crack_tips *t, int k, int64_t first, int64_t last)
 {
     real n = (real)(last - first + 1), mean_time = 0, mean_growth = 0, both = 0, spread = 0;

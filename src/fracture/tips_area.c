@@ -17,8 +17,8 @@ static int64_t strips_of(const struct crack_tips *t, const struct crack_tip *tip
     return (int64_t)real_max(1, floor(front_width(tip, t->dim) / t->spacing + 0.5));
 }
 
-/* Returns the number of the strip along the front of a pre-crack that contains position X [m]; beyond the ends of the
- * front that of the nearest strip. Strips are parts of the front, about one spacing wide. */
+/* Returns the number of the strip that contains position X [m]. The front of a pre-crack is divided into strips
+ * about one spacing wide. Positions beyond the ends of the front are in the nearest strip. */
 static int64_t strip_at(const struct crack_tips *t, const struct crack_tip *tip, const real *X)
 {
     const real edge2 = dot(tip->edge, tip->edge, t->dim);
@@ -36,7 +36,7 @@ struct ahead {
     int64_t cell;
 };
 
-/* Finds the nearest front of a pre-crack in body number `body`, and the distance of position X [m] ahead of it. */
+/* Finds the nearest front of a pre-crack in body number `body`, and how far position X [m] is ahead of it. */
 static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X)
 {
     struct ahead found = {-1, 0};
@@ -54,10 +54,10 @@ static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X
     return found;
 }
 
-/* Sets cell[] = 1 for the cells of strips that contain a particle with more damage than `least`. A front is divided
- * into strips about one spacing wide, a strip into `deepest` cells of one spacing ahead of the front; the strips of tip
- * k start at first[k]. cell: NULL: no marks are set. Returns the largest distance of such a particle ahead of its front
- * [cells]. */
+/* Sets cell[] = 1 for the cells that contain a particle with more damage than `least`. The front of a pre-crack is
+ * divided into strips about one spacing wide, and a strip into `deepest` cells of one spacing ahead of the front.
+ * first[k]: first strip of tip k. cell: NULL to set no marks. Returns the largest distance of such a particle ahead
+ * of its front [cells]. */
 static int64_t strips_mark(const struct crack_tips *t, const struct particles *p, real least, const int64_t *first,
                            int64_t deepest, uint8_t *cell)
 {
@@ -75,8 +75,8 @@ static int64_t strips_mark(const struct crack_tips *t, const struct particles *p
     return deep;
 }
 
-/* Returns the length of a strip, in cells, up to the last marked cell before a gap of GAP unmarked cells.
- * cell[deepest]: marks of the strip, from the front on. */
+/* Returns the length of a strip of a crack [cells]: up to its last marked cell before a gap of GAP unmarked ones.
+ * cell[deepest]: marks of the strip's cells, from the front of the pre-crack on. */
 static int64_t strip_length(const uint8_t *cell, int64_t deepest)
 {
     int64_t end = 0;

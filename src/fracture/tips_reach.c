@@ -27,8 +27,8 @@ static int64_t next_of_crack(const struct crack_tips *t, const struct particles 
     return p->n_of[KIND_PD];
 }
 
-/* Returns the distance of particle i from the start of its crack [m], or -1 if the particle is behind the start, next
- * to the end of the pre-crack. The particle must belong to a crack. */
+/* Returns the distance of particle i from the start of its crack [m]; -1 if it is beside the end of the pre-crack,
+ * behind the start. The particle must belong to a crack. */
 static real tips_reach_of(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     const struct crack_tip *tip = &t->tip[t->label[i] - 1];
@@ -39,7 +39,8 @@ static real tips_reach_of(const struct crack_tips *t, const struct particles *p,
     return behind && distance <= (TIP_START_REACH + TIP_EQUAL) * t->spacing ? -1 : distance;
 }
 
-/* For each crack [TIPS_MAX]: its extent, and the particles within a spacing of the largest distance from its start. */
+/* Extents of all cracks, and for each crack the n[k] particles that are up to one spacing less far from its start
+ * than the farthest one. */
 struct ahead {
     const struct crack_tips *t;
     const struct particles *p;
@@ -69,8 +70,8 @@ static void extent_find(struct ahead *a, int32_t i, int tip)
     r->farthest = real_max(r->farthest, tips_reach_of(a->t, a->p, i));
 }
 
-/* If particle i is within a spacing of the farthest particle of its crack, counts it in a->n[tip] and stores its
- * position in a->place[tip], if that is allocated. tip: number of the crack. */
+/* If particle i is at most one spacing less far from the start of its crack than the farthest particle, counts it in
+ * a->n[tip] and stores its position in a->place[tip], unless that is NULL. tip: number of the crack. */
 static void farthest_collect(struct ahead *a, int32_t i, int tip)
 {
     const real farthest = a->reach[tip].farthest, equal = TIP_EQUAL * a->t->spacing;

@@ -9,9 +9,9 @@
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the particles, mirror images included, within `radius` [m] of the position X [m], but at most within an edge of
- * the search cells. The indices are written to s->found, which grows as needed and is freed by the caller. Returns
- * their number. */
+/* Finds the particles, mirror images included, within `radius` of the position X [m]; the radius is limited to the
+ * edge length of the search cells. Writes their indices to s->found, which grows as needed and is freed by the
+ * caller. Returns their number. */
 int tip_search_find_near(struct tip_search *s, const real *X, real radius)
 {
     radius = real_min(radius, s->c->edge);
@@ -38,8 +38,8 @@ real segment_offset_of_point(const real *centre, const real *half, const real *X
 
 static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n : dim == 2 ? c->n - 1 : 0; }
 
-/* Returns true if position X [m] is within half a spacing of a pre-crack other than number `self`: a corner or a branch
- * of a longer cut is no tip. crack: the `cracks` pre-cracks of the scene. */
+/* Returns true if position X [m] is within half a spacing of a pre-crack other than number `self`. It is then a
+ * corner or a branch of a longer cut, and no tip. crack[cracks]: pre-cracks of the scene. */
 static bool on_another(const struct crack_tips *t, const struct crack *crack, int cracks, int self, const real *X)
 {
     for (int c = 0; c < cracks; c++) {
@@ -84,8 +84,8 @@ struct crack_tip *tip_add(struct crack_tips *t, int body, const real *origin, co
     return tip;
 }
 
-/* Adds a tip at the end `to` of a segment of pre-crack number `self`, if a body continues there and no other pre-crack
- * does. from, to: ends of the segment [m]; crack: the `cracks` pre-cracks of the scene. */
+/* Adds a tip at the end `to` of a segment of pre-crack number `self`, if a body continues there and no other
+ * pre-crack does. from, to: ends of the segment [m]; crack[cracks]: pre-cracks of the scene. */
 static void start_at_end(struct crack_tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                          const real *from, const real *to)
 {
@@ -116,8 +116,8 @@ static bool edge_outward(const struct crack *c, int k, real *outward)
     return size > 0;
 }
 
-/* Adds a front along the part of edge k of polygon number `self` that is inside a body, found in steps of about a
- * spacing. Adds none if no part is. crack: the `cracks` pre-cracks of the scene. */
+/* Adds a crack front along the part of edge k of polygon number `self` that is inside a body, found in steps of
+ * about one spacing. Adds none if no part is inside a body. crack[cracks]: pre-cracks of the scene. */
 static void start_at_edge(struct crack_tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                           int k)
 {
