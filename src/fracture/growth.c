@@ -183,8 +183,8 @@ static void cross(struct growing_crack *g, const struct bonds *b, struct particl
 
 /* ---- fading ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of bond i-j in the arrays of b, prepared for writing, or -1 if the bond is no longer stored. *row:
- * receives the row of particle i. */
+/* Returns the index of the bond from i to j in the arrays of b, prepared for writing, or -1 if the bond is no longer
+ * stored. *row: receives the row of particle i. */
 static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
@@ -193,11 +193,8 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Reduces the weights of the fading bonds to w0 (1 - grown/damping)^exponent, with `grown` the growth of the crack
- * since its tip crossed the bond. The energy lost is booked at the present positions: half of the loss of the
- * previous step and half of that of this step. Rows change one after the other, each from its weights of the
- * previous step, so that the losses sum to the whole energy. Returns the number of directed bonds whose weight
- * becomes 0. */
+/* Sets the weights of the fading bonds back to those of the previous step. Bonds that load has broken since then are
+ * removed from the list. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -212,11 +209,11 @@ static void step_back(struct growing_crack *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Reduces the weights of the fading bonds: weight = initial weight (1 - grown/damping)^exponent, with `grown` the
- * growth of the crack since it crossed the bond. bond_fade books the energy lost: half of the loss of the previous step
- * and half of that of this step, both at the present positions. Rows change one after the other from the weights of the
- * previous step to the next ones, so that the losses sum to the whole energy. Returns the number of directed bonds
- * whose weight becomes 0. */
+/* Reduces the weights of the fading bonds to w0 (1 - grown/damping)^exponent, with `grown` the growth of the crack
+ * since its tip crossed the bond. The energy lost is booked at the present positions: half of the loss of the
+ * previous step and half of that of this step. Rows change one after the other, each from its weights of the
+ * previous step, so that the losses sum to the whole energy. Returns the number of directed bonds whose weight
+ * becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
