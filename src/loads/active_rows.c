@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-/* Returns the highest level of a row block, that of row blocks in motion: 1 + the number of neighbouring row blocks to
- * which motion spreads in a step. Forces reach over two horizons in state-based models (level 3), over one in
- * bond-based models (level 2). b: bonds of the body. */
+/* Returns the activity level of row blocks in motion, the highest one: 1 + the number of row blocks over which
+ * forces spread in a step. Forces reach over two horizons in state-based models (level 3), over one in bond-based
+ * models (level 2). b: bonds of the body. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
 /* Returns true if a particle of row block `row_block` has left its reference position, i.e. if x and X differ in any
@@ -32,9 +32,9 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
     return !has_moved(b, p, row_block);
 }
 
-/* Returns the row block of the neighbour of a bond, or -1 if the bond is padding or its neighbour has no row. column:
- * copy of a column of a row block, i.e. of one bond in each of its LANES rows; lane: the bond in it. The row of a
- * mirror image is that of its source particle. */
+/* Returns the row block of the neighbour of a bond, or -1 if the bond is padding or its neighbour has no row.
+ * column: copy of one bond in each of the LANES rows of a row block; lane: which of these rows. A mirror image has
+ * the row of its source particle. */
 static int64_t row_block_of(const struct bonds *b, const struct particles *p, const struct loads *l,
                             const struct column_copy *column, int lane)
 {
@@ -61,8 +61,8 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
     }
 }
 
-/* Returns true if a particle of row block `row_block` has a bond to a particle whose row block has exactly the activity
- * level `level`. */
+/* Returns true if a particle of row block `row_block` (LANES rows of bonds) has a bond to a particle whose row block
+ * has exactly the activity level `level`. */
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
 {
@@ -77,8 +77,9 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
     return false;
 }
 
-/* Recomputes the activity levels b->active.level of all row blocks: the highest level for row blocks in motion, one
- * less for each bond between a row block and the moving ones, 0 for the rest. Called after rows were rebuilt. */
+/* Recomputes the activity levels b->active.level of all row blocks (LANES rows of bonds each): the highest level for
+ * row blocks in motion, one less for each bond on the way to them, 0 for the rest. Must be called after rows were
+ * rebuilt. */
 static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;
@@ -95,8 +96,8 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
 }
 
 /* Raises the activity levels of the row blocks that have begun to move since the last call, and of their neighbours,
- * and rebuilds the list of active row blocks. Only active row blocks below the highest level are tested, since motion
- * spreads to others through them. Sets b->active.over once no active row block is below the highest level. */
+ * and rebuilds the list of active row blocks. Tests only active row blocks below the highest level, since motion
+ * reaches the others through them. Sets b->active.over when no active row block is below the highest level. */
 static void active_set_follow(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;

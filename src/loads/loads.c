@@ -10,9 +10,9 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates l->loaded [p->n + LANES] and l->list: marks the particles of all loads as LOADED and those within reach of
- * a clamped mirror plane as MOVES_LATER, and lists the marked particles in ascending order. Allocates nothing if no
- * particle can be marked. */
+/* Marks particles in l->loaded[p->n + LANES]: LOADED if a load acts on them, MOVES_LATER if they are within reach of
+ * a clamped mirror plane. Lists the marked particles in l->list, in ascending order. Allocates both arrays, unless
+ * no particle can be marked. */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
@@ -50,8 +50,8 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
     return OK;
 }
 
-/* Replaces the particles on which contact acts (mark TOUCHES in l->loaded) by list[n], in ascending order. The list
- * l->list of all marked particles is rebuilt in ascending order; particles without any mark drop out of it. */
+/* Replaces the particles on which contact acts (mark TOUCHES in l->loaded) by list[n], which is in ascending order.
+ * Rebuilds l->list, all marked particles in ascending order; particles that have no mark left are removed from it. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
@@ -90,9 +90,9 @@ void loads_free(struct loads *l)
 /* ---- forces on particles ----------------------------------------------------------------------------------------- */
 
 /* Prescribes the velocity of the peridynamic particles of a load: replaces their force by m (v_prescribed -
- * v)/dt_velocity. The difference from the previous force is the reaction of the support; its impulse is added to
- * l->impulse and its work to l->constraint_work. load->reaction is summed from the previous forces. by: the motion
- * prescribed in this step; dt_velocity: duration of the velocity update [s]. */
+ * v)/dt_velocity. The difference from the previous force is the force of the support. Its impulse is added to
+ * l->impulse and its work to l->constraint_work; load->reaction becomes the sum of the previous forces. by: the
+ * motion prescribed in this step; dt_velocity: duration of the velocity update [s]. */
 static void drive(struct loads *l, struct load *load, struct particles *p, const struct prescribed_motion *by,
                   real dt_velocity)
 {
@@ -125,9 +125,9 @@ struct force_sum {
     int component;
 };
 
-/* Adds the sum of one force component over the particles first .. end - 1 to *sum [N]; a block function of
- * reproducible_sums. context: a struct force_sum, with the particles and the component. LANES partial sums are kept,
- * because additions to a single one would wait for each other. */
+/* Adds the sum of one force component over the particles first .. end - 1 to *sum [N]. context: a struct force_sum,
+ * with the particles and the component. A block function of reproducible_sums. Adds in LANES partial sums, because
+ * additions to a single one would wait for each other. */
 static void loads_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct force_sum *s = context;
@@ -140,10 +140,10 @@ static void loads_force_block(const void *context, int64_t first, int64_t end, r
     for (int l = 0; l < LANES; l++) *sum += part[l];
 }
 
-/* Adds the impulse of the mirror supports in a velocity update of duration dt_velocity [s] to l->impulse: the sum of
- * all particle forces, normal to each mirror and, if it also holds tangential motion, along it. Forces of bonds between
- * particles cancel in this sum; forces of bonds to images remain and are the reaction of the support. Along other
- * mirrors forces of images cancel in pairs, so nothing is added. */
+/* Adds the impulse of mirror supports in a velocity update of duration dt_velocity [s] to l->impulse: the sum of all
+ * particle forces normal to each mirror, and along mirrors that also hold tangential motion. Forces between two
+ * particles cancel in this sum; forces from mirror images remain and are the reaction of the support. Along other
+ * mirrors the forces from images cancel in pairs. */
 static void mirror_impulse(struct loads *l, const struct particles *p, real dt_velocity)
 {
     bool held[DIM_MAX] = {false};
@@ -159,8 +159,8 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     }
 }
 
-/* Updates load->displacement [m] by one step: a prescribed displacement is stored, a prescribed velocity is integrated
- * over the step. If the values differ between particles, their mean is used. by: motion that the load prescribes in
+/* Updates load->displacement [m] by one step: stores a prescribed displacement, or integrates a prescribed velocity
+ * over the step. If the values differ between particles, uses their mean. by: motion that the load prescribes in
  * this step. */
 static void displacement_update(struct load *load, const struct particles *p, const struct prescribed_motion *by)
 {
@@ -221,13 +221,14 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
     }
 }
 
-/* Largest deviation of a particle from its prescribed position that counts as round-off [spacings]. Larger deviations
- * belong to former points between partly driven nodes, and are kept. */
+/* Largest deviation of a particle from its prescribed position that counts as round-off [spacings]. Larger
+ * deviations are kept: they belong to particles that were material points between nodes of which only some are
+ * driven. */
 #define OFF_PLACE 1e-6
 
-/* Moves the particles of a load with prescribed displacement to their positions at the end of the step, except points
- * of a mesh. Particles moved by bonds are corrected only within round-off (OFF_PLACE spacings). by: motion prescribed
- * in this step; spacing: lattice spacing [m]. Returns true if a point of a grid was moved. */
+/* Moves the particles of a load with prescribed displacement to their positions at the end of the step. Points of a
+ * mesh are skipped. A particle that bonds move is moved only if it is within OFF_PLACE spacings of that position.
+ * by: motion prescribed in this step; spacing: lattice spacing [m]. Returns true if a point of a grid was moved. */
 static bool positions_set(const struct load *load, struct particles *p, const struct prescribed_motion *by,
                           real spacing)
 {

@@ -12,8 +12,8 @@
 /* Returns true for an absorbing boundary. */
 static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOUNDARY_ABSORBING; }
 
-/* Returns true if loads a and b both absorb at the same face of one particle, i.e. have equal face axis and side and a
- * common particle with area. The caller checks that both are absorbing. */
+/* Returns true if two absorbing loads act on the same face of one particle: they have equal face axis and side, and
+ * a common particle with area. */
 static bool absorb_same(const struct load *a, const struct load *b)
 {
     if (a->boundary->face != b->boundary->face || a->boundary->side != b->boundary->side) return false;
@@ -27,8 +27,9 @@ static bool absorb_same(const struct load *a, const struct load *b)
     return false;
 }
 
-/* Returns true if the absorbing face of load a is in the plane of a mirror, i.e. if one of its particles with area is
- * within 0.51 spacings of the plane. False if `mirror` is no mirror or its axis is not that of the face. */
+/* Returns true if the absorbing face of load a is in the plane of a mirror: one of its particles with area is within
+ * 0.51 spacings of the plane. Returns false if `mirror` is no mirror or its axis is not that of the face. spacing
+ * [m]. */
 static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, const struct particles *p, real spacing)
 {
     const int axis = a->boundary->face;
@@ -87,9 +88,9 @@ static void particles_join(struct loads *l, const struct particles *p)
     memory_free(chosen);
 }
 
-/* Returns the coefficient of the dashpot on particle number q of an absorbing load, for motion along axis d [kg/s]:
- * area of the particle times wave impedance of its material (normal or tangential to the face). by: what moves the
- * particle, bonds, grid or mesh; on grids the area is that extrapolated to the face. */
+/* Returns the coefficient of the dashpot on particle number q of an absorbing load for motion along axis d [kg/s]:
+ * area of the particle times wave impedance of its material, normal or tangential to the face. by: what moves the
+ * particle (bonds, grid or mesh); on grids the area extrapolated to the face is used. */
 static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
                          enum moved_by by, int d)
 {
@@ -112,9 +113,9 @@ static int64_t dashpot_of(const struct absorbing *a, int32_t i)
     return found ? found - a->particle : -1;
 }
 
-/* Sets dashpot coefficients of particles moved by bonds to 0 in components that a support or a clamped mirror
- * prescribes, so that the reaction of the support contains no dashpot force. On grids the walls of nodes have this
- * effect. */
+/* Sets the dashpot coefficients of particles moved by bonds to 0 in components that a support or a clamped mirror
+ * prescribes, so that the reaction of the support contains no dashpot force. (On grids, dashpots_hold does so at
+ * nodes of prescribed velocity.) */
 static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
@@ -201,9 +202,9 @@ static int by_dashpot(const void *a, const void *b)
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* Replaces negative dashpot coefficients among rate[n] [kg/s] by 0 and scales the positive ones so that their sum stays
- * equal; all become 0 if the sum is negative. Negative ones arise at nodes behind a face that is not on nodes, because
- * coefficients are extrapolated from the first two particles of each column. */
+/* Replaces negative dashpot coefficients among rate[n] [kg/s] by 0 and scales the positive ones so that the sum does
+ * not change; if the sum is negative, all become 0. Negative coefficients arise at nodes behind a face that is not
+ * on nodes, where they are extrapolated. */
 static void rates_clip(real *rate, int64_t n)
 {
     real all = 0, left = 0;
@@ -211,8 +212,8 @@ static void rates_clip(real *rate, int64_t n)
     for (int64_t I = 0; I < n && all < left; I++) rate[I] = all > 0 ? real_max(rate[I], 0) * (all / left) : 0;
 }
 
-/* Adds a dashpot to grid g for each node with a positive coefficient in any direction. rate: coefficients [dim][g->n]
- * [kg/s]; overwritten. The coefficient of a node beyond a mirror plane is first added to that of its mirror image. */
+/* Adds a dashpot to grid g for each node with a positive coefficient in any direction. rate[dim][g->n]: coefficients
+ * [kg/s], overwritten. The coefficient of a node beyond a mirror plane is first added to that of its mirror image. */
 static void dashpots_list(struct grid *g, real *rate)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++)
@@ -229,7 +230,7 @@ static void dashpots_list(struct grid *g, real *rate)
     }
 }
 
-/* Sets the dashpot coefficient of node `node` in direction `component` to 0, because a wall prescribes its velocity.
+/* Sets the dashpot coefficient of node `node` in direction `component` to 0, because its velocity is prescribed.
  * Does nothing if the node has no dashpot. g->dashpot must be sorted by node. */
 static void dashpots_hold(struct grid *g, int64_t node, int component)
 {
@@ -238,7 +239,7 @@ static void dashpots_hold(struct grid *g, int64_t node, int component)
     if (held) held->rate[component] = 0;
 }
 
-/* Returns an array of n zeroed dashpot coefficients. The memory belongs to a and is used again by the next call. */
+/* Returns an array of n numbers, all 0. The memory belongs to a, and the next call reuses it. */
 static real *field_of(struct absorbing *a, int64_t n)
 {
     GROW("loads.field", a->field, n);
@@ -284,8 +285,8 @@ static real face_weight(int dim, int corner, int place, int axis, int side)
     return weight;
 }
 
-/* Adds the dashpot coefficients of the absorbing load `load` to the nodes of the mesh cells behind its face. rate:
- * coefficients, [dim][mesh->grid.n] [kg/s]. Particles that are not in a cell are skipped. */
+/* Adds the dashpot coefficients of the absorbing load `load` to the nodes of the mesh cells behind its face.
+ * rate[dim][mesh->grid.n]: the coefficients [kg/s]. Particles that are in no cell are skipped. */
 static void mesh_face(const struct absorbing *a, const struct load *load, const struct mesh *mesh,
                       const struct particles *p, real *rate)
 {

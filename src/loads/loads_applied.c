@@ -10,17 +10,17 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if two loads can be applied together: they act on equal lists of particles and their shares (areas,
- * volumes, masses) are constant in time. */
+/* Returns true if two loads can be applied together: they act on equal lists of particles, and their shares (area,
+ * volume or mass of each particle) are constant in time. */
 static bool same_particles(const struct load *a, const struct load *b)
 {
     return !a->moving && !b->moving && a->n == b->n &&
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Replaces the share array (area, volume or mass of each particle) of component d of load b by an equal array of an
- * earlier load or component with the same leader, and frees its own. Without an equal array nothing changes. The leader
- * is the first load on the same list of particles; dim: number of components. */
+/* Looks for an equal array to the shares (area, volume or mass of each particle) of component d of load b, among
+ * earlier components and loads on the same particles. If there is one, load b uses it and frees its own. dim: number
+ * of components. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
     struct load *load = &l->load[b];
@@ -34,9 +34,9 @@ static void share_join(struct loads *l, int b, int d, int dim)
         }
 }
 
-/* Sets the leader of load b, i.e. the first load on the same list of particles (itself, if none is earlier). Replaces
- * share arrays (areas, volumes, masses) that are equal to earlier ones of that leader, and allocates in the leader the
- * previous positions from which work is computed. dim: number of components. */
+/* Sets the leader of load b: the first load on the same list of particles, or b itself. Load b then uses arrays of
+ * shares (areas, volumes, masses) of earlier loads of that leader if they are equal. Allocates in the leader the
+ * previous positions, from which work is computed. dim: number of components. */
 static void load_join(struct loads *l, int b, int dim)
 {
     struct load *load = &l->load[b];
@@ -63,8 +63,8 @@ void loads_merge_equal_particle_lists(struct loads *l, int dim)
     }
 }
 
-/* Returns true if the share array of component d of load b is also used by an earlier load or an earlier component,
- * which frees it. */
+/* Returns true if component d of load b has its array of shares (areas, volumes, masses) in common with an earlier
+ * load or an earlier component, which frees it. */
 static bool is_borrowed(const struct loads *l, int b, int d)
 {
     for (int c = 0; c <= b; c++)
@@ -84,8 +84,9 @@ void loads_shares_free(struct loads *l)
 
 /* ---- one component of all loads of a leader ---------------------------------------------------------------------- */
 
-/* One component of all loads with the same leader, i.e. on the same particles: the particles; different arrays of
- * shares, each with the sum of its values; forces, and positions now and at the last application. */
+/* One component of all loads with one leader, i.e. on the same particles. Term k is value[k] times
+ * share[k][particles]; f: forces of all particles; x: their present positions; before: positions at the last
+ * application, by number in the list. */
 struct push {
     const int32_t *particle;
     int terms;
@@ -93,8 +94,9 @@ struct push {
     real value[BOUNDARIES_MAX], *f, *before;
 };
 
-/* Collects component d of all loads with leader `leader` in *a, one term for each distinct array of shares.
- * factor[l->n]: present factor of each load's value [1]. Returns false if no load of this leader has component d. */
+/* Collects component d of all loads with leader `leader` in *a, one term for each distinct array of shares (areas,
+ * volumes, masses). factor[l->n]: present factor of each load's value [1]. Returns false if no load of this leader
+ * has component d. */
 static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
 {
     const struct load *first = &l->load[leader];
@@ -111,8 +113,8 @@ static bool push_make(struct push *a, const struct loads *l, int leader, struct 
     return a->terms > 0;
 }
 
-/* Computes the forces on the particles number first .. end - 1 of a leader's list: force[k] = sum of value * share over
- * the terms of a [N]. force: [end - first]. */
+/* Computes force[end - first], the forces on the particles number first .. end - 1 of a list: force = sum of value *
+ * share over the terms of a [N]. */
 static void loads_applied_forces(const struct push *a, int64_t first, int64_t end, real *restrict force)
 {
     for (int b = 0; b < a->terms; b++) {
@@ -121,8 +123,8 @@ static void loads_applied_forces(const struct push *a, int64_t first, int64_t en
     }
 }
 
-/* Adds `force` [N] to the force on particle i, number k of the leader's list, and stores the present coordinate of the
- * particle in a->before[k]. Returns the force. */
+/* Adds `force` [N] to the force on particle i, number k of the list, and stores the present coordinate of the
+ * particle in a->before[k]. Returns `force`. */
 static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     a->before[k] = a->x[i];
@@ -130,8 +132,8 @@ static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, r
     return force;
 }
 
-/* Returns the work of `force` [N] on particle i, number k of the leader's list, over its displacement since push_one
- * stored its coordinate [J]. */
+/* Returns the work of `force` [N] on particle i, number k of the list, over its displacement since a->before[k] was
+ * stored [J]. */
 static ALWAYS_INLINE real work_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     return force * (a->x[i] - a->before[k]);
@@ -143,9 +145,9 @@ static bool follow_each_other(const int32_t *particle, int64_t first, int64_t en
     return particle[end - 1] - particle[first] == end - 1 - first;
 }
 
-/* Returns the sum of one(a, k, i, force[k - first]) over the particles number k = first .. end - 1 of a leader's list,
- * with i = a->particle[k], in LANES partial sums. force: [end - first] [N]. dense: particles have consecutive indices,
- * as in a body loaded everywhere. */
+/* Returns the sum of one(a, k, i, force[k - first]) over k = first .. end - 1, with i = a->particle[k], in LANES
+ * partial sums. k: number in the list of particles; force[end - first] [N]; dense: true if the indices of these
+ * particles are consecutive, a constant of the compiler. */
 static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64_t, real), const struct push *a,
                                     int64_t first, int64_t end, const real *force, const bool dense)
 {
@@ -161,8 +163,8 @@ static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64
     return sum;
 }
 
-/* Applies the forces of a struct push, the context, to the particles number first .. end - 1 of its list, and adds
- * their sum to *sum [N]; a block function of reproducible_sums. */
+/* Applies the forces of a struct push (context) to the particles number first .. end - 1 of its list, and adds their
+ * sum to *sum [N]. A block function of reproducible_sums. */
 static void push_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct push *a = context;
@@ -172,8 +174,8 @@ static void push_block(const void *context, int64_t first, int64_t end, real *su
                                                        : block_sum(push_one, a, first, end, force, false);
 }
 
-/* Adds the work of the forces of a struct push, the context, on the particles number first .. end - 1 of its list to
- * *sum [J]; a block function of reproducible_sums. */
+/* Adds the work of the forces of a struct push (context) on the particles number first .. end - 1 of its list to
+ * *sum [J]. A block function of reproducible_sums. */
 static void work_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct push *a = context;
@@ -185,17 +187,17 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the mean of time function f over the velocity update (kick) from t - dt_velocity to t [s], by the trapezoidal
- * rule [1]. The value at its end alone would be half a step late, a first-order error. A load that switches at a whole
- * step still has its full impulse: half of it in the kick that contains the switch. */
+/* Returns the mean of time function f over the velocity update (kick) from t - dt_velocity to t [s], by the
+ * trapezoidal rule [1]. The value at the end of the kick alone would be half a step late, a first-order error. A
+ * load that switches at a whole step keeps its full impulse: half of it is in the kick that contains the switch. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_value(f, t - dt_velocity) + time_function_value(f, t));
 }
 
-/* Adds the applied forces at time t to their particles and their impulses over dt_velocity [s] to l->impulse. The
- * impulse of a step is summed before it is added to that of all steps: round-off then grows with the number of steps,
- * not with steps times particles. */
+/* Adds the applied forces at time t [s] to their particles, and their impulses over dt_velocity [s] to l->impulse.
+ * The impulse of a step is summed before it is added to that of all steps, so that round-off grows with the number
+ * of steps alone. */
 void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velocity)
 {
     real factor[BOUNDARIES_MAX], given;
@@ -213,10 +215,10 @@ void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velo
         }
 }
 
-/* Returns the factor of a load for its work over the drift of the step of size dt about t [s]: the mean of time
- * function f over the kicks before and after it, f(t)/2 + (f(t - dt) + f(t + dt))/4 [1]. With kicks F_n at positions
- * x_n and drifts v dt between them, the change of m v- . v+/2 equals sum (F_n + F_n+1)/2 . v dt exactly, however short
- * a load is. */
+/* Returns the factor of a load for its work over the position update (drift) of the step of size dt about t [s]: the
+ * mean of time function f over the velocity updates (kicks) before and after it, f(t)/2 + (f(t - dt) + f(t + dt))/4
+ * [1]. With kicks F_n and drifts v dt between them, the change of m v- . v+/2 equals sum (F_n + F_n+1)/2 . v dt
+ * exactly, however short a load is. */
 static real drift_factor(const struct time_function *f, real t, real dt)
 {
     return 0.5 * time_function_value(f, t) +
@@ -240,8 +242,8 @@ void loads_add_work(struct loads *l, struct particles *p, real t, real dt)
         }
 }
 
-/* Sets all force components of the particles number first .. end - 1 of a load to 0, as bytes if their indices are
- * consecutive. */
+/* Sets all force components of the particles number first .. end - 1 of a load to 0. Clears them as bytes if their
+ * indices are consecutive. */
 static void clear_run(const struct load *load, struct particles *p, int64_t first, int64_t end)
 {
     const bool dense = follow_each_other(load->particle, first, end);

@@ -18,9 +18,11 @@
 #define GAP 1.75
 #define BENEATH 0.25 /* smallest distance from the first to the next particle [widths] */
 #define EVEN 1e-4    /* relative difference of volumes that count as equal: lattices may be written in decimals */
-/* shift of cubes that end at middle lines of columns, so that each counts at one end only [widths] */
+/* Shift of the cubes of particles, so that a cube whose two ends are at middle lines of columns is in one of these
+ * columns only [widths]. */
 #define TO_ONE_SIDE 1e-6
-/* least order parameter of sites: 0 without order, 1 on a lattice, sin(2 pi s)/(2 pi s) if shifted by s spacings */
+/* Smallest order parameter at which positions count as lattice sites [1]: 0 without order, 1 on a lattice, sin(2 pi
+ * s)/(2 pi s) if positions are shifted by up to s spacings. */
 #define ORDER_LEAST 0.05
 #define ORDER_CHANCE 3.0 /* times sqrt(n): sum that n disordered particles may reach by chance */
 enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
@@ -66,9 +68,9 @@ static void find_width(struct columns *c, const struct boundary *b, const struct
     if (fabs(c->width - c->spacing) <= EVEN * c->spacing) c->width = c->spacing;
 }
 
-/* Finds a lattice site of body c->body along axis d, at or near coordinate `low` [m], and stores it in *site [m]:
- * positions are mapped to angles on a circle of one particle width, and the mean direction gives the site. At most
- * about SITES_SAMPLED particles are used. Returns false if the particles have no order along d. */
+/* Finds a lattice site of body c->body along axis d, at or near coordinate `low`, and stores its coordinate in *site
+ * [m]. Positions are mapped to angles on a circle of one particle width, and the mean direction gives the site. Uses
+ * at most about SITES_SAMPLED particles. Returns false if the particles have no order along d. */
 static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
 {
     const int64_t stride = p->n / SITES_SAMPLED + 1;
@@ -84,9 +86,9 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
            along > (1 - EVEN) * (real)n;
 }
 
-/* Computes the axes across the columns, their distance c->step, and c->middle, the middle line of column 0 along each
- * of these axes [m]. Columns are at lattice sites if particles are ordered and of one volume, else FINE columns per
- * particle width. */
+/* Computes the axes across the columns (parallel to the normal of b's face), the distance c->step of columns, and
+ * c->middle, the middle line of column 0 along each of these axes [m]. Columns are at lattice sites if particles are
+ * ordered and have one volume, else there are FINE columns per particle width. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];
@@ -135,8 +137,8 @@ static void table_grow(struct columns *c)
     memory_free(old.number);
 }
 
-/* Returns the number of the column with position key `key`. A missing column is appended if `make` is true; otherwise
- * -1 is returned. */
+/* Returns the number of the column with position key `key`. If there is none, appends one if `make` is true, else
+ * returns -1. */
 static int32_t column_number(struct columns *c, int64_t key, bool make)
 {
     if (make && 2 * c->n >= c->room) table_grow(c);
@@ -146,7 +148,7 @@ static int32_t column_number(struct columns *c, int64_t key, bool make)
     return c->number[place];
 }
 
-/* The columns through a particle's cube: from .. to - 1 along each axis. */
+/* The columns through the cube of a particle: numbers from .. to - 1 along each axis. */
 struct span {
     int64_t from[DIM_MAX - 1], to[DIM_MAX - 1];
 };
@@ -162,8 +164,9 @@ static struct span span_of(const struct columns *c, const struct particles *p, i
     return s;
 }
 
-/* Counts particle i in c->count of each column through its cube (put false), or stores it in c->order there (put true).
- * While counting, particles of body c->body create columns; particles of other bodies enter existing columns only. */
+/* Counts particle i in c->count of each column through its cube (`put` false), or stores it in c->order there (`put`
+ * true). While counting, a particle of body c->body creates columns that do not exist; a particle of another body is
+ * counted in existing columns only. */
 static void particle_enter(struct columns *c, const struct boundary *b, const struct particles *p, int64_t i, bool put)
 {
     const bool make = p->body[i] == c->body && !put;
@@ -209,9 +212,9 @@ static void sort_column(const struct boundary *b, const struct particles *p, int
         }
 }
 
-/* Makes the columns of body c->body and stores in c->order the particles of each, ascending in height along the outward
- * normal of boundary b's face. If b acts on all bodies, particles of other bodies are included where they are in a
- * column. */
+/* Makes the columns of body c->body along the normal of boundary b's face. Stores in c->order the particles of each
+ * column, in ascending height along the outward normal. If b acts on all bodies, the columns include particles of
+ * other bodies. */
 static void columns_fill(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     for (int others = 0; others < (b->body < 0 ? 2 : 1); others++)
@@ -257,8 +260,8 @@ static real behind(const struct columns *c, const struct boundary *b, const stru
            (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
 }
 
-/* Returns the index in c->order of the highest exposed particle of column `column` among indices less than `from`, or
- * -1 if there is none. Exposed particles are selected ones with no particle within GAP widths in front of them.
+/* Returns the index in c->order of the highest exposed particle of column `column` among indices below `from`, or -1
+ * if there is none. An exposed particle is selected and has no particle within GAP widths in front of it.
  * selected[p->n]: 1 for particles in the region of boundary b. */
 static int64_t exposed_below(const struct columns *c, int64_t column, int64_t from, const struct boundary *b,
                              const struct particles *p, const uint8_t *selected)
@@ -273,8 +276,8 @@ static int64_t exposed_below(const struct columns *c, int64_t column, int64_t fr
 }
 
 /* Returns the index in c->order of the first exposed particle of column `column`, seen from outside the face of
- * boundary b. Returns -1 if the column has none, or if it belongs to another body, whose own columns contain it.
- * selected[p->n]: 1 for particles in the region of b. */
+ * boundary b. Returns -1 if the column has none, or if that particle belongs to another body. selected[p->n]: 1 for
+ * particles in the region of b. */
 static int64_t loads_columns_shown(const struct columns *c, int64_t column, const struct boundary *b,
                                    const struct particles *p, const uint8_t *selected)
 {
@@ -295,12 +298,13 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
     return -1;
 }
 
-/* Adds the area of column `column` to the areas f of its first exposed particle and, for tangential components, of the
- * next one. A traction acts on the face, half a spacing outside the first particle. For tangential components this
- * offset would cause a moment: in shear, a plate of n particles per side would have 1 + 1.3/n of the stress. So the
- * first particle gets 3/2 of the tangential area and the next one -1/2: linear extrapolation, which keeps force and
- * first moment. Without a next particle, or with `two` false, the first one gets all of it. selected[p->n]: 1 for
- * particles in the region of b; area: of the column [m^2]; 0: volume of its first particle/width. */
+/* Adds the area of column `column` to the areas f [m^2] of its first exposed particle and, for tangential
+ * components, of the next one. Tangential traction acts on the face, half a spacing outside the first particle, and
+ * this offset would cause a moment: a plate of n particles per side in shear would have 1 + 1.3/n of the stress. So
+ * the first particle gets 3/2 of the tangential area and the next one -1/2, a linear extrapolation that keeps force
+ * and first moment. Without a next particle, or if `two` is false, the first one gets all of it. selected[p->n]: 1
+ * for particles in the region of b; area: of the column [m^2], or 0 for the volume of its first particle over its
+ * width. */
 static void face_add(struct exposed_face *f, const struct columns *c, int64_t column, const struct boundary *b,
                      const struct particles *p, const uint8_t *selected, real area, bool two)
 {
@@ -314,8 +318,8 @@ static void face_add(struct exposed_face *f, const struct columns *c, int64_t co
     if (m >= 0) f->along[c->order[m]] += area * -0.5;
 }
 
-/* Returns the cross-section of a column [m^2]: volume of a cubic particle over its height, as on a lattice, reduced if
- * columns are finer than particles. Returns 0 if boundary b has no section. */
+/* Returns the cross-section of a column [m^2]: volume of a cubic particle over its height. It is less if columns are
+ * finer than particles. Returns 0 if boundary b has no section. dim: number of dimensions. */
 static real column_area(const struct columns *c, const struct boundary *b, int dim)
 {
     if (!(b->section > 0)) return 0;
@@ -332,9 +336,9 @@ struct faced {
     struct columns columns;
 };
 
-/* Makes in f->columns the columns of the next body that has a selected particle, and frees the previous ones. f: zero
- * at first. selected[p->n]: 1 for particles in the region of boundary b; spacing: lattice spacing [m]. Returns false,
- * with all columns freed, after the last body. */
+/* Makes in f->columns the columns of the next body that has a selected particle, and frees the previous ones. Before
+ * the first call, f must be zero. selected[p->n]: 1 for particles in the region of boundary b; spacing: lattice
+ * spacing [m]. Returns false after the last body, with all columns freed. */
 static bool faced_next(struct faced *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                        real spacing)
 {

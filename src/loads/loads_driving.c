@@ -125,8 +125,8 @@ real prescribed_velocity_at(const struct prescribed_motion *motion, const real *
 
 enum { MOMENTS = 1000, PLACES = 64 };
 
-/* Returns the largest speed that load l prescribes for its particle number k between times 0 and t [s], by differences
- * between MOMENTS + 1 sampled times [m/s]. */
+/* Returns the largest speed that load l prescribes for its particle number k between times 0 and t [s], from
+ * differences between MOMENTS + 1 equidistant times [m/s]. */
 static real formula_speed(const struct load *l, const struct particles *p, int64_t k, real t)
 {
     real before[DIM_MAX], u[DIM_MAX], most = 0;
@@ -152,8 +152,8 @@ real load_largest_displacement_speed(const struct load *l, const struct particle
     return most;
 }
 
-/* Returns the difference between the velocity that load l prescribes for its particle number k and the present velocity
- * of the particle [m/s]; for rotations the difference of speeds. by: the prescribed motion. */
+/* Returns the difference between the velocity that load l prescribes for its particle number k and the present
+ * velocity of the particle [m/s]; for rotations, the difference of their speeds. by: motion that l prescribes now. */
 static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k,
                              const struct prescribed_motion *by)
 {

@@ -6,10 +6,10 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* Returns the step to which coordinates along `axis` of particles with images are rounded [m], or 0 if all mirrors of
- * this axis are at 0. It is the last bit of twice the farthest coordinate (plus `reach` [m]), so that reflection causes
- * no rounding. The force of particle i on the image of j then cancels that of j on the image of i to the last bit;
- * otherwise round-off of bond lengths would move slow bodies. boundary: the n boundaries of the scene. */
+/* Returns the step to which coordinates along `axis` of particles with images are rounded [m], or 0 if all mirrors
+ * of this axis are at 0. It is the last bit of twice the farthest coordinate plus `reach` [m], so that reflection
+ * causes no rounding. The force of particle i on the image of j then cancels that of j on the image of i to the last
+ * bit; otherwise round-off of bond lengths would move slow bodies. boundary[n]: boundaries of the scene. */
 static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
 {
     real farthest = 0;
@@ -28,9 +28,9 @@ static real stepped(const struct loads *l, int axis, real place)
     return step > 0 ? step * nearbyint(place / step) : place;
 }
 
-/* Appends to p and l->image the images of mirror `which`: of all particles and earlier images (for corners) of its body
- * that are within `reach` [m] of the plane. Particles on the plane have no image: each is its own. Sources are rounded
- * to l->place_step. optional: optional particle arrays, as in particles_make. */
+/* Appends the images of mirror number `which` to p and l->image: of all particles and earlier images (for corners)
+ * of its body that are within `reach` of the plane [m]. Particles on the plane have no image. Positions of the
+ * sources are rounded to multiples of l->place_step. optional: which optional particle arrays to allocate. */
 static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
 {
     const struct boundary *b = l->load[which].boundary;
@@ -80,7 +80,7 @@ void loads_update_mirror_images(const struct loads *l, struct particles *p)
     }
 }
 
-/* Returns REFUSED, with a message, if particles of the mirror's body are on both sides of its plane: their images would
+/* Returns REFUSED, with a message, if particles of the mirror's body are on both sides of its plane: images would
  * coincide with particles. b: the mirror; spacing: lattice spacing [m]. */
 static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
 {
@@ -96,8 +96,8 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
                       b->name, "xyz"[b->axis], b -> at);
 }
 
-/* Returns the side of mirror b on which there is no body: -1 below the plane, +1 above it. The body is where the mean
- * of its particles is. */
+/* Returns the side of mirror b on which there is no body: -1 below the plane, 1 above it. The body is on the side of
+ * the mean coordinate of its particles. */
 static int mirror_outside(const struct boundary *b, const struct particles *p)
 {
     real sum = 0;
@@ -106,10 +106,10 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
     return sum > 0 ? -1 : 1;
 }
 
-/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide or are closer than the reach of bonds
- * [m]. A particle between close mirrors would have bonds to images of images on both sides, of which only one exists;
- * the forces would have no potential, and no time step would be stable. b: the n boundaries of the scene; spacing:
- * lattice spacing [m]. */
+/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide or are closer than `reach`, the reach
+ * of bonds [m]. A particle between close mirrors would have bonds to images of images on both sides, of which only
+ * one exists; the forces would have no potential, and no time step would be stable. b[n]: boundaries of the scene;
+ * spacing: lattice spacing [m]. */
 static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
 {
     for (int k = 0; k < n; k++)

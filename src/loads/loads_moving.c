@@ -52,8 +52,9 @@ status loads_check_finite(const struct loads *l, const struct particles *p, real
     return OK;
 }
 
-/* Gives each component of load l its own array of shares (areas, volumes, masses), in place of arrays that components
- * have in common. with: multiply the new shares by the formula of the component at time t [s]. */
+/* Allocates an array of shares (area, volume or mass of each particle) for each component of load l, in place of
+ * arrays that components have in common. If `with` is true, multiplies the new shares by the formula of the
+ * component at time t [s]. */
 static void shares_part(struct load *l, const struct particles *p, bool with, real t)
 {
     for (int d = p->dim; d-- > 0;) {
@@ -89,9 +90,9 @@ void load_varying_shares_free(struct load *l)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Updates the shares of component d of load l for the velocity update (kick) from t - dt to t [s]: base share times the
- * mean of (function of time)*(formula) at both times. This new value is weighted by `half`, the previous share by 1 -
- * half. */
+/* Updates the shares of component d of load l for the velocity update (kick) from t - dt to t [s]: share = half *
+ * new + (1 - half) * share. The new one is the area, volume or mass times the mean of (function of time)*(formula)
+ * at both times. */
 static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
 {
     const struct boundary *b = l->boundary;
@@ -104,9 +105,9 @@ static void moving_shares(struct load *l, const struct particles *p, int d, real
         });
 }
 
-/* Updates the shares of all loads that change in time, for the velocity update (kick) from t - dt to t [s]. half:
- * weight of the new shares; the previous ones have the weight 1 - half. Areas of following pressures are recomputed
- * first. */
+/* Updates the shares (factors of each particle) of all loads that change in time, for the velocity update (kick)
+ * from t - dt to t [s]. half: weight of the new shares; the previous ones have the weight 1 - half. Areas of
+ * pressures that follow the surface are recomputed first. */
 static void moving_update(struct loads *l, const struct particles *p, real t, real dt, real half)
 {
     for (int b = 0; b < l->n; b++) {
@@ -123,9 +124,10 @@ void loads_update_shares_for_velocity_update(struct loads *l, const struct parti
     moving_update(l, p, t, dt_velocity, 1);
 }
 
-/* Replaces the shares of loads that change in time by the mean of two: the shares of the kick before and of the kick
- * after the drift of the step of size dt about t [s]. Called after the drift, so that the second ones have the new
- * positions. Work of the drift can then be summed. */
+/* Replaces the shares (factors of each particle) of loads that change in time by the mean of two: those of the
+ * velocity updates before and after the position update of the step of size dt about t [s]. Must be called after the
+ * position update, so that the second ones have the new positions. The work of loads over the step can then be
+ * summed. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);
@@ -133,8 +135,8 @@ void loads_update_shares_for_work(struct loads *l, const struct particles *p, re
 
 /* ---- totals ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the force of load l on its k-th particle at time t [s], from the reference position of the particle. force:
- * dim components [N]. */
+/* Computes the force of load l on its k-th particle at time t [s], from the reference position of the particle, in
+ * force[dim] [N]. */
 void load_force_on_particle(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
 {
     const struct boundary *b = l->boundary;

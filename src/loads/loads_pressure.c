@@ -14,7 +14,8 @@
 #include "base/memory.h"
 #include "data/extent.h"
 
-/* Parameters of end_found, which receives the free ends of columns of particles along one axis. */
+/* Parameters of the visit of free ends of columns of particles along one axis: the function `found` is called with
+ * `context` for each end. */
 struct ends {
     const struct boundary *boundary, *all; /* boundary with axis and side; boundaries of the scene */
     int n;                                 /* number of boundaries of the scene */
@@ -87,8 +88,8 @@ static void face_pressed(void *context, int32_t i, int axis, int side, real area
 }
 
 /* Makes load l a pressure on the reference surface: its particles are those with a free face, their shares the areas
- * along the inward normal. area: summed areas along the outward normal, [dim][p->n] [m^2]. Returns false if no particle
- * has a free face. */
+ * along the inward normal. area[dim][p->n]: summed areas along the outward normal [m^2]. Returns false if no
+ * particle has a free face. */
 static bool pressure_shares(struct load *l, struct particles *p, real *const *area)
 {
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);

@@ -35,8 +35,8 @@ static real profile_at(const struct profile *f, const struct particles *p, int64
     return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
 }
 
-/* Computes the shares of body force l: volume, or mass for gravity, of each particle times the profile of the
- * boundary. */
+/* Computes the shares of body force l: volume of each particle, or its mass for gravity, times the profile of the
+ * boundary at the particle. */
 static void body_shares(struct load *l, const struct particles *p)
 {
 #pragma omp parallel for schedule(static)
@@ -45,7 +45,8 @@ static void body_shares(struct load *l, const struct particles *p)
                          profile_at(&l->boundary->profile, p, l->particle[k]);
 }
 
-/* Allocates the shares of load l, [l->n] for each of dim components. All components of a body force have one array. */
+/* Allocates the shares of load l (factors of its particles), [l->n] for each of dim components. A body force has one
+ * array for all components. */
 static void shares_allocate(struct load *l, int dim)
 {
     const bool alike = l->boundary->kind == BOUNDARY_BODY_FORCE;
@@ -72,9 +73,9 @@ void load_set_particles(struct load *l, const uint8_t *selected, struct particle
     if (boundary_applies_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
-/* Sets the particles of traction l to those on its exposed face, and their shares to areas: face.normal for the normal
- * component, face.along for the tangential ones [m^2]. selected[p->n]: 1 for particles in its region; spacing: lattice
- * spacing [m]. */
+/* Sets the particles of traction l to those on its exposed face, and their shares to their areas: normal area for
+ * the normal component, tangential area for the others [m^2]. selected[p->n]: 1 for particles in its region;
+ * spacing: lattice spacing [m]. */
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;
@@ -90,7 +91,8 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
 }
 
 /* Sets the particles of absorbing boundary l to those on its exposed face and behind it, and stores their areas
- * l->outer and l->edge [m^2]. selected[p->n]: 1 for particles in its region; spacing: lattice spacing [m]. */
+ * l->outer and l->edge (extrapolated to the face) [m^2]. selected[p->n]: 1 for particles in its region; spacing:
+ * lattice spacing [m]. */
 static void select_absorbing(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;

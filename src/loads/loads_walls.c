@@ -16,8 +16,8 @@ static void constrained_add(struct constrained_set *s, int64_t node, int compone
 }
 
 /* Returns true if a load constrains component `component` of every node at position x[dim] [m]: in the region of a
- * prescribed motion, on a mirror plane or beyond it. False for layers behind a face, whose particles determine the
- * driven nodes. tolerance: of region and plane [m]. */
+ * prescribed motion, on a mirror plane or beyond it. Returns false for loads on layers behind a face, whose
+ * particles determine the driven nodes. tolerance: of region and plane [m]. */
 static bool node_constrained(const struct load *load, const struct grid *g, const real *x, real tolerance,
                              int component)
 {
@@ -36,9 +36,9 @@ bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spaci
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
-/* Replaces the box indices k[dim] of a node beyond the mirror plane of `load` by those of its mirror image, and
- * reverses the signs of its components in f. Nodes not beyond the plane are left unchanged. Returns false if a node
- * beyond the plane has no image in the box. spacing: lattice spacing, to which tolerances refer [m]. */
+/* If the node with box indices k[dim] is beyond the mirror plane of `load`, replaces k by the indices of its mirror
+ * image, and reverses the signs in *f of components that the mirror reverses. Returns false if the image is not in
+ * the box. spacing: lattice spacing, to which tolerances refer [m]. */
 static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct mirror_node *f)
 {
     const struct boundary *b = load->boundary;
@@ -93,9 +93,9 @@ static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, re
     for (int d = 0; d < g->dim; d++) x[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
-/* Returns true if the position of node I of the mesh must not decide whether `load` constrains it. Nodes doubled by
- * slits are driven by the material of their cells; on a mirror, some have material that a slit separates from its
- * image. False without mesh or slits. */
+/* Returns true if `load` must not constrain node I of the mesh because of its position. This concerns nodes doubled
+ * by slits: the material of their cells decides whether they are driven, and on a mirror a slit may separate their
+ * material from its image. Returns false without mesh or slits. */
 static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
 {
     if (!mesh || !mesh->slits.split) return false;
@@ -103,10 +103,10 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
     return mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
 }
 
-/* Lists in *s the components of nodes of g that regions and mirrors constrain by position, and adds the mirror nodes to
- * g. Done once for each box of nodes. mesh: the mesh whose grid g is, or NULL. reference: nodes move with the material,
- * so that regions of rotating loads count too. Extra nodes of slits have no mirror nodes: slits are refused where a
- * mirror is between nodes. */
+/* Lists in *s the components of nodes of g that regions and mirrors constrain by position, and adds the mirror nodes
+ * to g. Must be called once for each box of nodes. mesh: the mesh whose grid g is, or NULL; reference: true if nodes
+ * move with the material, so that regions of rotating loads count too. Nodes doubled by slits have no mirror nodes:
+ * slits are refused where a mirror is between nodes. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p, bool reference)
 {
@@ -132,7 +132,8 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     }
 }
 
-/* Returns true if constrained_find has listed component `component` of mesh node I for this load, by its position. */
+/* Returns true if the position of mesh node I makes `load` constrain its component `component`, by a region or a
+ * mirror. */
 static bool constrained_by_region(const struct loads *l, const struct load *load, const struct mesh *mesh, int64_t I,
                                   int component)
 {
@@ -157,9 +158,9 @@ static bool point_is_on(const struct grid *g, const struct particles *p, int32_t
            (g->body == 0 || g->body == p->body[i] + 1);
 }
 
-/* Maps the mass of the material points of `load` that are on grid g to its nodes, in l->share [g->n] [kg]. k: kernels;
- * half_width: half the reference edge of a particle [m]. Returns the number of these points; with 0, l->share is not
- * set. */
+/* Maps the mass of the material points of `load` that are on grid g to its nodes, in l->share[g->n] [kg]. k:
+ * interpolation kernels; half_width: half the reference edge of a particle [m]. Returns the number of these points;
+ * if it is 0, l->share is not set. */
 static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
                             const struct kernels *k, real half_width)
 {
@@ -181,17 +182,17 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
     return n;
 }
 
-/* Motion that a load prescribes in this step and in the previous one. */
+/* Motion that a load prescribes in this step and in the previous one. A wall is the prescribed velocity of one
+ * component of a node. */
 struct driven_by {
     struct prescribed_motion now, before;
     bool uniform;              /* the motion is that of `wall` at every node */
     struct wall wall[DIM_MAX]; /* only if `uniform`: by component, without node */
 };
 
-/* Returns the wall (prescribed velocity) for component d of node I at x [m], with its change of velocity since the
- * previous step. That change is the one of the material at the node. which: number of the load; reference: nodes move
- * with the material, as on a mesh, where a displacement also prescribes the nodal displacement at the end of the step.
- */
+/* Returns the wall (prescribed velocity) for component d of node I at x[dim] [m], with its change since the previous
+ * step, which is that of the material at the node. which: number of the load; reference: true if nodes move with the
+ * material, as on a mesh; a displacement then also prescribes the displacement of the node at the end of the step. */
 static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x, int d, int which, bool reference)
 {
     const struct boundary *b = by->now.boundary;
@@ -206,8 +207,8 @@ static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x,
     return (struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0};
 }
 
-/* Adds walls (prescribed velocities) of load number `which` at the nodes that have at least half of their mass from its
- * points, by l->share. Nodes already constrained by the load's region are skipped: a second wall would count the
+/* Adds walls (prescribed velocities) of load number `which` at the nodes that have at least half of their mass from
+ * its points, by l->share. Skips nodes that the region of the load constrains already: a second wall would count the
  * inertia of the node as a reaction. by: motion that this load prescribes. */
 static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by,
                          const struct particles *p)
@@ -228,8 +229,9 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
     }
 }
 
-/* Evaluates the motion that all loads prescribe in the step of size dt about t [s] and in the previous step: by[l->n].
- * In the first step both are equal. reference: nodes move with the material, as on a mesh. */
+/* Evaluates by[l->n], the motion that all loads prescribe in the step of size dt about t [s] and in the previous
+ * step; in the first step both are equal. dim: dimensions; reference: true if nodes move with the material, as on a
+ * mesh. */
 static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool reference, struct driven_by *by)
 {
     const real anywhere[DIM_MAX] = {0};
@@ -241,8 +243,8 @@ static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool 
     }
 }
 
-/* Adds walls (prescribed velocities) to grid g for all components in set s whose nodes have mass. mesh: the mesh whose
- * grid g is, or NULL; by[load]: prescribed motion; reference: nodes move with the material. */
+/* Adds walls (prescribed velocities) to grid g for all node components of set s whose nodes have mass. mesh: the
+ * mesh whose grid g is, or NULL; by[loads]: prescribed motion; reference: true if nodes move with the material. */
 static void constrained_walls(const struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                               const struct driven_by *by, bool reference)
 {
@@ -280,8 +282,9 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Adds the mass that the points of `load` contribute to each node I to share[mesh->grid.n] [kg], and sets mark[I] = 1
- * for these nodes. share is valid at marked nodes alone; all marks must be 0. */
+/* Adds the mass that the points of `load` contribute to each node I of the mesh to share[I] [kg], and sets mark[I] =
+ * 1 for these nodes. At the first contribution share[I] is overwritten, so that it need not be cleared; all marks
+ * must be 0. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {
