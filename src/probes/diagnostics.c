@@ -18,9 +18,9 @@ void diagnostics_make(struct diagnostics *w)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Computes the momentum of all particles and of the nodes of the `grids` grids nodes[], and the momentum error:
- * |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]: impulse supplied by loads
- * and supports since the start [N s]. */
+/* Computes the momentum of all particles and of the nodes of the grids nodes[grids], and the momentum error
+ * |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]: impulse that loads and
+ * supports have supplied since the start [N s]. */
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
                                  int grids, const real *impulse)
 {
@@ -41,8 +41,8 @@ real diagnostics_energy_change(const struct diagnostics *w)
     return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
 }
 
-/* Computes w->now.balance_error = (energy - initial energy - external work)/(largest energy or work so far) [1], 0
- * while that is 0. */
+/* Computes w->now.balance_error = (energy - initial energy - external work)/(largest energy or work so far) [1]; 0
+ * if the denominator is 0. */
 static void balance_of(struct diagnostics *w)
 {
     struct energy_balance *l = &w->now;
@@ -65,7 +65,7 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
 /* ---- the first break --------------------------------------------------------------------------------------------- */
 
 /* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
- * distances up to the horizon. list[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the middle of one
+ * distances up to `horizon` [m]. list[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the middle of one
  * group in centre[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
 int64_t diagnostics_locate_cuts(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre)
 {

@@ -6,8 +6,8 @@
 #include "probes/diagnostics.h"
 #include "run/part.h"
 
-/* Writes the energies, the external work, and the errors of the balances of energy, momentum and angular momentum to
- * JSON object j. */
+/* Writes the energies, the external work and the errors of the balances of energy, momentum and angular momentum to
+ * the JSON object j. */
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
@@ -19,8 +19,8 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
     json_write_real(j, "angular_momentum_error", l->spin_error);
 }
 
-/* Writes the time t of an event [s] under the key `what`_time; in runs in load steps, the number of the step under
- * `what`_step. Writes no step if t is NAN. */
+/* Writes the time t of an event [s] under the key `what`_time. In runs in load steps, writes the number of the step
+ * under `what`_step instead, or nothing if t is NAN. */
 static void put_when(struct json *j, const struct scene *scene, const struct run_clock *clock, const char *what, real t)
 {
     char key[NAME_MAX_LENGTH];

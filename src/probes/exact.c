@@ -19,9 +19,10 @@ static real exact_position(const struct exact *e, real s) { return e->loaded > 0
 /* Returns the reflection factor of the end opposite to the loaded one: 1 at a fixed end, -1 at a free one. */
 static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
 
-/* Adds the jumps of a stress front to the values at a position. jump: stress behind minus stress ahead [Pa]; sign: 1
- * or -1, direction of travel along x; age: time since the front passed the position [s], nothing is added if it is
- * negative. The jump of velocity follows from the balance of momentum, rho speed v = -sign sigma. */
+/* Adds the jumps of a stress front to *v, the values at a position. jump: stress behind minus stress ahead [Pa];
+ * modulus: stress over strain in the front [Pa]; speed: of the front [m/s]; sign: 1 or -1, direction of travel along
+ * x; age: time since the front passed the position [s]. If age < 0, nothing is added. The jump of velocity v follows
+ * from the balance of momentum, rho speed v = -sign sigma. */
 static void add_front(struct exact_values *v, const struct exact *e, real jump, real modulus, real speed, int sign,
                       real age)
 {
@@ -68,8 +69,8 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 
 /* ---- pulses ------------------------------------------------------------------------------------------------------ */
 
-/* Adds displacement, velocity and strain of wave pulse p in an infinite bar to v, at distance eta [m] ahead of the
- * centre of the pulse. sign: direction of travel along x, 1 or -1; factor: sign of the displacement after all
+/* Adds displacement, velocity and strain of wave pulse p in an infinite bar to *v, at distance eta ahead of the
+ * centre of the pulse [m]. sign: direction of travel along x, 1 or -1; factor: sign of the displacement after all
  * reflections. */
 static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int sign,
                       real factor)
@@ -82,8 +83,8 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
     v->strain += factor * sign * wave.strain;
 }
 
-/* Adds pulse p and its reflections at the ends of the bar to v, at coordinate X [m] and time t [s]. The reflections are
- * images of the pulse at distances of the bar's length; the displacement changes its sign at a fixed end. */
+/* Adds pulse p and its reflections at the ends of the bar to *v, at coordinate X [m] and time t [s]. The reflections
+ * are images of the pulse, each a length of the bar farther; the displacement changes its sign at a fixed end. */
 static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;
@@ -137,8 +138,8 @@ struct exact_values exact_solution_at(const struct exact *e, real X, real t)
 
 /* ---- fronts and plateaus ----------------------------------------------------------------------------------------- */
 
-/* Returns position, direction and stresses of the elastic front in a step-loaded bar at time t [s]. The front is
- * reflected at both ends; the stress behind it is the sum of its jumps in all passages. */
+/* Returns position, direction and stresses of the elastic front in a bar under a sudden constant load at time t [s].
+ * The front is reflected at both ends. The stress behind it is the sum of its jumps in all passages. */
 static struct exact_front step_front(const struct exact *e, real t)
 {
     real L = length(e), gone = wave_speed(e) * t, m = floor(gone / L);

@@ -34,8 +34,8 @@ static void columns_by_axis(struct probes *s, struct probe *q, const char *prefi
     }
 }
 
-/* Appends the history columns of probe q, which depend on its kind, and stores the index of the first one in q->first.
- * Some kinds have no columns, only figures in the summary. */
+/* Appends the history columns of probe q, which depend on its kind, and stores the index of the first one in
+ * q->first. Some kinds of probe have no columns, only values in the summary. */
 static void columns_add(struct probes *s, struct probe *q, const struct particles *p)
 {
     const int dim = p->dim;
@@ -86,7 +86,7 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
 /* Returns the largest distance of a position inside a body from the nearest particle [m]: half the diagonal of a
- * lattice cell, times 1.5 for irregular particles. */
+ * lattice cell, times 1.5 for particles that are not on a lattice. */
 static real nearest_reach(const struct observed_run *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 
 int32_t particle_nearest(const struct observed_run *o, const real *X)
@@ -184,8 +184,8 @@ static status bind_support(const struct probe *q, const struct observed_run *o)
                       q->request.boundary, used > 0 ? known : "none");
 }
 
-/* Sets q->growth to the index of the growing crack that a GROWTH probe measures: the one of its name, or the first if
- * the probe names none. */
+/* Sets q->growth to the index of the growing crack that a GROWTH probe measures: the one that the probe names, or
+ * the first one if it names none. Returns OK. */
 static status bind_growth(struct probe *q, const struct observed_run *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
@@ -242,8 +242,9 @@ static void support_name(const struct probes *s, const char *boundary, char name
     snprintf(name, NAME_MAX_LENGTH, "%s%.54s", taken ? "reaction_" : "", boundary);
 }
 
-/* Appends a REACTION probe for each boundary that prescribes a motion and that no probe of the scene measures, so that
- * history.csv has the force of every support, and its displacement unless it rests. These probes have no figures. */
+/* Appends a REACTION probe for each boundary that prescribes a motion and that no probe of the scene measures, so
+ * that history.csv has the force of every support, and its displacement unless it is at rest. These probes have no
+ * values in the summary. */
 static void supports_observe(struct probes *s, const struct observed_run *o)
 {
     for (int k = 0; o->loads && k < o->loads->n; k++) {
@@ -298,8 +299,9 @@ void probes_free(struct probes *s)
 
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
-/* Stores time, load step, position and number of separate groups of the first bonds that break in the region of a BREAK
- * probe. Changes nothing but the number if none break in this step; bonds of driven particles do not count. */
+/* Counts the separate groups of bonds that break in this step in the region of a BREAK probe. If there are any, and
+ * they are the first, also stores time, load step and position. Bonds of particles with prescribed motion do not
+ * count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
     q->memory.ends = diagnostics_locate_cuts(o->part, q->list, q->n, o->horizon, q->memory.position);
@@ -308,8 +310,8 @@ static void step_break(struct probe *q, const struct observed_run *o)
     q->memory.first_step = o->load_step;
 }
 
-/* Updates the largest reaction force of a REACTION probe, with its step and displacement, and the sum of squared forces
- * over all steps. */
+/* Updates the memory of a REACTION probe: the largest reaction force, with its step and displacement, and the sum of
+ * squared forces over all steps. */
 static void step_reaction(struct probe *q, const struct observed_run *o)
 {
     const int dim = o->part->dim;
@@ -429,8 +431,8 @@ void probes_store_motion(struct probes *s, const struct observed_run *o)
     }
 }
 
-/* Computes K_I, K_II, J and their spread between contours for a SIF probe and stores them in value[SIF_FIGURES].
- * t_velocity: time of the present velocities [s]. */
+/* Computes K_I, K_II, J and their relative spread between contours for a SIF probe, and stores them in
+ * value[SIF_FIGURES]. t_velocity: time of the present velocities [s]. */
 static void sample_sif(struct probe *q, const struct observed_run *o, real t_velocity, real *value)
 {
     sif_probe_sample(q, o, t_velocity);
@@ -486,8 +488,8 @@ void probes_sample_end(struct probes *s, const struct observed_run *o, const str
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the state of all probes (their memories and the values of the last sample) to archive a, or restores it from
- * there. Returns FAILED or REFUSED, with a message, if the archive does. */
+/* Saves the state of all probes (their memories and the values of the last sample) to the archive a if a->saving,
+ * else restores it. Returns FAILED or REFUSED, with a message, if the archive does. */
 status probes_save_or_load(struct probes *s, struct archive *a)
 {
     if (s->n == 0) return OK;

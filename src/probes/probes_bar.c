@@ -21,9 +21,10 @@ static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, i
     return p->X[0][i] < b->exact.left ? -1 : b->n;
 }
 
-/* Adds the forces of all intact bonds, for the stress in a bar; each bond is added once. between[n + 1]: the force of a
- * bond is added after its left particle and subtracted at its right one, so that prefix sums are the forces of the
- * bonds that cross each particle [N]. end[n]: half the force of the bonds that end at each particle [N]. */
+/* Adds the forces of all intact bonds of a bar, each bond once, to the arrays from which the stress follows.
+ * between[n + 1]: the force of a bond is added after its left particle and subtracted at its right one, so that
+ * prefix sums are the forces of the bonds that cross each particle [N]. end[n]: half the force of the bonds that end
+ * at each particle [N]. */
 static void add_bonds(const struct bar *b, const struct observed_run *o, real *between, real *end)
 {
     const struct bonds *bonds = o->bonds;
@@ -138,7 +139,7 @@ enum figure {
 #define PLASTIC (1 << EXACT_PLASTIC_BAR)
 #define EVERY ((1 << EXACT_FORMS) - 1)
 
-/* Figures with name, unit, and the forms that have them. */
+/* Values that an EXACT probe reports: name, unit, and the closed forms for which each exists. */
 static const struct {
     const char *name, *unit;
     int forms;
@@ -201,10 +202,10 @@ static void errors(const struct bar *b, const struct observed_run *o, real *valu
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Returns the coordinate at which factor * field passes the mean of the stresses before and behind front f,
- * interpolated between particles [m]; NAN if it does not. Of several such coordinates, the one nearest to the exact
- * front is returned. field: [b->n] by rank. The outermost particles are left out: the load acts on them and their bonds
- * transmit only half of it. */
+/* Returns the coordinate at which factor * field passes the mean of the stresses before and behind the front f [m],
+ * interpolated between particles; NAN if there is none. Of several such coordinates, returns the one nearest to the
+ * exact front. field[b->n]: value of each particle from left to right. The outermost particles are left out: the
+ * load acts on them, and their bonds transmit only half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
 {
@@ -218,8 +219,8 @@ static real front_of(const struct bar *b, const struct particles *p, const struc
     return found;
 }
 
-/* Returns the mean of field[b->n] (by rank) over the particles with coordinates from `from` to `to` [m]; NAN if there
- * are none. */
+/* Returns the mean of field[b->n], values of the particles from left to right, over coordinates from `from` to `to`
+ * [m]; NAN if no particle is there. */
 static real mean_between(const struct bar *b, const struct particles *p, const real *field, real from, real to)
 {
     real sum = 0, tolerance = 1e-9 * (b->exact.right - b->exact.left);
@@ -231,8 +232,8 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
     return n > 0 ? sum / (real)n : NAN;
 }
 
-/* Computes the figures of fronts and plateaus and stores them at their indices in value[FIGURES]. Those that do not
- * exist at this time keep their value. */
+/* Computes position and stress of fronts and of the plateaus behind them, and stores them at their indices in
+ * value[FIGURES]. Entries of fronts that do not exist at this time keep their value. */
 static void fronts(const struct bar *b, const struct observed_run *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];

@@ -9,7 +9,7 @@
 
 static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};
 
-/* Returns REFUSED, with a message that contains the name of probe q, its closed form, and the reason `what`. */
+/* Returns REFUSED, with a message: name of probe q, its closed form, and `what`, the reason. */
 static status refuse(const struct probe *q, const char *what)
 {
     return status_set(REFUSED, "probe \"%s\": %s: %s", q->request.name, form_names[q->request.form], what);
@@ -104,7 +104,7 @@ static status find_ends(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-/* Returns true if all particles have zero velocity and are at their reference positions. */
+/* Returns true if all particles are at their reference positions with zero velocity. */
 static bool probes_bar_make_at_rest(const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++)
@@ -123,7 +123,7 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
     return true;
 }
 
-/* Returns the number of loads of this kind. *found: the last of them; unchanged if there is none. */
+/* Returns the number of loads of kind `kind`. *found: receives the last of them; unchanged if there is none. */
 static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_kind kind, const struct load **found)
 {
     int n = 0;
@@ -154,8 +154,8 @@ static status find_traction(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-/* Stores ends, traction or pulses of the bar for its closed form. Returns REFUSED, with a message, for loads, initial
- * motion or materials that the closed form does not describe. */
+/* Stores the ends of the bar, and the traction or the initial pulses that its closed form requires. Returns REFUSED,
+ * with a message, for loads, initial motion or materials that the closed form does not describe. */
 static status find_load(struct probe *q, const struct observed_run *o)
 {
     const struct load *other = NULL;

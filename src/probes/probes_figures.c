@@ -16,15 +16,15 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [3] = {"xx", "yy", "zz", "xy", "yz", "zx"},
 };
 
-/* Returns the number of stress components that a probe reports of a particle; in plane strain zz is added, as the last
- * one. */
+/* Returns the number of stress components that a probe reports of a particle. In plane strain this includes zz, as
+ * the last one. */
 static int stresses_count(const struct particles *p)
 {
     return symmetric_component_count(p->dim) + (p->plane_strain != NULL);
 }
 
-/* Returns the number of values that yielding adds to the report of a particle: plastic strain, and temperature if
- * materials heat. */
+/* Returns how many values a probe reports of a particle because materials yield: plastic strain, and temperature if
+ * they heat. */
 static int law_readings_count(const struct particles *p)
 {
     return (p->plastic_work != NULL) + (p->temperature != NULL);
@@ -58,8 +58,8 @@ struct column particle_reading_column(const struct particles *p, int k)
     return c;
 }
 
-/* Returns the plastic strain of particle i [1]: of a peridynamic particle the mean plastic path of its bonds, as in
- * frames, else that of the material point. */
+/* Returns the plastic strain of particle i [1]: for a peridynamic particle with plastic bonds the mean plastic path
+ * of its bonds, else the plastic strain of the material point. */
 static real plastic_strain_reading(const struct observed_run *o, int64_t i)
 {
     const struct bonds *b = o->bonds;
@@ -91,8 +91,8 @@ void growing_crack_compute_readings(const struct growing_crack *g, real *value)
 /* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
 /* Returns the crack tip that a TIP probe follows at present: the one with its origin nearest to the probe's position
- * `at`, or without `at` that of the longest crack, or the first one if none has grown. NULL if there are no tips. The
- * tip belongs to *t. */
+ * `at`. Without `at` it is that of the longest crack, or the first one if no crack has grown. Returns NULL if there
+ * are no tips. The tip belongs to *t. */
 const struct crack_tip *probe_find_tip(const struct probe *q, const struct crack_tips *t)
 {
     if (t->n == 0) return NULL;
@@ -139,7 +139,8 @@ static real momentum_term(const void *context, int64_t k)
     return s->o->part->mass[s->q->list[k]] * probe_velocity(s->q, s->o->part, s->component, k);
 }
 
-/* Returns the kinetic energy of particle number k of a probe [J]. context: a struct region_sum. */
+/* Returns the kinetic energy of particle number k of a probe [J]. context: a struct region_sum, with the probe and
+ * the run. */
 static real kinetic_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -156,7 +157,8 @@ static int64_t row_at(const struct region_sum *s, int64_t k)
     return b && b->rows > 0 ? b->row_of[s->q->list[k]] : -1;
 }
 
-/* Returns half the energy of all intact bonds of particle number k of a probe [J]. context: a struct region_sum. */
+/* Returns half the energy of all intact bonds of particle number k of a probe [J]. context: a struct region_sum,
+ * with the probe and the run. */
 static real bond_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -170,7 +172,8 @@ static real bond_term(const void *context, int64_t k)
     return 0.5 * sum;
 }
 
-/* Returns the fracture energy of the bonds of particle number k of a probe [J]. context: a struct region_sum. */
+/* Returns the fracture energy of the bonds of particle number k of a probe [J]. context: a struct region_sum, with
+ * the probe and the run. */
 static real fracture_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -178,8 +181,8 @@ static real fracture_term(const void *context, int64_t k)
     return row >= 0 ? s->o->bonds->fracture_energy[row] : 0;
 }
 
-/* Returns the number of broken bonds of particle number k of a probe; a bond is counted at both of its particles. 0 for
- * particles with prescribed motion. context: a struct region_sum. */
+/* Returns the number of broken bonds of particle number k of a probe; 0 if its motion is prescribed. A bond counts
+ * at both of its particles. context: a struct region_sum, with the probe and the run. */
 static real broken_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -221,15 +224,14 @@ struct emitter {
     const real *sampled; /* columns of the probe at a sample of this time; NULL if there is none */
 };
 
-/* Passes `value` as figure `quantity` of the probe of e to e->emit, which receives the figures. Values that are not
- * finite are left out. */
+/* Passes `value` to the receiver e->emit as quantity `quantity` of probe e->q. Values that are not finite are left
+ * out. */
 static void probes_figures_put(const struct emitter *e, const char *quantity, real value)
 {
     if (isfinite(value)) e->emit(e->context, e->q->request.name, quantity, value);
 }
 
-/* Passes the components of a position or vector X[dim] as figures x, y, z of the probe of e to the receiver of
- * figures. */
+/* Passes the components of a position or vector X[dim] to the receiver e->emit as quantities x, y, z of probe e->q. */
 static void put_position(const struct emitter *e, const real *X)
 {
     for (int d = 0; d < e->o->part->dim; d++) probes_figures_put(e, axis_name[d], X[d]);
@@ -284,8 +286,8 @@ static void figures_reaction(const struct emitter *e)
     probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }
 
-/* Reports residual_max of a PATCH probe: the largest nodal force of the first step over the force of the stress on one
- * face of a grid cell [1]. */
+/* Reports residual_max of a PATCH probe [1]: the largest nodal force of the first step, divided by the force of the
+ * probe's stress on one face of a grid cell. */
 static void figures_patch(const struct emitter *e)
 {
     const struct observed_run *o = e->o;
@@ -294,8 +296,8 @@ static void figures_patch(const struct emitter *e)
     probes_figures_put(e, "residual_max", reference > 0 ? o->residual_step0 / reference : NAN);
 }
 
-/* Reports position and time of the separation that a SPALL probe has found, and the mean speeds of both parts. Reports
- * nothing before separation. */
+/* Reports position and time of the separation that a SPALL probe has found, and the mean speeds of both parts of the
+ * body. Reports nothing before separation. */
 static void figures_spall(const struct emitter *e)
 {
     real speed, rest;
@@ -317,7 +319,8 @@ static void figures_point(const struct emitter *e)
         probes_figures_put(e, particle_reading_column(p, k).name, value[k]);
 }
 
-/* Reports the least and the largest value of each quantity of a LINE probe over its stations inside the bodies. */
+/* Reports the least and the largest value of each quantity of a LINE probe over its stations (equidistant points of
+ * the line) inside the bodies. */
 static void figures_line(const struct emitter *e)
 {
     const struct particles *p = e->o->part;

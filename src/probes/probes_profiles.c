@@ -19,8 +19,8 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Writes a CSV row for each station of a LINE probe inside a body: distance from the first station [m], position, and
- * the values of the nearest particle. */
+/* Writes a CSV row for each station of a LINE probe (equidistant points of the line) that is inside a body: distance
+ * from the first station [m], position, and the values of the nearest particle. */
 static void profile_rows(FILE *file, const struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;
@@ -66,8 +66,8 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
     profile_rows(file, q, o);
 }
 
-/* Writes the file name `<probe>_NNNNNN.csv` of the profile of probe q at a frame to name[PROFILE_NAME]. A slash in the
- * name of the probe becomes an underscore. */
+/* Writes the file name `<probe>_NNNNNN.csv` of the profile of probe q to name[PROFILE_NAME], with the number
+ * `frame`. A slash in the name of the probe becomes an underscore. */
 static void profile_name(char *name, const struct probe *q, int frame)
 {
     snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
@@ -91,8 +91,8 @@ bool probes_write_profile_name(const struct probes *s, int which, int frame, cha
     return false;
 }
 
-/* Composes the profile of probe q at a frame and passes file name and text to put(context, name, text, length), which
- * writes them. Returns FAILED, with a message, if memory is exhausted; else the status of put. */
+/* Composes the profile of probe q at frame number `frame` and passes file name and text to put(context, name, text,
+ * length), which writes them. Returns FAILED, with a message, if memory is exhausted; else the status of put. */
 static status profile_put(const struct probe *q, const struct observed_run *o, probe_file_fn *put, void *context,
                           int frame)
 {

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* Returns the distance of particle i beyond the interface, along the direction of the packet [m]. */
+/* Returns how far particle i is beyond the interface of a PULSE probe, along the direction of its wave packet [m]. */
 static real ahead(const struct probe *q, const struct particles *p, int64_t i)
 {
     real distance = 0;
@@ -12,7 +12,7 @@ static real ahead(const struct probe *q, const struct particles *p, int64_t i)
     return distance;
 }
 
-/* Returns the speed of particle i [m/s]: |v - v_baseline|, with v_baseline = 0 if `baseline` is NULL. */
+/* Returns the speed of particle i relative to `baseline`, |v - v_baseline| [m/s]; |v| if `baseline` is NULL. */
 static real speed(const struct particles *p, const struct baseline *baseline, int64_t i)
 {
     real speed2 = 0;

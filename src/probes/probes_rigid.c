@@ -19,8 +19,9 @@ struct rigid_sum {
     real centre[2], centre_reference[2];
 };
 
-/* Adds to sum[5], over particles first..end-1 of the probe: mass, mass times current position, mass times reference
- * position (x, y). Used for the centre of mass. */
+/* Adds to sum[5], over the particles first .. end - 1 of a probe: mass [kg], mass times present position and mass
+ * times reference position (x and y each) [kg m]. context: a struct rigid_sum. A block function of
+ * reproducible_sums. */
 static void centre_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -35,8 +36,9 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-/* Adds to sum[5], over particles first..end-1 of the probe, with X and x relative to the centres of mass: m X . x, m
- * X x x (both for the best-fit rotation), angular momentum, sum of |m x x v|, kinetic energy. */
+/* Adds to sum[5], over the particles first .. end - 1 of a probe: m X . x, m X x x, angular momentum, |m x x v|,
+ * kinetic energy. X, x: reference and present position relative to the centres of mass; the first two sums give the
+ * best-fit rotation. context: a struct rigid_sum. A block function of reproducible_sums. */
 static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -94,16 +96,15 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
 
 enum { RIGID_PLACES = 3 }; /* number of figures that depend on positions only */
 
-/* Updates m->most[k], the largest absolute value so far of value[k], for k = first .. end - 1. It becomes NAN if
- * value[k] is. */
+/* Updates m->most[k], the largest |value[k]| so far, for k = first .. end - 1. It becomes NAN if value[k] is NAN. */
 static void rigid_most(struct rigid_memory *m, const real *value, int first, int end)
 {
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Computes the rotation angle of a RIGID probe's body and its largest stresses: value[0] [rad], value[1] and value[2]
- * [Pa]. The angle is continued beyond half a turn, provided that the body rotates by less than half a turn between
- * samples. */
+/* Computes the rotation angle value[0] of a RIGID probe's body [rad], its largest absolute principal stress value[1]
+ * and its largest in-plane shear stress value[2] [Pa]. The angle continues beyond half a turn if the body rotates by
+ * less than half a turn between samples. */
 void rigid_probe_sample(struct probe *q, const struct observed_run *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;

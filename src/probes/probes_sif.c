@@ -37,14 +37,14 @@ struct sif_tracked {
     real *body[2];                   /* [n_all] forces of loads over masses [m/s^2] */
 };
 
-/* Returns true if the scene gives this value: it is positive, not NAN. */
+/* Returns true if the scene gives a value for this key: it is then positive, else NAN. */
 static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
-/* Sets the integration contours of a SIF probe: first the one from which the results are computed, then those to
- * compare it with (radii of request r, or 0.6, 0.8 and 1 times the outer radius). w->reach becomes the largest outer
- * radius. spacing: lattice spacing [m]. */
+/* Sets the integration contours of a SIF probe: first the one from which the results are computed, then those with
+ * which it is compared. These have the radii of request r, or 0.6, 0.8 and 1 times the outer radius. Sets w->reach
+ * to the largest outer radius. spacing: lattice spacing [m]. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, real spacing)
 {
     const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
@@ -57,8 +57,8 @@ static void make_contours(struct sif_tracked *w, const struct probe_request *r, 
     for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
 }
 
-/* Returns the index of the crack tip of the run that request r refers to: the tip whose origin is nearest to position
- * `at`, within SAME_TIP spacings, or the first tip if there is no `at`. Returns -1 if there is none. */
+/* Returns the index of the crack tip of the run that request r refers to: the tip whose origin is nearest to its
+ * position `at`, within SAME_TIP spacings, or the first tip if r has no `at`. Returns -1 if there is none. */
 static int tip_meant(const struct probe_request *r, const struct observed_run *o)
 {
     int nearest = -1;
@@ -83,8 +83,8 @@ static int growth_meant(const struct sif_tracked *w, const struct observed_run *
     return -1;
 }
 
-/* Returns REFUSED, with a message, if probe r controls the growth of another crack than the one whose tip it measures.
- * The scene must then give the key `at`. */
+/* Returns REFUSED, with a message, if the stress-intensity factors of probe r control the growth of another crack
+ * than the one whose tip r measures. The scene must then give the key `at`. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -99,9 +99,9 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Finds position and direction of the crack tip of a SIF probe, from the request r or from a pre-crack, and the growing
- * crack that starts there. Returns REFUSED, with a message, if position or direction is unknown, or if the probe
- * controls the growth of another crack. */
+/* Finds position and direction of the crack tip of a SIF probe, from the request r or from a pre-crack, and the
+ * growing crack that starts there. Returns REFUSED, with a message, if position or direction is unknown, or if the
+ * probe controls the growth of a crack at another tip. */
 static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     w->follows = tip_meant(r, o);
@@ -150,9 +150,9 @@ static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
     w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 
-/* Returns true if a circle of this radius around tip t is not completely inside the body. The part near the crack
- * faces, which may be open, is left out. position: set to a point of the circle without a particle nearby, if there is
- * one [m]. */
+/* Returns true if a circle of radius `radius` [m] around tip t is not completely inside the body. The part near the
+ * crack faces, which may be open, is not tested. position: receives a point of the circle without a particle nearby,
+ * if there is one [m]. */
 static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed_run *o, real position[2])
 {
     const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
@@ -165,8 +165,8 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
-/* Returns REFUSED with a message: the largest contour leaves the body at `position` [m]. The message proposes an outer
- * radius that fits, the largest number of tenths of the present one. name: name of the probe. */
+/* Returns REFUSED with a message: the largest contour leaves the body at position[2] [m]. The message proposes an
+ * outer radius that fits: the largest of 0.9, 0.8 .. 0.1 times the present one. name: name of the probe. */
 static status refuse_leaving(const struct sif_tracked *w, const char *name, const struct observed_run *o,
                              const real position[2])
 {
@@ -180,7 +180,7 @@ static status refuse_leaving(const struct sif_tracked *w, const char *name, cons
                       name, w->reach, w->tip.place[0], w->tip.place[1], position[0], position[1], fits);
 }
 
-/* Returns REFUSED, with a message, for contours that are narrower than NARROWEST spacings, leave the body, or contain
+/* Returns REFUSED, with a message, if a contour is narrower than NARROWEST spacings, leaves the body, or contains
  * another crack tip. r: request of the probe. */
 static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
@@ -207,7 +207,7 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Stores the body and the elastic constants of the material around the tip. Returns REFUSED, with a message, if no
+/* Stores body number and elastic constants of the material around the tip. Returns REFUSED, with a message, if no
  * particle is ahead of the tip, or if another material or body is within the contours. */
 static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
@@ -266,8 +266,9 @@ void sif_probe_free(struct sif_tracked *w)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates position, speed and direction of the tip of SIF probe q. Returns true if it follows a crack tip that has
- * grown, false for growing cracks, whose tip is known exactly, and for tips at rest. */
+/* Updates position, speed and direction of the tip of SIF probe q. Returns true if the tip is a crack tip that has
+ * grown by itself. Returns false if the crack grows at a prescribed or controlled speed, since its tip is then known
+ * exactly, and for tips at rest. */
 static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
 {
     struct sif_tracked *w = q->sif;
@@ -339,9 +340,9 @@ static void find_inertia(struct sif_tracked *w, const struct particles *p, real 
         }
 }
 
-/* Computes the forces of loads on particles divided by their masses into w->body [m/s^2]. In static problems this
- * includes the inertia relief, by which a free body is in equilibrium. Returns true if such forces act within the
- * largest contour. */
+/* Computes into w->body the accelerations that loads cause, force over mass of each particle [m/s^2]. In static
+ * problems this includes the inertia relief, by which a free body is in equilibrium. Returns true if such forces act
+ * within the largest contour. */
 static bool find_body_force(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct particles *p = o->part;

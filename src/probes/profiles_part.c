@@ -6,12 +6,11 @@
 #include "output/output_files.h"
 #include "probes/probes_part.h"
 
-/* Beginnings of the header line of a profile, of a LINE and of an EXACT probe (probes_profiles.c), by which such files
- * are recognised. */
+/* First characters of profile files: of a LINE probe and of an EXACT probe. Existing files are recognised by them. */
 static const char *const profile_begin[] = {"s [m],", "x [m],"};
 
-/* Writes the profile `text` of this length to file `name` in folder `folder`, a string. A file of this name that is no
- * profile is not overwritten. Returns FAILED or REFUSED, with a message, if the file is not written. */
+/* Writes the profile `text` of `length` bytes to file `name` in the folder with the path `folder`. Does not
+ * overwrite a file that is no profile. Returns FAILED or REFUSED, with a message, if the file is not written. */
 static status profiles_put(void *folder, const char *name, const char *text, size_t length)
 {
     const struct path path = path_join(folder, name);
@@ -43,8 +42,8 @@ void profiles_check(const struct probes *s, const struct output *out, struct war
     warnings_add_and_print(to, text);
 }
 
-/* Removes the profile at `path`; a file of this name that is no profile is left unchanged. Returns false if there is no
- * such file or it cannot be removed. */
+/* Removes the profile at `path`; leaves a file unchanged that is no profile. Returns false if there is no such file
+ * or it cannot be removed. */
 static bool profile_remove(const char *path)
 {
     if (!path_exists(path)) return false;

@@ -11,7 +11,8 @@ struct turning {
     real mass, moment[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX], inertia, twice_kinetic;
 };
 
-/* least scale of angular momentum, over the most that motion of this kinetic energy and inertia can have */
+/* Least scale of angular momentum, relative to the largest one that motion of this kinetic energy and inertia can
+ * have [1]. */
 #define LEAST_TURN 0.01
 
 /* Adds a particle or node with its mass [kg], position x[DIM_MAX] and velocity v[DIM_MAX] to the moments of its body:
@@ -26,8 +27,9 @@ static void turning_add(struct turning *to, real mass, const real *x, const real
     }
 }
 
-/* Computes the angular momentum of a body about `position` in a frame that moves with `velocity`, from its moments t:
- * spin - position x momentum - moment x velocity + mass position x velocity. spin: result, [DIM_MAX] [kg m^2/s]. */
+/* Computes spin[DIM_MAX], the angular momentum of a body about `position` in a frame that moves with `velocity` [kg
+ * m^2/s], from its moments t: spin - position x momentum - moment x velocity + mass position x velocity.
+ * position[DIM_MAX] [m]; velocity[DIM_MAX] [m/s]. */
 static void turning_about(const struct turning *t, const real *position, const real *velocity, real *spin)
 {
     for (int d = 0; d < DIM_MAX; d++) {
@@ -38,10 +40,10 @@ static void turning_about(const struct turning *t, const real *position, const r
     }
 }
 
-/* Computes the angular momentum of all bodies about their common centre of mass in spin[DIM_MAX] [kg m^2/s], from
- * particles and mesh nodes (mesh may be NULL), without the velocity gradients of APIC. Returns a scale for it: the
- * sum of the magnitudes of the bodies, but at least LEAST_TURN of the largest value that is possible with their
- * kinetic energy. */
+/* Computes spin[DIM_MAX], the angular momentum of all bodies about their common centre of mass [kg m^2/s], from
+ * particles and mesh nodes (mesh may be NULL), without the velocity gradients of the transfer method APIC. bodies:
+ * number of bodies. Returns a scale for errors of spin: the sum of the magnitudes of the bodies, but at least
+ * LEAST_TURN of the largest value that is possible with their kinetic energy. */
 static real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
 {
     struct turning *body = NEW("probes.spin", bodies + 1, struct turning), all = {0};
