@@ -6,7 +6,8 @@
 
 #include "base/memory.h"
 
-/* A box during construction, and the coordinate of its middle along the present axis, 0 if infinite. */
+/* A box during the construction of a tree: number `item` of the box, and coordinate of its middle along the axis of
+ * the present division [m]; 0 if the box is infinite. */
 struct boxed {
     real middle;
     int32_t item;
@@ -43,8 +44,9 @@ static int widest_spread(const struct boxed *list, int n, const struct bounds *b
     return widest;
 }
 
-/* Builds node `at` of the tree from the boxes list[n], and recursively its children: both halves of the list, sorted by
- * their middles along the axis of widest spread. *nodes: number of nodes so far. */
+/* Builds node `at` of the tree from the boxes list[n], and recursively its children, each from half of the list,
+ * sorted by their middles along the axis of widest spread. nodes: number of nodes so far, increased. box: all boxes;
+ * dim: dimensions. */
 static void boxes_halve(struct box_tree *t, int32_t at, int32_t *nodes, struct boxed *list, int n,
                         const struct bounds *box, int dim)
 {
@@ -83,8 +85,8 @@ void box_tree_free(struct box_tree *t)
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Appends a node of the tree to the list of nodes to be visited, with a lower bound of the distance of q->X from its
- * box. */
+/* Appends node number `node` of the tree to the list of nodes to be visited, with a lower bound of the distance of
+ * the search point q->X from its box. */
 static void box_wait(struct box_search *q, int32_t node)
 {
     const struct bounds *box = &q->tree->node[node].box;

@@ -22,12 +22,13 @@ static int64_t cells_cell_of(const struct cells *c, const real *X)
     return index;
 }
 
-/* Cells per search radius. At the usual horizon cells are then rows of the lattice, so that particles are found in
- * ascending order, and the cells around a point contain fewer particles beyond the radius. */
+/* Number of cells along the radius of a search. At the usual horizon cells are then rows of the lattice, so that
+ * particles are found in ascending order. The cells around a point also contain fewer particles beyond the radius
+ * than larger cells would. */
 enum { CELLS_ACROSS = 3 };
 
-/* Sets origin, size and number of the cells, with CELLS_ACROSS cells along `edge` [m]. Uses larger cells for a box far
- * larger than its particles, which would need more cells than particles. */
+/* Sets origin, size and number of the cells, with CELLS_ACROSS cells along `edge`, the largest search radius [m]. If
+ * there would be more cells than particles, as in a box far larger than its particles, uses larger cells. */
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -84,7 +85,9 @@ static void sort_ascending(int32_t *found, int n)
     }
 }
 
-/* Parameters and results of a search. */
+/* Parameters and results of a search for particles within `radius` of X [m]. skip: particle that is left out, or -1;
+ * found[room]: list of the particles; n: their number, which may exceed room; any_order: the list need not be
+ * sorted. */
 struct search {
     const struct cells *c;
     const real *X;
@@ -94,8 +97,8 @@ struct search {
     bool ascending, any_order;
 };
 
-/* Appends to s->found the particles within the radius in the cells first .. last of one row, and counts them in s->n,
- * also beyond the room of the list. */
+/* Appends to s->found the particles within the radius that are in the cells first .. last of one row, and counts
+ * them in s->n, also beyond the room of the list. dim: number of dimensions, a constant of the compiler. */
 static inline void near_in_row(struct search *s, const struct particles *p, int64_t first, int64_t last, const int dim)
 {
     const int32_t *order = s->c->order;
@@ -112,8 +115,8 @@ static inline void near_in_row(struct search *s, const struct particles *p, int6
     }
 }
 
-/* Returns the distance of X[dim] from the cells whose index along axis d is k [m], slightly reduced for round-off; 0 if
- * X is in them. */
+/* Returns the distance of X[dim] from the slice of cells with index k along axis d [m]; 0 if X is in it. Slightly
+ * reduced, so that round-off excludes no cell. */
 static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
 {
     const real low = c->origin[d] + (real)k * c->width;
@@ -131,8 +134,9 @@ static inline void cells_within(const struct cells *c, const real *X, int d, rea
     if (*high >= c->count[d]) *high = c->count[d] - 1;
 }
 
-/* Searches all cells within the radius of s->X, in ascending order unless any order is allowed. dim: number of
- * dimensions, a constant. Returns the number of particles found, which may exceed the room of the list. */
+/* Searches all cells within the radius of s->X. Particles are in ascending order unless any order is allowed. dim:
+ * number of dimensions, a constant of the compiler. Returns the number of particles found, which may exceed the room
+ * of the list. */
 static inline int near(struct search *s, const struct particles *p, const int dim)
 {
     const struct cells *c = s->c;
@@ -156,8 +160,8 @@ static inline int near(struct search *s, const struct particles *p, const int di
     return s->n;
 }
 
-/* Searches all cells within the radius of s->X with the number of dimensions as a constant (near). Returns the number
- * of particles found, which may exceed the room of the list. */
+/* Searches all cells within the radius of s->X by the copy of `near` that is compiled for the number of dimensions.
+ * Returns the number of particles found, which may exceed the room of the list. */
 static int search(struct search *s, const struct particles *p)
 {
     switch (s->c->dim) {
@@ -210,9 +214,9 @@ int cells_neighbour_count_bound(const struct cells *c, real radius)
     return (int)most;
 }
 
-/* Lists in near->at the particles and images within `radius` [m] of particle i in the reference configuration, and
- * stores their number in near->n. The list grows as needed. itself: includes i; any_order: the list need not be
- * sorted. */
+/* Lists in near->at the particles and images within `radius` of particle i in the reference configuration [m], and
+ * stores their number in near->n. The list grows as needed. itself: true to include particle i; any_order: true if
+ * the list need not be sorted. */
 static void cells_find(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
                        real radius, bool itself, bool any_order)
 {

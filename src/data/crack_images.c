@@ -60,9 +60,9 @@ static struct crack *crack_add(struct crack_list *to, const struct crack *c, int
     return new;
 }
 
-/* Appends the mirror image of crack k of the list. Its corners are in reverse order, so that particles in its plane
- * count as on the same side. Does nothing if the crack is in the plane of symmetry, to `tolerance` [m], or farther from
- * it than bonds reach, `reach` [m]. */
+/* Appends the mirror image of crack number k of the list. Does nothing if the crack is in the plane of symmetry, to
+ * `tolerance`, or farther from the plane than `reach`, the reach of bonds [m]. The corners of the image are in
+ * reverse order, so that particles in its plane count as on the same side of both. */
 static void image_add(struct crack_list *to, int k, const struct mirror_plane *m, real reach, real tolerance)
 {
     const struct crack c = to->crack[k];

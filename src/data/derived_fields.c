@@ -20,7 +20,7 @@ real tensor_determinant(const real s[6])
 }
 
 /* Rotates the axes p and q of the symmetric matrix a such that a[p][q] becomes 0: one Jacobi rotation (Golub & Van
- * Loan, section 8.5). v: matrix whose rows are the axes; its rows p and q are rotated as well. */
+ * Loan, section 8.5). v: matrix whose rows are the axes found so far; its rows p and q are rotated as well. */
 static void axes_turn(real a[3][3], real v[3][3], int p, int q)
 {
     if (a[p][q] == 0) return;
@@ -70,8 +70,8 @@ void tensor_principal_values(const real s[6], real value[3], real direction[9])
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-/* Functions of the table below: each computes one derived field of a particle from its stress (6 components) or
- * velocity (3), `from`, and stores the value or values in `to`. */
+/* Functions of the table of derived fields: each computes one derived field of a particle from its stress or
+ * velocity. from: stress (6 components) or velocity (3); to: receives the value or values. */
 static void mises_from(const real *from, real *to) { *to = tensor_mises_stress(from); }
 static void pressure_from(const real *from, real *to) { *to = -(from[XX] + from[YY] + from[ZZ]) / 3; }
 static void principal_from(const real *from, real *to) { tensor_principal_values(from, to, NULL); }

@@ -6,7 +6,8 @@
 
 #include "base/memory.h"
 
-/* Number of nodes beyond the outermost material point: reach of the widest shape function, and one cell of motion. */
+/* Number of nodes of the grid beyond the outermost material point: as many as the widest shape function reaches, and
+ * one for the motion of the point. */
 enum { MARGIN = 3 };
 #define NODE_FARTHEST 1e15 /* cells; farther away an index is no longer exact in a double */
 
@@ -40,7 +41,7 @@ static void grid_arrays_make(struct grid *g)
     }
 }
 
-/* Boxes grow by steps of this many nodes. */
+/* Step by which boxes of nodes grow [nodes]. */
 enum { BOX_STEP = 4 };
 /* Returns the largest multiple of BOX_STEP that is not above k. */
 static int64_t box_floor(int64_t k)

@@ -8,8 +8,8 @@
 
 /* ---- faces and their sides ------------------------------------------------------------------------------------- */
 
-/* A face, or an edge of one, with its corners in ascending order; turn: +1 or -1, -1 if sorting reversed its
- * orientation. */
+/* A face of a surface, or an edge of a face, with its corners in ascending order. of: number of the face; turn: 1,
+ * or -1 if sorting the corners reversed its orientation. */
 struct piece {
     int32_t corner[DIM_MAX], of;
     int turn;
@@ -47,9 +47,9 @@ static bool face_degenerate(const struct hull *s, const int32_t *face)
     return face[0] == face[1] || (s->dim == 3 && (face[1] == face[2] || face[2] == face[0]));
 }
 
-/* Replaces several faces with the same corners by one, in the orientation that is more frequent, or by none if both are
- * equally frequent, as where two elements meet. Removes faces with equal corners. Counts in s->dropped the removed
- * faces other than those that cancel. */
+/* Cancels faces that coincide: of several faces with the same corners one remains, in the orientation that is more
+ * frequent, or none if both orientations are equally frequent, as where two elements meet. Removes faces with two
+ * equal corners. Counts in s->dropped the removed faces, except pairs of opposite orientation. */
 static void faces_cancel(struct hull *s)
 {
     struct piece *piece = NEW("hull.pieces", s->faces, struct piece);
@@ -77,7 +77,7 @@ static void faces_cancel(struct hull *s)
 
 /* ---- open edges and components ----------------------------------------------------------------------------------- */
 
-/* Lists the edges of all faces in side[faces * dim], in 2D the end points of the segments, sorted by their corners.
+/* Lists the edges of all faces (in 2D the end points of the segments) in side[faces * dim], sorted by their corners.
  * Returns their number. */
 static int64_t sides_make(const struct hull *s, struct piece *side)
 {
@@ -188,8 +188,8 @@ static void faces_reverse(struct hull *s)
     }
 }
 
-/* Initialises a surface with its corners and faces, of which s takes ownership. corner[corners]: positions [m];
- * face[faces]: indices of dim corners each. */
+/* Initialises the surface *s with its corners and faces; s takes ownership of both arrays. corner[corners]:
+ * positions [m]; face[faces]: indices of dim corners each. */
 static void hull_take(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
                       int32_t (*face)[DIM_MAX])
 {

@@ -12,7 +12,7 @@ static const real pi = 3.14159265358979323846;
 
 /* ---- making --------------------------------------------------------------------------------------------------- */
 
-/* A face during construction, and its middle, by which nodes are halved. */
+/* A face during the construction of the tree: its number, and its middle, by which nodes of the tree are halved. */
 struct leaflet {
     real middle[DIM_MAX];
     int32_t face;
@@ -51,8 +51,8 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < s->dim; d++) n->centre[d] = weight > 0 ? n->centre[d] / weight : 0.5 * (n->low[d] + n->high[d]);
 }
 
-/* Halves node `at` of the tree at the median face along the longest edge of its box, recursively, down to nodes of LEAF
- * faces. leaf: faces of the whole surface, which are sorted into the order of the tree. */
+/* Halves node `at` of the tree at the median face along the longest edge of its box, recursively, down to nodes of
+ * at most LEAF faces. leaf: faces of the whole surface, which are sorted into the order of the tree. */
 static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
 {
     static int (*const order[])(const void *, const void *) = {order_x, order_y, order_z};
@@ -94,8 +94,9 @@ void hull_build_face_tree(struct hull *s)
 
 /* ---- winding number ------------------------------------------------------------------------------------------- */
 
-/* Returns the share of a face in the winding number at X: the solid angle of a triangle (van Oosterom, Strackee 1983,
- * eq. 8) divided by 4 pi; for a segment in 2D its angle divided by 2 pi. face: indices of its corners. */
+/* Returns the contribution of a face to the winding number at X: the solid angle of a triangle (van Oosterom &
+ * Strackee 1983, eq. 8) divided by 4 pi; in 2D the angle of a segment divided by 2 pi. face[dim]: indices of its
+ * corners. */
 static real face_winding(const struct hull *s, const int32_t *face, const real *X)
 {
     real arm[DIM_MAX][DIM_MAX], length[DIM_MAX];
@@ -112,8 +113,8 @@ static real face_winding(const struct hull *s, const int32_t *face, const real *
     return atan2(triple, below) / (2 * pi);
 }
 
-/* Adds the winding number of the dipole of node n at X to *sum if X is far from the node, by FAR of its radii (Barill
- * et al. 2018, first order). Returns false, and adds nothing, if it is not. */
+/* If X is farther from the centre of node n than FAR times its radius, adds the winding number at X of the node's
+ * dipole to *sum (Barill et al. 2018, first order) and returns true. Else returns false and adds nothing. */
 static bool node_winding(const struct hull *s, const struct hull_node *n, const real *X, real *sum)
 {
     real r2 = 0, radius2 = 0, along = 0;
@@ -228,8 +229,8 @@ static real box_apart2(const struct hull_node *n, const real *X, int dim)
     return sum;
 }
 
-/* Returns the face nearest to X among those with a squared distance below *r2 [m^2]. Updates *r2 to that distance and
- * `nearest` to the nearest point of the face. If there is no such face, both remain unchanged and 0 is returned. */
+/* Searches for the face nearest to X whose squared distance is below *r2 [m^2]. If there is one, stores its squared
+ * distance in *r2 and its nearest point in nearest[dim], and returns its number; else returns 0 and changes nothing. */
 static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, real *r2)
 {
     int32_t wait[DEEPEST], found = 0;
@@ -252,15 +253,15 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
     return found;
 }
 
-/* Returns true if X is outside the closed surface s: its winding number is below 1/2. Every point is outside an open
- * surface. */
+/* Returns true if X[dim] is outside the closed surface s: its winding number is below 1/2. If the surface is not
+ * closed, every point is outside. */
 static bool hull_outside(const struct hull *s, const real *X)
 {
     return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding_number(s, X) < 0.5;
 }
 
-/* Returns true if the signed distance of X from the surface, negative inside, is at most `max_distance` [m]. Faces
- * farther than |max_distance| are not searched; only the side of X matters then. */
+/* Returns true if the signed distance of X[dim] from the surface, negative inside, is at most max_distance [m].
+ * Faces that are farther than |max_distance| are not searched, since then only the side of X matters. */
 bool hull_is_within(const struct hull *s, const real *X, real max_distance)
 {
     real size = 0, point[DIM_MAX];

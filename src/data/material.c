@@ -12,9 +12,9 @@ real bond_based_poisson_ratio(enum space space)
     return poisson[space];
 }
 
-/* Computes the micro-modulus c of bonds in a family with the weight sum `family_sum`, such that a uniform expansion s
- * has equal energy densities: 1/4 c s^2 family_sum of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of
- * the continuum. */
+/* Returns the micro-modulus c of bonds such that a uniform expansion s has equal energy densities: 1/4 c s^2
+ * family_sum of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of the continuum. family_sum: sum of
+ * length times weight over the bonds of a particle. */
 real material_micro_modulus(const struct material *m, enum space space, real family_sum)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
@@ -22,8 +22,9 @@ real material_micro_modulus(const struct material *m, enum space space, real fam
     return factor[space_dim(space)] * m->bulk / family_sum;
 }
 
-/* Computes the micro-modulus of bonds as material_micro_modulus does, with the integral of r over the horizon [m] in
- * place of the sum over neighbours. section: cross-section in 1D [m^2], thickness in 2D [m]. */
+/* Returns the micro-modulus of bonds for which bonds and continuum have equal energy densities in a uniform
+ * expansion, with the integral over the horizon [m] in place of a sum over neighbours. section: cross-section in 1D
+ * [m^2], thickness in 2D [m]. */
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {
@@ -36,8 +37,8 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
     }
 }
 
-/* Returns the critical stretch s_c of bond-based models [1]: at s_c the energy of all bonds across a unit area equals
- * G_c (Silling & Askari 2005). horizon [m]. The thickness cancels. */
+/* Returns the critical stretch s_c of bond-based models [1]: at s_c the energy of all bonds across a unit area
+ * equals G_c (Silling & Askari 2005). horizon: of the bonds [m]. The thickness of a plate cancels. */
 static real critical_bond(const struct material *m, enum space space, real horizon)
 {
     real ratio = m->energy_release_rate / (m->bulk * horizon);
@@ -112,8 +113,8 @@ void material_compute_derived_constants(struct material *m, enum space space)
     m->rayleigh_speed = rayleigh_speed(m->wave_speed, m->shear_speed);
 }
 
-/* Fills the n x n matrix of an isotropic stiffness, n = symmetric_component_count(dim). diagonal, off: entries of
- * normal components, on and off the diagonal; shear: diagonal entry of shear components. */
+/* Fills the n x n matrix of an isotropic stiffness or compliance, with n symmetric components. diagonal, off:
+ * entries of normal components, on and off the diagonal; shear: diagonal entry of shear components. */
 static void isotropic_matrix(int dim, real diagonal, real off, real shear, real *matrix)
 {
     int n = symmetric_component_count(dim);

@@ -37,9 +37,9 @@ static int if_mesh_stress(int dim, int optional)
 }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
-/* Row of the table of particle arrays. name: its name in checkpoints; member: pointer in struct particles; count:
- * function that returns the number of components; in_trials: true if it is plastic state, which ARCHIVE_TRIAL
- * contains. */
+/* Row of the table of particle arrays. name: its name in checkpoints; member: pointer in struct particles; type: of
+ * an entry; count: function that returns the number of components; unit, meaning: texts for output; in_trials: true
+ * if the array is plastic state that a repeated load step must restore. */
 #define ROW(name, member, type, count, unit, meaning, in_trials)                                                       \
     {                                                                                                                  \
         name, unit, meaning, offsetof(struct particles, member), sizeof(type), count, in_trials                        \
@@ -82,15 +82,15 @@ const struct particle_field particle_fields[] = {
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* The number of pointers in struct particles: 4 vectors, 3 scalars, 6 + 6 + 9 + 3 components of tensors and stretch, 2
- * of plasticity, 2 of return, strength, damage, 4 indices, id; 2 scalars, a rotation and a moment of ends; work, back
- * stress, temperature and stress of laws. */
+/* Checks at compile time that every pointer of struct particles is in the table: 4 vectors, 3 scalars, 6 + 6 + 9 + 3
+ * components of tensors and stretch, 2 of plasticity, 2 of return, strength, damage, 4 indices, id; 2 scalars, a
+ * rotation and a moment of the points of PD-MPM bonds; work, back stress, temperature and stress of flow laws. */
 _Static_assert(sizeof(struct particles) ==
                    offsetof(struct particles, X) + (5 * DIM_MAX + 54 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
-/* Returns the pointer to component k of the array f of the particles. The pointer is copied byte by byte, since a `real
- * *` must not be read as a `void *`. */
+/* Returns the pointer to component k of the array that row f of the table describes. The pointer is copied byte by
+ * byte, since a `real *` must not be read as a `void *`. */
 static void *get(const struct particles *p, const struct particle_field *f, int k)
 {
     void *array;
@@ -98,7 +98,7 @@ static void *get(const struct particles *p, const struct particle_field *f, int 
     return array;
 }
 
-/* Stores `array` as the pointer to component k of the array f of the particles, the reverse of `get`. */
+/* Stores `array` as the pointer to component k of the array that row f of the table describes. */
 static void particles_put(struct particles *p, const struct particle_field *f, int k, void *array)
 {
     memcpy((char *)p + f->offset + (size_t)k * sizeof array, &array, sizeof array);
@@ -210,9 +210,9 @@ real particles_bounding_box_longest_edge(const struct particles *p)
     return longest;
 }
 
-/* Computes the sort keys place[p->n] of all particles. Rows and layers have the width `spacing` [m]. The borders
- * between rows are a quarter of the spacing below the particles of the first row: no row of a lattice is near a border,
- * so that round-off cannot split it. */
+/* Computes place[p->n], the sort keys of all particles. Rows and layers have the width `spacing` [m]. The borders
+ * between rows are a quarter of the spacing below the particles of the first row: no row of a lattice is near a
+ * border, so that round-off cannot split it. */
 static void find_places(const struct particles *p, real spacing, struct place *place)
 {
     real low[DIM_MAX] = {0}, high;
@@ -225,8 +225,8 @@ static void find_places(const struct particles *p, real spacing, struct place *p
     }
 }
 
-/* Permutes an array of n entries of `size` bytes: array[i] = old array[place[i].index]. scratch: memory for as many
- * entries. */
+/* Permutes an array of n entries of `size` bytes: new array[i] = old array[place[i].index]. scratch: working memory
+ * of n entries. */
 static void permute(char *array, size_t size, const struct place *place, int64_t n, char *scratch)
 {
 #pragma omp parallel for schedule(static)
@@ -291,9 +291,9 @@ void particles_update_kind_lists(struct particles *p)
     }
 }
 
-/* Returns true if a particle is marked for conversion from material point to peridynamics: it lost a bond, has a high
- * stress, or is near another body. Eight particles are tested at a time; entries beyond the body are images, which
- * never have these flags. */
+/* Returns true if a particle is marked for conversion from material point to peridynamic particle: it lost a bond,
+ * has a high stress, or is near another body. Eight particles are tested at a time; entries behind the last particle
+ * are images, which never have these flags. */
 bool particles_are_flagged_for_conversion(const struct particles *p)
 {
     uint64_t any = 0;

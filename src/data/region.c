@@ -47,9 +47,9 @@ bool region_bounding_box(const struct region *r, int dim, real lower[DIM_MAX], r
     return bounded;
 }
 
-/* Returns the volume of the region inside the box `lower` .. `upper` [m^dim], estimated by the share of sample points
- * inside the region. The points are a Kronecker sequence with increments of the powers g^-1, g^-2, .. of the root g of
- * g^(dim+1) = g+1 (Roberts 2018). */
+/* Returns the volume of the region inside the box `lower` .. `upper` [m^dim], estimated as the share of sample
+ * points that are inside. The points are a Kronecker sequence with the increments g^-1, g^-2, .., where g is the
+ * root of g^(dim+1) = g + 1 (Roberts 2018). */
 real region_volume(const struct region *r, int dim, const real *lower, const real *upper)
 {
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
@@ -81,8 +81,8 @@ void region_free(struct region *r)
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Returns the value of the table f at time t [s], linear between its entries and constant outside. Bisects, since
- * tables from files have thousands of entries. */
+/* Returns the value of the table f at time t [s]: linear between its entries, constant before the first and after
+ * the last; 0 if the table is empty. */
 static real table_at(const struct time_function *f, real t)
 {
     int low = 0, k = f->n - 1;
@@ -188,7 +188,7 @@ real time_function_largest_slope_until(const struct time_function *f, real t_end
 /* Tolerance for touching a crack, relative to the size of the crack [1]. */
 static const real touch = 1e-9;
 
-/* Line (2D) or plane (3D) of a crack: unit normal, and the length that tolerances refer to. */
+/* Line (2D) or plane (3D) of a crack: its unit normal, and the length to which tolerances refer [m]. */
 struct crack_plane {
     real normal[DIM_MAX], length;
 };
@@ -217,8 +217,8 @@ static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
     return direction(zero, area, 3, plane->normal) > 0;
 }
 
-/* Computes the point (1D), line (2D) or plane (3D) of a crack: its unit normal, and the length to which tolerances
- * refer. a, b: ends of a bond, whose length is used in 1D. Returns false if the crack has no extent. */
+/* Computes the point (1D), line (2D) or plane (3D) of a crack: unit normal, and the length to which tolerances
+ * refer. a, b: ends of a bond [dim], whose length is used in 1D. Returns false if the crack has no extent. */
 static bool crack_plane(const struct crack *c, const real *a, const real *b, int dim, struct crack_plane *plane)
 {
     real along[DIM_MAX];
@@ -237,8 +237,8 @@ static bool crack_plane(const struct crack *c, const real *a, const real *b, int
     }
 }
 
-/* Returns true if point P of the crack's plane is inside the closed polygon of the crack, to a tolerance: on the inner
- * side of every edge. */
+/* Returns true if point P of the crack's plane is inside the polygon of the crack or on its edge, to a tolerance. P
+ * must be on the inner side of every edge, so the polygon must be convex. */
 static bool polygon_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     for (int k = 0; k < c->n; k++) {
@@ -252,7 +252,8 @@ static bool polygon_holds(const struct crack *c, const struct crack_plane *plane
     return true;
 }
 
-/* Returns true if point P of the crack's line is inside the closed segment of the crack, to a tolerance. */
+/* Returns true if point P of the crack's line is inside the segment of the crack or at one of its ends, to a
+ * tolerance. */
 static bool segment_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     real along[DIM_MAX];
@@ -324,7 +325,8 @@ bool crack_may_cut_bonds_near(const struct crack *c, const real *X, real bond_le
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* Returns velocity, displacement and strain of the wave w at X[dim] at t = 0, in a material with wave speed c [m/s]. */
+/* Returns velocity, displacement and strain of the wave w at X[dim] [m] at time 0. c: wave speed of the material
+ * [m/s]. */
 struct wave_state wave_pulse_initial_state(const struct wave_pulse *w, const real *X, real c, int dim)
 {
     const real root_of_pi = 1.77245385090551602730, radius = 0.25 * w->width;

@@ -10,8 +10,8 @@
 
 enum { RUN_LEAST = 8 }; /* smallest number of solids for which a tree is faster */
 
-/* Returns how many solids of the region, from number `first` on, have the same operation (added, subtracted ..).
- * Returns 1 if they are fewer than RUN_LEAST, too few for a tree of boxes to be faster, or if the first one
+/* Returns how many solids of the region, from number `first` on, have the same operation (added or subtracted).
+ * Returns 1 if they are fewer than RUN_LEAST, too few for a tree of boxes to be faster, or if solid `first`
  * intersects. */
 static int run_length(const struct region *r, int first)
 {
@@ -39,11 +39,11 @@ void region_build_search_trees(struct region *r, int dim)
     }
 }
 
-/* Returns the number of runs of the region; a run is a sequence of solids with the same operation. Without an index
- * each solid is a run. */
+/* Returns the number of runs of the region: sequences of solids that are all added or all subtracted. If no trees of
+ * boxes have been made, each solid is a run. */
 static int region_runs(const struct region *r) { return r->run ? r->runs : r->n; }
 
-/* Returns run j of the region, a sequence of solids with the same operation. Call it for j < region_runs(r). */
+/* Returns run j of the region, a sequence of solids that are all added or all subtracted; 0 <= j < region_runs(r). */
 static struct region_run region_run(const struct region *r, int j)
 {
     return r->run ? r->run[j] : (struct region_run){.first = j, .count = 1};
@@ -51,8 +51,9 @@ static struct region_run region_run(const struct region *r, int j)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a solid of the run, a sequence of solids with the same operation, has a level (solid_level_set_value,
- * <= 0 inside) of at most `most` at X[dim] [m]. The operation itself is not applied. s: first solid of the run. */
+/* Returns true if a solid of the run (solids that are all added or all subtracted) has a level at X[dim] of at most
+ * `most` [m]. The level of a solid is <= 0 inside (solid_level_set_value). Does not add or subtract. s: first solid
+ * of the run. */
 static bool run_within(const struct solid *s, const struct region_run *run, const real *X, int dim, real most)
 {
     struct box_search near;
@@ -64,8 +65,8 @@ static bool run_within(const struct solid *s, const struct region_run *run, cons
     return within;
 }
 
-/* Returns the smallest level (solid_level_set_value, <= 0 inside) at X[dim] over the solids of the run, a sequence of
- * solids with the same operation [m]. s: first solid of the run. */
+/* Returns the smallest level at X[dim] over the solids of the run (solids that are all added or all subtracted) [m].
+ * The level of a solid is <= 0 inside (solid_level_set_value). s: first solid of the run. */
 static real run_level(const struct solid *s, const struct region_run *run, const real *X, int dim)
 {
     struct box_search near;
@@ -77,9 +78,9 @@ static real run_level(const struct solid *s, const struct region_run *run, const
     return nearest;
 }
 
-/* Returns the signed distance of X[dim] from the nearest solid of the run, a sequence of solids with the same
- * operation, negative inside [m], and the outward normal of that solid in normal[dim]. If several solids are equally
- * near, the first one counts. s: first solid of the run. */
+/* Returns the signed distance of X[dim] from the nearest solid of the run (solids that are all added or all
+ * subtracted) [m], negative inside, and stores the outward normal of that solid in normal[dim]. If several solids
+ * are equally near, the first one counts. s: first solid of the run. */
 static real run_distance(const struct solid *s, const struct region_run *run, const real *X, int dim, real *normal)
 {
     struct box_search near;
@@ -99,17 +100,16 @@ static real run_distance(const struct solid *s, const struct region_run *run, co
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the next smaller number than x; for 0 the largest negative one that processors do not flush to 0
- * (base/team.h). */
+/* Returns the largest number below x; for x = 0 the negative number nearest to 0 that processors do not flush to 0. */
 static real number_before(real x)
 {
     const real before = nextafter(x, -INFINITY);
     return fabs(before) < DBL_MIN ? -DBL_MIN : before;
 }
 
-/* Returns true if X[dim] is in the region extended by `tolerance` [m]. Subtracting a solid leaves its surface in the
- * region, which stays closed, and extending the region shrinks the hole: points with a level below -tolerance in a
- * subtracted solid are outside. An empty region contains all points. */
+/* Returns true if X[dim] is in the region extended by `tolerance` [m]. The surface of a subtracted solid belongs to
+ * the region, and extending the region shrinks the hole: only points deeper than the tolerance in a subtracted solid
+ * are outside. An empty region contains all points. */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance)
 {
     bool inside = r->n == 0 || r->solid[0].intersect;

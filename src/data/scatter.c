@@ -26,15 +26,16 @@ real normal_distribution_quantile(real probability)
     return q < 0 ? -x : x;
 }
 
-/* Returns a standard normal number that depends on the hash alone: the quantile of its leading 53 bits. */
+/* Returns a number of the standard normal distribution that depends on `hash` alone: the quantile of its leading 53
+ * bits. */
 static real noise_of(uint64_t hash) { return normal_distribution_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
 /* Number of lattice nodes along each axis that contribute to the field at a point. The lattice has the spacing
  * length/2; omitted nodes have weights below exp(-8) of the largest. */
 enum { NODES = 8 };
 
-/* Computes the weights weight[NODES] of the lattice nodes around the coordinate `place` [lengths/2]. Returns the index
- * of the first of these nodes. */
+/* Computes weight[NODES], the Gaussian weights of the lattice nodes around the coordinate `place` [spacings of this
+ * lattice, half a correlation length]. Returns the index of the first of these nodes. */
 static int64_t weights_along(real place, real weight[NODES])
 {
     const int64_t first = (int64_t)floor(place) - NODES / 2 + 1;

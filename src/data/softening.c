@@ -5,8 +5,8 @@
 
 /* ---- curves ------------------------------------------------------------------------------------------------------ */
 
-/* Stores in c the straight lines through the points (x[k], y[k]), k = 0 .. pieces, of a convex softening curve, and the
- * area below them. x ascends from 0 to 1. */
+/* Stores the convex softening curve through the points (x[k], y[k]), k = 0 .. pieces, in *c: its straight lines, and
+ * the area below them. x ascends from 0 to 1. */
 static void curve_through(struct softening_curve *c, int pieces, const real *x, const real *y)
 {
     *c = (struct softening_curve){.pieces = pieces};
@@ -19,8 +19,8 @@ static void curve_through(struct softening_curve *c, int pieces, const real *x, 
     c->from[pieces] = 1;
 }
 
-/* Computes the points x, y [SOFTENING_PIECES + 1] of the exponential softening curve such that all chords deviate from
- * it equally: the density of points is proportional to the square root of its curvature. */
+/* Computes the points x, y [SOFTENING_PIECES + 1] of the exponential softening curve. They are denser where it is
+ * more curved, as the square root of its curvature, so that all chords deviate from it equally. */
 static void exponential_points(real *x, real *y)
 {
     const real last = exp(-DECAY), whole = 1 - exp(-0.5 * DECAY);
@@ -31,9 +31,9 @@ static void exponential_points(real *x, real *y)
     x[SOFTENING_PIECES] = 1, y[SOFTENING_PIECES] = 0;
 }
 
-/* Returns the softening curve of a law: the force of a bond over that at the onset, as a function of the share 0 .. 1
- * of the stretch from onset to failure. The bilinear curve of concrete has its kink at 2/9 of this stretch and 1/3 of
- * the force (Petersson 1981). */
+/* Returns the softening curve of a law: force of a bond over the force at the onset, as a function of (s - s_0)/(s_f
+ * - s_0) from 0 to 1, with the stretch s, its onset s_0 and its end s_f. The bilinear curve of concrete has its kink
+ * at 2/9 of this range and 1/3 of the force (Petersson 1981). */
 struct softening_curve softening_curve_of(enum softening law)
 {
     struct softening_curve c;
@@ -71,12 +71,14 @@ real softening_dissipated_energy(const struct softening_curve *c, real onset, re
 enum { DIRECTIONS = 128, BISECTIONS = 40 };
 #define GROWTH 1.01 /* factor between two strains of the search for a peak */
 
-/* Axial and lateral stress over E' s_0 [1]. */
+/* Axial and lateral stress of a family of bonds, divided by E' s_0: modulus times stretch at which bonds begin to
+ * soften [1]. */
 struct stress_pair {
     real axial, lateral;
 };
 
-/* A family of bonds of all directions. reach: (s_f - s_0)/s_0 [1]. */
+/* A family of bonds of all directions, with its softening curve. reach: (s_f - s_0)/s_0, with the stretches s_0 at
+ * which softening begins and s_f at which it ends [1]. */
 struct directions {
     const struct softening_curve *curve;
     enum space space;
@@ -84,27 +86,31 @@ struct directions {
     const struct softening_model *model;
 };
 
-/* Returns the force of a bond over stiffness, weight and onset stretch s_0 [1]. s: stretch of the bond over s_0 [1].
- * The force falls along the softening curve for s > 1, and is 0 beyond the last stretch. */
+/* Returns the force of a bond at the stretch s, divided by its stiffness, its weight and s_0, the stretch at which
+ * softening begins [1]. s is in units of s_0. The force is s up to s = 1, then falls along the softening curve, and
+ * is 0 beyond its end. */
 static real bond_tension(const struct directions *a, real s)
 {
     if (s <= 1) return s;
     return a->reach > 0 ? softening_curve_value(a->curve, (s - 1) / a->reach) : 0;
 }
 
-/* Returns the share of its stiffness that a bond has at the stretch s over s_0 [1]. */
+/* Returns the share of its stiffness that a bond has at the stretch s [1]. s is in units of s_0, the stretch at
+ * which softening begins. */
 static real bond_share(const struct directions *a, real s) { return s <= 1 ? 1 : bond_tension(a, s) / s; }
 
-/* Returns the square of the cosine of the angle between the axis and the k-th direction [1]. */
+/* Returns cos^2 of the angle between the axis of tension and direction number k of the quadrature over directions
+ * [1]. */
 static real direction_along(const struct directions *a, int k)
 {
     const real at = (k + 0.5) / DIRECTIONS;
     return a->space == SPACE_SOLID ? square(at) : square(cos(0.5 * M_PI * at));
 }
 
-/* Does what family_stress does, for state-based bonds: the derivatives by the strain of
- * W = [A <q s>^2 + B <q |e|^2>]/2, where < > is the mean over directions n, q the share of its stiffness that a bond
- * keeps, and e the extension s, or the whole displacement eps . n in models with rotations. */
+/* Returns axial and lateral stress of state-based bonds over E' s_0 [1], at strains over s_0, the stretch at which
+ * softening begins: the derivatives by the strain of W = [A <q s>^2 + B <q |e|^2>]/2. < > is the mean over
+ * directions n, q the share of its stiffness that a bond keeps, and e the extension s, or the whole displacement eps
+ * . n in models with rotations. */
 static struct stress_pair state_family_stress(const struct directions *a, real axial, real lateral)
 {
     const struct softening_model *m = a->model;
@@ -124,8 +130,8 @@ static struct stress_pair state_family_stress(const struct directions *a, real a
 }
 
 /* Returns axial and lateral stress over E' s_0 [1] of a family of bonds in all directions, strained by `axial` along
- * one axis and by `lateral` in all directions normal to it, both over s_0 [1]. Bonds have nu = 1/3 in the plane (plane
- * strain: with E' and nu/(1 - nu)) and 1/4 in a solid. */
+ * one axis and by `lateral` in all directions normal to it. Strains are in units of s_0, the stretch at which
+ * softening begins. Bonds have nu = 1/3 in the plane (plane strain: with E' and nu/(1 - nu)) and 1/4 in a solid. */
 static struct stress_pair family_stress(const struct directions *a, real axial, real lateral)
 {
     struct stress_pair sum = {0, 0};
@@ -140,8 +146,9 @@ static struct stress_pair family_stress(const struct directions *a, real axial, 
     return (struct stress_pair){sum.axial * axial_factor / DIRECTIONS, sum.lateral * lateral_factor / DIRECTIONS};
 }
 
-/* Returns the strain x over s_0 [1] at which the function stress(a, x, given) is 0, by bisection. The function grows
- * with x and has its root between `low` and 0. given: the other strain over s_0 [1]. */
+/* Returns the strain x at which the function stress(a, x, given) is 0, by bisection. The function grows with x and
+ * has its root between `low` and 0. given: the other strain. Strains are in units of s_0, the stretch at which
+ * softening begins. */
 static real strain_without_stress(const struct directions *a, real low, real given,
                                   real (*stress)(const struct directions *, real x, real given))
 {
@@ -156,8 +163,8 @@ static real strain_without_stress(const struct directions *a, real low, real giv
     return 0.5 * (low + high);
 }
 
-/* Functions for strain_without_stress, all over E' s_0 [1] at strains over s_0 [1]: the lateral stress, the axial
- * stress, the sum of both. */
+/* Functions whose roots strain_without_stress finds: the lateral stress, the axial stress, and the sum of both, over
+ * E' s_0. Strains are in units of s_0, the stretch at which softening begins. */
 static real lateral_stress(const struct directions *a, real lateral, real axial)
 {
     return family_stress(a, axial, lateral).lateral;
@@ -187,16 +194,18 @@ static real biaxial_at(const struct directions *a, real strain)
     return family_stress(a, strain_without_stress(a, -2 * strain, strain, axial_stress), strain).lateral;
 }
 
-/* Returns the shear stress over E' s_0 [1] in the state of tension `strain` over s_0 [1] along one axis and equal
- * pressure along the other, in the plane. Returns NAN in other spaces. */
+/* Returns the shear stress over E' s_0 [1] in the plane, in a state of equal tension and pressure along two axes;
+ * `strain`: along the axis of tension, in units of s_0, the stretch at which softening begins. Returns NAN in other
+ * spaces. */
 static real shear_at(const struct directions *a, real strain)
 {
     if (space_dim(a->space) != 2) return NAN;
     return family_stress(a, strain, strain_without_stress(a, -10 * strain, strain, stress_sum)).axial;
 }
 
-/* Returns the largest value of stress(a, strain) over growing strain, from the onset until the stress has fallen by a
- * fifth of its maximum or all bonds have ended. Returns NAN if the stress is not defined in this space. */
+/* Returns the largest value of stress(a, strain) over growing strain, from the onset of softening until the stress
+ * has fallen by a fifth of its maximum or all bonds have failed. Returns NAN if the stress is not defined in this
+ * space. */
 static real peak(const struct directions *a, real (*stress)(const struct directions *, real))
 {
     real most = 0;

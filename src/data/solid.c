@@ -107,8 +107,8 @@ static real half_space_level(const struct solid *s, const real *X, int dim)
     return length > 0 ? above / length : INFINITY;
 }
 
-/* Returns the support of a half-space in direction along[dim], the maximum of X . along over its points X. It is finite
- * only if `along` has the direction of the normal, up to round-off, else INFINITY. */
+/* Returns the support of a half-space in direction along[dim]: the maximum of X . along over its points X. If
+ * `along` does not have the direction of the outward normal, up to round-off, the support is INFINITY. */
 static real half_space_support(const struct solid *s, const real *along, int dim)
 {
     const real length = sqrt(dot(s->normal, s->normal, dim)), size = sqrt(dot(along, along, dim));
@@ -153,8 +153,9 @@ static void axis_normal(const struct axis_place *p, const real in_plane[2], real
     for (int d = 0; d < DIM_MAX; d++) normal[d] = in_plane[0] * p->axis[d] + in_plane[1] * p->out[d];
 }
 
-/* Returns the signed distance of X from a cylinder or tube [m] and its outward normal in normal[3]. In the half-plane
- * through axis and X it is a box from the radius `inner` to s->radius; the `inner` of a cylinder is -s->radius. */
+/* Returns the signed distance of X[3] from a cylinder or tube [m], negative inside, and stores its outward normal in
+ * normal[3]. In the half-plane through axis and X the solid is a box from the radius `inner` to s->radius; for a
+ * cylinder, `inner` is -s->radius. */
 static real pipe_from(const struct solid *s, const real *X, real inner, real *normal)
 {
     const struct axis_place p = axis_place_of(s, X);
@@ -202,8 +203,8 @@ static real cylinder_level(const struct solid *s, const real *X, int dim)
     return real_max(sqrt(across) - s->radius, real_max(-along, along - length));
 }
 
-/* Returns the support in direction along[3], the maximum of X . along over its points X, of a disc about `centre`
- * normal to the axis of the solid s. */
+/* Returns the support of a disc in direction along[3]: the maximum of X . along over its points X. The disc has its
+ * middle at `centre` and is normal to the axis of the solid s. radius: of the disc [m]. */
 static real end_support(const struct solid *s, const real *centre, real radius, const real *along)
 {
     real axis[DIM_MAX];
@@ -314,8 +315,8 @@ static real extrusion_from(const struct solid *s, const real *X, int dim, real *
     return outside > 0 ? outside : real_max(across, along);
 }
 
-/* Returns the level of X[3] for an extrusion, <= 0 inside: the larger of the level of its plane region and the signed
- * distance from its ends [m]. */
+/* Returns the level of X[3] for an extrusion [m], <= 0 inside: the larger of the level of its plane region and the
+ * signed distance from its ends. */
 static real extrusion_level(const struct solid *s, const real *X, int dim)
 {
     int axes[2];
@@ -397,8 +398,8 @@ static real voxels_level(const struct solid *s, const real *X, int dim)
     return voxel_part_distance(s->voxels, X, NULL);
 }
 
-/* Returns the support in direction along[dim], the maximum of X . along over its points X, of the box of the whole
- * voxel image. */
+/* Returns the support in direction along[dim] of the box of the whole voxel image: the maximum of X . along over its
+ * points X. */
 static real voxels_reach(const struct solid *s, const real *along, int dim)
 {
     const struct voxels *v = s->voxels->of;

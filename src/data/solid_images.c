@@ -42,8 +42,8 @@ static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_M
             R[a][b] = (a == b) - (a < dim && b < dim ? 2 * m->axis[a] * m->axis[b] / length2 : 0);
 }
 
-/* Returns the placement of a copy of a solid that results if the placement `from` is rotated or reflected by the matrix
- * R about the point `about` [m]. */
+/* Returns the placement `from` of a copy of a solid, rotated or reflected by the matrix R about the point `about`
+ * [m]. */
 static struct placement image_turned(const struct placement *from, real R[DIM_MAX][DIM_MAX], const real *about, int dim)
 {
     struct placement to = {0};
@@ -56,7 +56,7 @@ static struct placement image_turned(const struct placement *from, real R[DIM_MA
     return to;
 }
 
-/* Returns the placement of copy k that the motion m makes of a solid with the placement `from`. */
+/* Returns the placement of copy number k that the motion m makes of a solid with the placement `from`. */
 static struct placement image_made(const struct placement *from, const struct solid_motion *m, int k, int dim)
 {
     struct placement to = *from;
@@ -88,7 +88,8 @@ static real motion_count(const struct solid_motion *m, int dim)
 
 /* ---- one copy ---------------------------------------------------------------------------------------------------- */
 
-/* Rotates the vector b[dim] back to the coordinates in which the solid was described: to = turn^T b. */
+/* Rotates the vector b[dim] back to the coordinates in which the solid was described: to = turn^T b, with the
+ * rotation of the placement i. */
 static void turn_back(const struct placement *i, const real *b, int dim, real *to)
 {
     for (int c = 0; c < dim; c++) {
@@ -97,8 +98,8 @@ static void turn_back(const struct placement *i, const real *b, int dim, real *t
     }
 }
 
-/* Returns the support in direction along[dim], the maximum of X . along over its points X, of one copy of a solid with
- * placement i. */
+/* Returns the support in direction along[dim] of one copy of a solid, with placement i: the maximum of X . along
+ * over its points X. */
 static real image_support(const struct solid *s, const struct placement *i, const real *along, int dim)
 {
     real own[DIM_MAX] = {0};
@@ -115,9 +116,9 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
     turn_back(i, off, dim, to);
 }
 
-/* Returns by how much the level of a solid (solid_level_set_value) may be below the one that its bounding box implies
- * [m]: 0 for most solids; the size of a voxel for voxels, whose levels are those of their centres; INFINITY for a
- * surface with holes, which may be far from points inside it. */
+/* Returns by how much the level of a solid (<= 0 inside) may be below the one that its bounding box implies [m]: 0
+ * for most solids; the size of a voxel for voxels, whose levels are those of their centres; INFINITY for a surface
+ * with holes, since points inside it may be far from it. */
 static real box_slack(const struct solid *s, int dim)
 {
     real slack = 0;
@@ -199,8 +200,7 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     return nearest;
 }
 
-/* Returns the level (solid_level_set_value, <= 0 inside) at X[dim] of the solid as described, before it is moved or
- * copied [m]. */
+/* Returns the level at X[dim] of the solid as described, before it is moved or copied [m]; <= 0 inside. */
 static real image_level(const struct solid *s, const real *X, int dim)
 {
     const struct solid_type *type = &solid_types[s->kind];
@@ -221,8 +221,8 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim)
     return nearest;
 }
 
-/* Returns true if the level (solid_level_set_value, <= 0 inside) at X[dim] of the solid as described, before it is
- * moved or copied, is at most `most` [m]. */
+/* Returns true if the level at X[dim] of the solid as described, before it is moved or copied, is at most `most`
+ * [m]. The level is <= 0 inside. */
 static bool image_within(const struct solid *s, const real *X, int dim, real most)
 {
     const struct solid_type *type = &solid_types[s->kind];

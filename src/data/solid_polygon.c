@@ -17,8 +17,8 @@ static void minus2(const real *a, const real *b, real to[2])
 
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
-/* The nearest part of the outline so far: squared distance, foot, and outward normal of its edge or arc (not at a
- * corner). */
+/* The part of a polygon's outline that is nearest to a point so far: squared distance r2 [m^2], nearest point, and
+ * outward normal of its edge or arc. at_corner: the nearest point is a corner, which has no normal. */
 struct nearest {
     real r2, foot[2], normal[2];
     bool at_corner;
@@ -255,8 +255,9 @@ enum polygon_fault polygon_check_and_complete(struct polygon *p, int *faulty_cor
 
 enum { STEPS = 200 };
 
-/* Returns F(t) = sum_d (e_d y_d/(t + e_d^2))^2 - 1 and its derivative *slope. e[dim]: half axes of an ellipsoid [m];
- * y[dim]: a point with components >= 0 [m]. */
+/* Returns F(t) = sum_d (e_d y_d/(t + e_d^2))^2 - 1 and its derivative in *slope. e[dim]: half axes of an ellipsoid
+ * [m]; y[dim]: a point with components >= 0 [m]. At the root t of F the nearest point of the ellipsoid is x_d =
+ * e_d^2 y_d/(t + e_d^2). */
 static real ellipsoid_excess(const real *e, const real *y, int dim, real t, real *slope)
 {
     real sum = -1;
@@ -270,10 +271,10 @@ static real ellipsoid_excess(const real *e, const real *y, int dim, real t, real
     return sum;
 }
 
-/* Computes the point x[dim] of an ellipsoid's surface nearest to y[dim] >= 0: x_d = e_d^2 y_d/(t + e_d^2) at the root t
- * of F (ellipsoid_excess) beyond -e_min^2. F is decreasing and convex there (Eberly 2013), so that Newton's steps from
- * the left do not pass the root. If y is on the plane normal to the shortest half axis, there may be no root; then x is
- * not in that plane. e[dim]: half axes [m]. */
+/* Computes x[dim], the point of an ellipsoid's surface nearest to y[dim] >= 0: x_d = e_d^2 y_d/(t + e_d^2) with the
+ * root t > -e_min^2 of F(t) = sum_d (e_d y_d/(t + e_d^2))^2 - 1. F is decreasing and convex there (Eberly 2013), so
+ * that Newton's steps from the left do not pass the root. If y is on the plane normal to the shortest half axis,
+ * there may be no root; then x is not in that plane. e[dim]: half axes [m]. */
 static void ellipsoid_foot(const real *e, const real *y, int dim, real *x)
 {
     int least = 0;

@@ -3,7 +3,8 @@
 
 #include "data/material.h"
 
-/* Returns the surface with the coefficient g1 through the tensile strength. */
+/* Returns the Drucker-Prager surface with the coefficient g1 [1] that passes through the tensile strength `tension`
+ * [Pa]. */
 static struct strength_surface surface_through(real tension, real g1)
 {
     return (struct strength_surface){tension * (1 / sqrt(3) + g1), g1};
@@ -36,15 +37,16 @@ real surface_strength(const struct strength_surface *s, const real *direction)
     return share > 0 ? 1 / share : INFINITY;
 }
 
-/* Completes the principal stresses of a state in the plane by that across it [Pa]. */
+/* Sets stress[2], the principal stress normal to the plane, from stress[0] and stress[1] [Pa]: 0 in plane stress, nu
+ * (stress[0] + stress[1]) in plane strain. */
 static void complete_state(const struct material *m, enum space space, real *stress)
 {
     if (space == SPACE_PLANE_STRESS) stress[2] = 0;
     if (space == SPACE_PLANE_STRAIN) stress[2] = m->poisson * (stress[0] + stress[1]);
 }
 
-/* Returns the largest of those principal strains of a stress state of unit size that bonds of the space have, when it
- * reaches the surface [1]; INFINITY if it never does. */
+/* Returns the largest principal strain that bonds of the space can have when a stress state reaches the strength
+ * surface of the material [1]; INFINITY if it never does. stress[3]: direction of the state, as principal stresses. */
 static real largest_strain(const struct material *m, enum space space, real *stress)
 {
     const int dim = space_dim(space);

@@ -8,8 +8,8 @@
 
 /* ---- blocks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the block (a box of cells) that contains cell k along an axis on which blocks are `edge` cells
- * long. */
+/* Returns the index of the block (a box of cells) that contains cell k along an axis. edge: length of a block along
+ * the axis [cells]. */
 static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k >= 0 ? k : k - edge + 1) / edge; }
 
 /* The blocks that overlap the box of a grid. */
@@ -85,7 +85,7 @@ void transfer_order_reserve(struct transfer_order *o, int64_t n, int64_t blocks,
 
 /* ---- sorting ----------------------------------------------------------------------------------------------------- */
 
-/* Bits of the number of a cell in its block. */
+/* Number of bits that hold the number of a cell in its block. */
 enum { INSIDE_BITS = 16 };
 
 /* Working memory of a counting sort by the ranks of blocks, each thread on its chunk of the list, then by cell inside
@@ -107,8 +107,8 @@ struct sorting {
 /* Returns the index of the first entry of a chunk of the list, one of s->chunks equal parts. */
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
 
-/* Stores in s->place the share of each cell of the box in the numbers of block and cell: they are sums over the
- * directions. */
+/* Computes s->place, from which the numbers of block and cell of a point follow: the sum over the axes d of
+ * s->place[d][cell along d]. */
 static void cell_shares_find(struct sorting *s)
 {
     int64_t blocks = 1, cells = 1;
@@ -123,8 +123,9 @@ static void cell_shares_find(struct sorting *s)
     }
 }
 
-/* Returns the rank of the block (a box of cells) that contains point i. *inside: receives the index of its cell in the
- * block. g: the grid, in registers; dim: dimensions, a constant. */
+/* Returns the rank of the block (a box of cells) that contains point i. inside: receives the index of its cell in
+ * the block. g: copy of the grid that the compiler can keep in registers; dim: number of dimensions, a constant of
+ * the compiler. */
 static ALWAYS_INLINE int32_t find_block(const struct sorting *s, const struct grid *g, int32_t i, uint16_t *inside,
                                         const int dim)
 {
@@ -135,9 +136,9 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, const struct gr
     return s->rank[place >> INSIDE_BITS];
 }
 
-/* Finds blocks (s->key) and cells (s->inside) of the points of a chunk of the list (the part of one thread), and counts
- * the points of each block in s->fill. Consecutive points of one block are counted before they are added. dim:
- * dimensions, a constant. */
+/* Finds the blocks (s->key) and cells (s->inside) of the points of a chunk of the list, the part of one thread, and
+ * counts the points of each block in s->fill. Consecutive points of one block are counted before they are added.
+ * dim: number of dimensions, a constant of the compiler. */
 static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
 {
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
@@ -153,8 +154,8 @@ static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const 
     count[key] += (int32_t)(chunk_start(s, chunk + 1) - from);
 }
 
-/* Finds blocks and cells of the points in a chunk of the list (the part of one thread), as find_blocks does, with the
- * number of dimensions of the grid as a constant. */
+/* Finds blocks and cells of the points in a chunk of the list, the part of one thread. Calls the copy of find_blocks
+ * that is compiled for the dimensions of the grid. */
 static void find_blocks_of(const struct sorting *s, int chunk)
 {
     switch (s->shape.dim) {
@@ -201,8 +202,9 @@ static void put_in_blocks(const struct sorting *s, int chunk)
 
 enum { CELLS_IN_BLOCK_MOST = BLOCK_LENGTH * BLOCK_EDGE * BLOCK_EDGE };
 
-/* Sorts the n particles of a block by cell (counting sort, stable), from particle, inside to particle_to, inside_to.
- * inside: cell of each particle in the block, below cells_in_block. Returns the number of cells with particles. */
+/* Sorts the n particles of a block by cell (counting sort, stable). particle[n], inside[n]: the particles and their
+ * cells in the block, below cells_in_block; particle_to[n], inside_to[n]: receive them sorted. Returns the number of
+ * cells with particles. */
 static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int32_t *particle_to, uint16_t *inside_to,
                              int64_t cells_in_block)
 {
@@ -222,9 +224,9 @@ static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int
     return cells;
 }
 
-/* Computes o->cell_start, the first entry of each cell in the sorted list of points. On entry o->block_cell[b + 1] is
- * the number of cells with points in block b; on return block_cell[b] is the first cell of block b. inside: cell of
- * each entry in its block. */
+/* Computes o->cell_start, the first entry of each cell in the sorted list of points. Before the call,
+ * o->block_cell[b + 1] must be the number of cells with points in block b; after it, o->block_cell[b] is the first
+ * cell of block b. inside: cell of each entry in its block. */
 static void find_cells(struct transfer_order *o, const uint16_t *inside)
 {
     o->block_cell[0] = 0;
@@ -241,7 +243,8 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
 }
 
 /* Allocates the working memory of a sort of points by block (a box of cells) and cell. The arrays are not cleared,
- * since all entries are written before they are read. A grid without nodes has no blocks and needs no chunks. */
+ * since all entries are written before they are read. A grid without nodes has no blocks, and then there are no
+ * chunks. */
 static void sorting_make(struct sorting *s)
 {
     s->chunks = s->shape.n > 0 ? omp_get_max_threads() : 0;

@@ -8,15 +8,16 @@
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* A particle, and the integer position of the group of points, rotating together, to which it belongs. */
+/* A particle with its reference position [m], and the integer position `place` of the group of points, rotating
+ * together, to which it belongs. */
 struct member {
     real X[DIM_MAX];
     int64_t place[DIM_MAX];
     int32_t body, particle, off;
 };
 
-/* Compares the integer positions a and b of two groups of points, first their bodies body_a and body_b. Returns -1, 0
- * or 1. */
+/* Compares two groups of points: first by their bodies body_a and body_b, then by their integer positions a and b.
+ * Returns -1, 0 or 1. */
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
     if (body_a != body_b) return body_a < body_b ? -1 : 1;
@@ -53,8 +54,9 @@ static int64_t group_place(real u, bool odd)
     return (int64_t)(u < 0 ? -far : far - !odd);
 }
 
-/* Returns the particles sorted by group and position; their order does not depend on their numbers. middle[3]: middle
- * of the body [m]; one: index of the joined body for each body. Release it with memory_free. */
+/* Returns the particles sorted by group and position, so that their order does not depend on their numbers. spacing
+ * [m]; middle[3]: middle of the body [m]; one: for each body, the number of the joined body that it is part of.
+ * Release the array with memory_free. */
 static struct member *members_sorted(const struct particles *p, real spacing, const real *middle, const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
@@ -77,8 +79,8 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
     return all;
 }
 
-/* Stores in own->near the indices of the 26 groups of points around group g of the same body: first those displaced
- * along one axis, then along two, then along three; -1 where there is none. */
+/* Stores in own->near (own: group g) the indices of the 26 groups of points around group g of the same body, -1 for
+ * those that do not exist: first those displaced along one axis, then along two, then along three. */
 static void groups_near(struct rotation_groups *t, int32_t g)
 {
     struct turning_group *own = &t->group[g];

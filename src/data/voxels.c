@@ -36,8 +36,8 @@ int voxels_grey_value(const struct voxels *v, const real *X)
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
 /* Replaces the n entries of f along one line, `stride` apart, by squared distances: f[p] = min over q of (size (p -
- * q))^2 + f[q], the lower envelope of parabolas (Felzenszwalb, Huttenlocher 2012). size: edge of a voxel along the line
- * [m]. room: working memory of 3 n + 1 numbers. */
+ * q))^2 + f[q]. This is the lower envelope of parabolas (Felzenszwalb & Huttenlocher 2012). size: edge of a voxel
+ * along the line [m]; room[3 n + 1]: working memory. */
 static void line_distances(float *f, int64_t n, int64_t stride, real size, real *room)
 {
     real *border = room, *value = room + n + 1, *foot = value + n;
@@ -62,8 +62,8 @@ static void line_distances(float *f, int64_t n, int64_t stride, real size, real 
     }
 }
 
-/* Stores in n[3] the numbers of voxels along each axis of the padded grid, which has one more on each side. Returns
- * their product. */
+/* Stores in n[3] the numbers of voxels along each axis of the padded grid: the image with one more voxel on each
+ * side. Returns their product. */
 static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
 {
     int64_t all = 1;
@@ -129,8 +129,8 @@ void voxel_part_free(struct voxel_part *p)
     p->level = NULL;
 }
 
-/* Returns the index in the padded grid, which has one more voxel on each side, of the voxel at X[dim], moved by `step`
- * voxels along the axis `direction` (-1: not moved). Limited to the grid. */
+/* Returns the index, in the padded grid (the image with one more voxel on each side), of the voxel at X[dim], moved
+ * by `step` voxels along axis `direction` (-1: not moved). Positions outside the grid count as in its nearest voxel. */
 static int64_t level_index(const struct voxels *v, const real *X, int direction, int step)
 {
     int64_t n[DIM_MAX], at = 0;
