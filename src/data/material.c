@@ -13,8 +13,8 @@ real bond_based_poisson_ratio(enum space space)
 }
 
 /* Returns the micro-modulus c of bonds such that a uniform expansion s has equal energy densities: 1/4 c s^2
- * family_sum of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of the continuum. family_sum: sum of
- * length times weight over the bonds of a particle. */
+ * family_sum of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of the continuum, with the bulk moduli
+ * k2 and K. family_sum: sum of length times weight over the bonds of a particle. */
 real material_micro_modulus(const struct material *m, enum space space, real family_sum)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};

@@ -21,7 +21,7 @@ struct keyword {
     } of[PARAMETERS_MAX];
 };
 
-/* A range of nodes and elements whose labels are unique: a part, or what is outside parts. */
+/* A range of nodes and elements whose labels are unique: one part of the deck, or all that is outside parts. */
 struct scope {
     char name[FIELD], instance[FIELD];            /* name of the part; name of its instance */
     int64_t node, element, node_end, element_end; /* indices of the first and one past the last in the mesh */
@@ -74,8 +74,8 @@ static bool data_line(struct source *s)
     return false;
 }
 
-/* Parses a field as a number, also with Fortran's exponent letter d. An empty field is 0, as Abaqus prescribes. Returns
- * REFUSED unless it is a finite number. */
+/* Parses a field as a number *value, also with Fortran's exponent letter d. An empty field is 0, as Abaqus
+ * prescribes. Returns REFUSED unless it is a finite number. */
 static status deck_real(const struct source *s, const char *field, real *value)
 {
     char text[FIELD], *end;
@@ -130,8 +130,8 @@ static void parameter_add(struct keyword *k, char *field)
     word_plain(p->name, field);
 }
 
-/* Reads a keyword line into d->key and stops at its end, which messages name. The keyword continues on the next line
- * after a trailing comma. */
+/* Reads a keyword line into d->key, and stops at its end so that messages name this line. A keyword continues on the
+ * next line after a trailing comma. */
 static void keyword_read(struct deck *d)
 {
     struct source *s = d->s;
@@ -190,7 +190,7 @@ static status nodes_read(struct deck *d)
     return OK;
 }
 
-/* Prefixes of element types, matched in this order; plane: 2D or surface elements. */
+/* Beginnings of the names of element types, compared in this order. plane: true for 2D and surface elements. */
 static const struct family {
     const char *name;
     bool plane;
@@ -198,7 +198,7 @@ static const struct family {
                 {"CAX", true},  {"C2D", true}, {"M3D", true},  {"R3D", true}, {"SFM3D", true},
                 {"STRI", true}, {"SC", false}, {"DS", true},   {"S", true}};
 
-/* Shapes by number of nodes. */
+/* Shapes of elements, by plane (2D and surface elements) or solid, and number of nodes. */
 static const struct size {
     bool plane;
     int nodes;
@@ -224,9 +224,9 @@ static const struct size *size_of_type(const char *type)
     return NULL;
 }
 
-/* Reads the node labels of an element, which may continue on further lines: those of its corners into node[], those of
- * its middle nodes into middle[] in the order of elements.h. In elements with 27 nodes the interior node is skipped.
- * Returns REFUSED if the element has another number of labels than size->nodes. */
+/* Reads the node labels of an element, which may continue on further lines: labels of its corners into node[],
+ * labels of its middle nodes into middle[], in the order of elements.h. The interior node of elements with 27 nodes
+ * is skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
 static status element_nodes(struct deck *d, const struct size *size, int32_t *node, int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
@@ -280,8 +280,8 @@ static status elements_read(struct deck *d)
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Adds the labels first, first + step, .. last, which a line after GENERATE gives, to the set with this index. Returns
- * REFUSED if the step is not positive, last is below first, or there are too many members. */
+/* Reads a line after GENERATE: first label, last label and step. Adds the labels first, first + step, .. last to set
+ * number `set`. Returns REFUSED if the step is not positive, last is below first, or there are too many members. */
 static status generate_line(struct deck *d, int set)
 {
     int32_t bound[3] = {0, 0, 1};
@@ -295,8 +295,8 @@ static status generate_line(struct deck *d, int set)
     return OK;
 }
 
-/* Adds the current members of the set `name` to the set with index `set`. of_nodes: true for sets of nodes. Returns
- * REFUSED if there are too many sets or members. */
+/* Adds the current members of the set called `name` to set number `set`. of_nodes: true for sets of nodes, false for
+ * sets of elements. Returns REFUSED if there are too many sets or members. */
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
     const int other = element_mesh_find_set(d->m, name, of_nodes);
@@ -310,7 +310,7 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 }
 
 /* Replaces the labels that were added to sets since the last call by indices of the nodes or elements of `scope`, a
- * part or what is outside parts. Removes labels that it does not contain. */
+ * part or what is outside parts. Removes labels that the scope does not contain. */
 static void sets_resolve(struct deck *d, const struct scope *scope)
 {
     for (int k = 0; k < d->m->sets; k++) {
@@ -325,8 +325,8 @@ static void sets_resolve(struct deck *d, const struct scope *scope)
     }
 }
 
-/* Returns the index of the part with this name, or, if `instance`, of the part whose instance has it; -1 if there is
- * none. */
+/* Returns the index of the part called `name`, or, if `instance` is true, of the part whose instance is called so;
+ * -1 if there is none. */
 static int scope_find(const struct deck *d, const char *name, bool instance)
 {
     for (int k = 1; k < d->scopes; k++)
@@ -380,8 +380,8 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
     return OK;
 }
 
-/* Ends the current scope, a part or what is outside parts, and replaces its labels by indices. Label 0 of a middle node
- * means that it is missing and the edge is straight. Returns REFUSED for unknown or repeated labels. */
+/* Ends the current scope, a part or what is outside parts, and replaces its labels by indices. A middle node with
+ * label 0 is missing, and its edge is straight. Returns REFUSED for unknown or repeated labels. */
 static status scope_end(struct deck *d)
 {
     struct scope *scope = &d->scope[d->now];
@@ -417,8 +417,8 @@ static void scope_begin(struct deck *d, const char *name)
     scope->node = d->m->nodes, scope->element = d->m->elements;
 }
 
-/* Ends the current scope and begins a new one, at the beginning and end of a part. name: name of the part; NULL outside
- * parts, where labels belong to the assembly. Returns REFUSED if there are too many parts, or if the labels of the
+/* Ends the current scope and begins a new one, at the beginning and at the end of a part. name: name of the part
+ * that begins; NULL for what is outside parts. Returns REFUSED if there are too many parts, or if the labels of the
  * ended scope are invalid. */
 static status scope_change(struct deck *d, const char *name)
 {
@@ -442,8 +442,8 @@ static void rotate_about(real *X, const real *a, const real *b, real angle)
     }
 }
 
-/* Moves the nodes of a part to the position of its instance, which up to two lines give: a displacement; two points of
- * an axis and an angle in degrees. Returns REFUSED if the part is unknown or has two instances. */
+/* Reads an instance: up to two lines, with a displacement, then two points of an axis and an angle in degrees. Moves
+ * the nodes of its part to this position. Returns REFUSED if the part is unknown or already has an instance. */
 static status instance_read(struct deck *d)
 {
     const char *part = parameter(d, "PART"), *name = parameter(d, "NAME");

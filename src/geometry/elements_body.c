@@ -20,9 +20,9 @@ static bool point_before(const real *X, const real *Y, real size)
     return false;
 }
 
-/* Adds a side of an element, with n = 3 or 4 corners node[n], to the faces: a triangle as it is, a quadrilateral as two
- * triangles. Its diagonal starts at the corner that is first by position, so that two elements that share the side but
- * not its nodes use the same diagonal. */
+/* Adds a side of an element, with n = 3 or 4 corners node[n], to the faces. A quadrilateral becomes two triangles,
+ * whose common diagonal starts at the corner that is first by position: two elements that share the side but not its
+ * nodes then have the same diagonal. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n)
 {
     int low = 0;
@@ -34,8 +34,8 @@ void surface_builder_add_side(struct surface_builder *b, const int32_t *node, in
     if (n == 4) surface_builder_add_face(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
 }
 
-/* Adds the sides of an element of the body's dimension to the faces, or the element itself if its dimension is
- * lower. */
+/* Adds the sides of an element to the faces. If the dimension of the element is lower than that of the body, adds
+ * the element itself. */
 static void builder_add_element(struct surface_builder *b, const struct element *e)
 {
     const struct element_sides *sides = &element_sides[e->kind];
@@ -77,8 +77,8 @@ static real builder_volume(const struct surface_builder *b, int64_t first)
 }
 
 /* Returns one side of the element e as a patch: its n corners, the middle nodes of its edges, and the node at its
- * centre. corner[n]: numbers of the corners in the element. centre: number of the side's central node among the middle
- * nodes of the element, or -1. turned: true to reverse the orientation of the side. */
+ * centre. corner[n]: numbers of the corners in the element; centre: number of the side's central node among the
+ * middle nodes of the element, or -1 for none; turned: true to reverse the orientation of the side. */
 static struct patch patch_of(const struct surface_builder *b, const struct element *e, const signed char *corner, int n,
                              int centre, bool turned)
 {
@@ -95,8 +95,8 @@ static struct patch patch_of(const struct surface_builder *b, const struct eleme
     return p;
 }
 
-/* Adds the sides of an element as patches, which have middle nodes, or the element itself if its dimension is lower
- * than that of the body. turned: true to reverse their orientation. */
+/* Adds the sides of an element to the patches, faces with middle nodes. If the dimension of the element is lower
+ * than that of the body, adds the element itself. turned: true to reverse the orientation of the sides. */
 static void builder_add_patches(struct surface_builder *b, const struct element *e, bool turned)
 {
     static const signed char all[] = {0, 1, 2, 3};
@@ -115,8 +115,8 @@ static void builder_add_patches(struct surface_builder *b, const struct element 
     }
 }
 
-/* Adds the sides of an element to the faces, or to the patches if the mesh has middle nodes. They are reversed if the
- * corners of the element have the opposite orientation, so that they point outwards. */
+/* Adds the sides of an element to the faces, or to the patches if the mesh has middle nodes, such that they point
+ * outwards. If the corners of the element are numbered in the opposite orientation, its sides are reversed. */
 static void builder_add_oriented(struct surface_builder *b, const struct element *e)
 {
     const int64_t first = b->n;
@@ -133,9 +133,10 @@ static void builder_add_oriented(struct surface_builder *b, const struct element
     }
 }
 
-/* Makes a hull of the collected faces and the nodes they use, in metres, and removes the faces from the builder.
- * closed: true if the hull encloses a volume. *node_of: receives the node of the mesh at each corner of the hull, to be
- * released by the caller with memory_free. If node_of is NULL, nodes added by subdivision are removed from the mesh. */
+/* Makes the surface *hull of the collected faces and their nodes, in metres, and removes the faces from the builder.
+ * closed: true if the surface encloses a volume. node_of: if not NULL, *node_of receives the node of the mesh at
+ * each corner of the surface, to be released by the caller with memory_free; if NULL, nodes that subdivision has
+ * added are removed from the mesh. */
 static void builder_close(struct surface_builder *b, struct hull *hull, bool closed, int32_t **node_of)
 {
     struct element_mesh *m = b->m;
@@ -164,8 +165,8 @@ static void builder_close(struct surface_builder *b, struct hull *hull, bool clo
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Makes the surface `hull` of a set of elements. It is closed if some of the elements fill a part of the body, else
- * open and made of the set's faces, lines and points. */
+/* Makes the surface *hull of a set of elements. If some of them fill a part of the body, it is the closed surface of
+ * that part. Else it is open and consists of the faces, lines and points of the set. */
 static void set_of_elements(struct surface_builder *b, const struct element_set *set, struct hull *hull)
 {
     const struct element *e = b->m->element;
@@ -176,8 +177,8 @@ static void set_of_elements(struct surface_builder *b, const struct element_set 
     builder_close(b, hull, fills, NULL);
 }
 
-/* Makes the open surface `hull` of a set of nodes: the nodes, and the faces of the body whose nodes are all members of
- * the set. whole: surface of the body; node_of: node of the mesh at each of its corners. */
+/* Makes the open surface *hull of a set of nodes: the nodes, and the faces of the body whose nodes are all members
+ * of the set. whole: surface of the body; node_of: node of the mesh at each corner of `whole`. */
 static void set_of_nodes(struct surface_builder *b, const struct element_set *set, const struct hull *whole,
                          const int32_t *node_of, struct hull *hull)
 {
@@ -219,9 +220,9 @@ static void take_sets(struct surface_builder *b, const int32_t *node_of, struct 
 
 /* ---- the body ------------------------------------------------------------------------------------------------- */
 
-/* Stores in *body_dim the dimension of the elements that make up the body: dim, or 2 in 3D if the mesh has surface
- * elements only. path: file of the mesh, for messages. Returns REFUSED if the mesh has no such elements, or has solid
- * elements in 2D. */
+/* Finds *body_dim, the dimension of the elements that make up the body: dim, or 2 in 3D if the mesh has surface
+ * elements only. path: file of the mesh, for messages. Returns REFUSED if the mesh has no such elements, or has
+ * solid elements in 2D. */
 static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
 {
     int64_t n[1 + DIM_MAX] = {0};

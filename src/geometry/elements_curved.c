@@ -7,7 +7,8 @@
 
 enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
 #define COARSE_MOST 10.0 /* coarse curves are accepted up to this multiple of the wanted distance */
-/* Default of the largest distance of chords from curved edges, as a share of the largest sagitta of an edge [1]. */
+/* Default of the largest distance of chords from curved edges, relative to the largest sagitta (distance of an
+ * edge's middle node from its chord) [1]. */
 #define SAGITTA_SHARE (1.0 / 256)
 /* An edge is straight if its middle node is closer to its chord than this share of the length of the chord [1]. */
 #define STRAIGHT 1e-6
@@ -15,8 +16,9 @@ enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the distance of the middle node of an edge from its chord [unit of the file]; 0 if the edge has no middle
- * node (-1) or is straight to STRAIGHT. from, to: nodes at its ends. */
+/* Returns the distance of the middle node of an edge from its chord [unit of the file]. from, to: nodes at its ends.
+ * Returns 0 if the edge has no middle node (-1), or if it is straight, i.e. the distance is below STRAIGHT times the
+ * length of the chord. */
 static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle)
 {
     if (middle < 0) return 0;
@@ -28,8 +30,9 @@ static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, i
     return off2 > square(STRAIGHT) * along2 ? sqrt(off2) : 0;
 }
 
-/* Returns the number of chords, 1 .. most, whose distance from a curved edge is at most `wanted`. sagitta: distance of
- * a single chord, in the same unit. The distance falls with the square of the number of chords. */
+/* Returns the number of chords, 1 .. most, by which a curved edge must be divided so that no chord is farther from
+ * it than `wanted`. sagitta: distance of a single chord, in the same unit; the distance falls with the square of the
+ * number of chords. */
 static int pieces_for(real sagitta, real wanted, int most)
 {
     const real pieces = ceil(sqrt(sagitta / wanted));
@@ -68,8 +71,8 @@ static int32_t node_between(struct surface_builder *b, const real *X, const int3
     return node;
 }
 
-/* Computes the position X of the middle node of an edge; the midpoint of its ends if it has no middle node (-1). from,
- * to: nodes at its ends. */
+/* Computes X, the position of the middle node of an edge, or the midpoint of its ends if it has no middle node (-1).
+ * from, to: nodes at its ends. */
 static void middle_point(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle, real X[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++)
@@ -93,7 +96,7 @@ static int32_t edge_divide(struct surface_builder *b, int32_t from, int32_t to, 
     return first;
 }
 
-/* Adds a patch that is an edge in 2D, or a line or point in 3D, to the faces as straight pieces. */
+/* Adds an edge in 2D, or a line or point in 3D, to the faces: as straight pieces if it is curved. */
 static void line_add(struct surface_builder *b, const struct patch *p)
 {
     const int32_t from = p->corner[0], to = p->corner[p->n - 1];
@@ -116,15 +119,14 @@ void surface_builder_add_patch(struct surface_builder *b, const struct patch *p)
     b->patch[b->patches++] = *p;
 }
 
-/* Corners of a patch in ascending order, to find patches that coincide. */
+/* Key by which patches (sides of elements) that coincide are found: their corners in ascending order. */
 struct patch_key {
     int32_t corner[4];
     int turn;   /* orientation: +1 or -1 */
     int64_t of; /* index of the patch */
 };
 
-/* Returns the sorted corners and the orientation of a patch, as a key by which patches with the same corners are found.
- * of: index of the patch. */
+/* Returns the key of a patch: its corners in ascending order and its orientation. of: index of the patch. */
 static struct patch_key patch_key_of(const struct patch *p, int64_t of)
 {
     struct patch_key key = {.of = of};
@@ -152,8 +154,8 @@ static int key_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Removes patches that coincide with opposite orientation, as two elements on both sides of an inner face add them. If
- * several patches with the same corners remain, one of them is retained. */
+/* Removes pairs of patches (sides of elements) that coincide with opposite orientation, as two elements add them at
+ * an inner face. If several patches with the same corners remain, one of them is retained. */
 static void patches_cancel(struct surface_builder *b)
 {
     struct patch_key *key = NEW("mesh.keys", b->patches, struct patch_key);
@@ -180,8 +182,8 @@ static void patches_cancel(struct surface_builder *b)
 
 /* ---- faces in space ---------------------------------------------------------------------------------------------- */
 
-/* An edge shared by patches; if divided, its interior nodes have consecutive indices from `first` on, starting at the
- * end `low`. */
+/* An edge that patches (sides of elements) share: its end nodes low < high and its middle node, or -1. If divided,
+ * its interior nodes have consecutive indices from `first` on, in the order from `low` to `high`. */
 struct curve {
     int32_t low, high, middle, first;
     bool divided;
@@ -202,8 +204,7 @@ static int curve_order(const void *a, const void *b)
     return (p->middle > q->middle) - (p->middle < q->middle);
 }
 
-/* Returns edge k of a patch, from corner k to the next, as a curve with its ends and middle node; it is not divided
- * yet. */
+/* Returns edge k of a patch, from corner k to the next one, with its ends and its middle node; not divided yet. */
 static struct curve curve_of(const struct patch *p, int k)
 {
     const int32_t from = p->corner[k], to = p->corner[(k + 1) % p->n];
@@ -242,8 +243,8 @@ static bool patch_curved(const struct surface_builder *b, const struct patch *p)
     return curved || off2 > square(b->sagitta);
 }
 
-/* Lists the edges of all patches in c, sorted, and divides those of curved patches by new nodes. The caller releases
- * c->curve with memory_free. */
+/* Lists the edges of all patches (sides of elements) in *c, sorted, and divides those of curved patches by new
+ * nodes. The caller releases c->curve with memory_free. */
 static void curves_make(struct curves *c, struct surface_builder *b)
 {
     int64_t kept = 0;

@@ -7,11 +7,11 @@
 #include "elements.h"
 #include "geometry/exodus_file.h"
 
-/* Words with which types of elements that have no volume begin; blocks of them are left out. */
+/* Beginnings of the names of element types without area or volume. Blocks of such elements are skipped. */
 static const char *const skipped[] = {"SPHERE", "CIRCLE", "BAR",    "BEAM",  "TRUSS", "EDGE", "ROD",
                                       "LINE",   "POINT",  "SPRING", "JOINT", "NODE",  "RBE"};
 
-/* Words with which types of the other elements begin, with their shapes; the first that fits. */
+/* Beginnings of the names of element types, with their shapes; the first one that fits counts. */
 static const struct family {
     const char *name;
     enum element_kind kind;
@@ -19,12 +19,14 @@ static const struct family {
                 {"QUAD", ELEMENT_QUAD},    {"TET", ELEMENT_TETRAHEDRON}, {"PYR", ELEMENT_PYRAMID},
                 {"WEDGE", ELEMENT_PRISM},  {"HEX", ELEMENT_HEXAHEDRON}};
 
-/* Numbers of nodes with which each shape is read: first order, second order without and with nodes amid sides. */
+/* Numbers of nodes with which elements of each shape are read: first order, second order, second order with nodes at
+ * the middles of sides. */
 static const int sizes[ELEMENT_KINDS][3] = {
     [ELEMENT_TRIANGLE] = {3, 6, 7},  [ELEMENT_QUAD] = {4, 8, 9},    [ELEMENT_TETRAHEDRON] = {4, 10, 11},
     [ELEMENT_PYRAMID] = {5, 13, 14}, [ELEMENT_PRISM] = {6, 15, 16}, [ELEMENT_HEXAHEDRON] = {8, 20, 27}};
 
-/* For the nodes after the corners: position among the middle nodes of elements.h. -1: interior node, ignored. */
+/* For each node of an Exodus element after its corners: its position among the middle nodes as elements.h orders
+ * them; -1: interior node, ignored. */
 static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
     [ELEMENT_TRIANGLE] = {0, 1, 2, 3},
     [ELEMENT_QUAD] = {0, 1, 2, 3, 4},
@@ -33,7 +35,7 @@ static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
     [ELEMENT_PRISM] = {0, 1, 2, 6, 7, 8, 3, 4, 5, -1},
     [ELEMENT_HEXAHEDRON] = {0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, -1, 12, 13, 17, 15, 14, 16}};
 
-/* For the sides of solid elements: position in element_sides. */
+/* For each side of an Exodus solid element: its position in the table element_sides, which orders sides differently. */
 static const signed char side_at[ELEMENT_KINDS][ELEMENT_SIDES_MAX] = {[ELEMENT_TETRAHEDRON] = {1, 2, 3, 0},
                                                                       [ELEMENT_PYRAMID] = {1, 2, 3, 4, 0},
                                                                       [ELEMENT_PRISM] = {2, 3, 4, 0, 1},
@@ -64,8 +66,8 @@ static status nodes_add(struct exodus *x)
     return s;
 }
 
-/* Finds the shape *kind of elements by the name of their type and the number of their nodes. *skip: true if they have
- * no volume or surface and are left out. Returns REFUSED for unknown types. */
+/* Finds *kind, the shape of elements, from the name of their type and the number of their nodes. skip: receives true
+ * if they have no area or volume and are skipped. Returns REFUSED for unknown types. */
 static status kind_of(const struct exodus *x, const char *type, int64_t nodes, enum element_kind *kind, bool *skip)
 {
     *skip = false;
@@ -106,9 +108,10 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
     return OK;
 }
 
-/* Creates the set number `row` of n sets of a kind, and stores its index in *set. Its name is the one in the array
- * `names` of the file; if that is missing or taken by another set, `word` followed by its number in the array
- * `numbers`, such as block_1. of_nodes: true for a set of nodes. Returns REFUSED if there are too many sets. */
+/* Creates the set for item number `row` (from 0) of n items of the file, such as blocks, and stores its index in
+ * *set. The name of the set is the one in the file's array `names`. If that is missing or taken by another set, the
+ * name is `word` followed by the item's number in the file's array `numbers`, such as block_1. of_nodes: true for a
+ * set of nodes. Returns REFUSED if there are too many sets. */
 static status set_begin(struct exodus *x, const char *names, const char *numbers, const char *word, int64_t row,
                         int64_t n, bool of_nodes, int *set)
 {
@@ -188,8 +191,9 @@ static status side_face_add(struct exodus *x, const struct element *e, int side)
     return OK;
 }
 
-/* Adds a side of an element of the mesh to a set. set, element: their indices; side: counts from 1. Sides 1 and 2 of a
- * surface element in space are its two faces, its edges follow. Returns REFUSED if the element has no such side. */
+/* Adds a side of an element to a set. set: index of the set; element: index in the mesh; side: number of the side,
+ * from 1. Sides 1 and 2 of a surface element in space are its two faces, followed by its edges. Returns REFUSED if
+ * the element has no such side. */
 static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 {
     const struct element e = x->m->element[element];
@@ -207,8 +211,8 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
     return OK;
 }
 
-/* Stores in *element the index in the mesh of the element of a set that has this label (from 1) in the file; -1 if it
- * was left out. Returns REFUSED if there is no such element. */
+/* Finds *element, the index in the mesh of the element with number `label` (from 1) in the file; -1 if it was
+ * skipped. set: index of the set that contains it, for the message. Returns REFUSED if there is no such element. */
 static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
 {
     if (label < 1 || label > x->elements)
@@ -278,8 +282,8 @@ static status element_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads nodes, blocks and sets of the file into the mesh. Sides come before nodes: both often have one name, and sides
- * contain more information. Returns REFUSED for an invalid file. */
+/* Reads nodes, blocks and sets of the file into the mesh. Side sets are read before node sets: both often have one
+ * name, which the side set, with more information, then gets. Returns REFUSED for an invalid file. */
 static status mesh_read(struct exodus *x)
 {
     const struct exodus_file *f = &x->file;

@@ -26,8 +26,8 @@ static uint64_t next_bytes(struct header *h, int bytes)
     return value;
 }
 
-/* Reads the number of items that follow, each of at least `least` bytes. Sets h->good to false if the file is
- * shorter. */
+/* Reads the number of items that follow, each of at least `least` bytes. Sets h->good to false and returns 0 if the
+ * file is too short for them. */
 static int64_t next_count(struct header *h, int64_t least)
 {
     const uint64_t value = next_bytes(h, h->version == 5 ? 8 : 4);
@@ -35,7 +35,7 @@ static int64_t next_count(struct header *h, int64_t least)
     return h->good ? (int64_t)value : 0;
 }
 
-/* Reads the length of a dimension. It need not be below the size of the file, which may have no data along it. */
+/* Reads the length of a dimension. It may exceed the size of the file, since no array need have this dimension. */
 static int64_t next_length(struct header *h)
 {
     const uint64_t value = next_bytes(h, h->version == 5 ? 8 : 4);
@@ -43,8 +43,7 @@ static int64_t next_length(struct header *h)
     return h->good ? (int64_t)value : 0;
 }
 
-/* Skips `bytes` bytes, and those that fill them up to a multiple of four. Sets h->good to false if the file is
- * shorter. */
+/* Skips `bytes` bytes and the padding up to a multiple of four. Sets h->good to false if the file ends before. */
 static void skip_padded(struct header *h, int64_t bytes)
 {
     const int64_t padded = (bytes + 3) / 4 * 4;
@@ -52,8 +51,7 @@ static void skip_padded(struct header *h, int64_t bytes)
     if (h->good) h->at += padded;
 }
 
-/* Copies the next `length` bytes to text[NAME_MAX_LENGTH], without blanks at their end; cut off if there are too
- * many. */
+/* Copies the next `length` bytes to text[NAME_MAX_LENGTH], without trailing blanks. Longer texts are cut off. */
 static void next_text(struct header *h, int64_t length, char *text)
 {
     const int64_t from = h->at;
@@ -67,8 +65,8 @@ static void next_text(struct header *h, int64_t length, char *text)
 /* Reads a name, preceded by its length, into text[NAME_MAX_LENGTH]. */
 static void next_name(struct header *h, char *text) { next_text(h, next_count(h, 1), text); }
 
-/* Reads the tag and the length of a list and returns the length. Sets h->good to false for another tag. An absent list
- * has two zeros. */
+/* Reads the tag and the length of a list, and returns the length. An absent list has the tag 0 and the length 0.
+ * Sets h->good to false if the tag is neither `tag` nor that of an absent list. */
 static int64_t next_list(struct header *h, uint64_t tag)
 {
     const uint64_t found = next_bytes(h, 4);
@@ -109,8 +107,8 @@ static void dimensions_read(struct header *h)
     }
 }
 
-/* Reads the description of one array, and appends it to h->f->array if it has one or two dimensions, neither of them
- * that of records. */
+/* Reads the description of one array. Appends it to h->f->array if the array has one or two dimensions, neither of
+ * which is the unlimited dimension of records. */
 static void header_array(struct header *h)
 {
     struct exodus_array a = {.extent = {1, 1}};

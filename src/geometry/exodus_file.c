@@ -12,7 +12,7 @@
 #include "exodus_parts.h"
 #include "source.h"
 
-/* Largest number of bytes of an array per byte of a netCDF-4 file: gzip does not compress equal numbers by a larger
+/* Largest size of an array over the size of its netCDF-4 file [1]: gzip compresses equal numbers by at most this
  * factor. */
 enum { UNPACKED_MOST = 1024 };
 
@@ -38,8 +38,7 @@ bool is_exodus_name(const char *path)
 
 /* ---- the file ---------------------------------------------------------------------------------------------------- */
 
-/* Opens the arrays of the file, by its first bytes as netCDF-4 (HDF5) or classic netCDF. Returns REFUSED if it is
- * neither. */
+/* Opens the file f as netCDF-4 (HDF5) or classic netCDF, by its first bytes. Returns REFUSED if it is neither. */
 static status arrays_open(struct exodus_file *f)
 {
     static const char hdf5[] = "\211HDF\r\n\032\n";
@@ -140,7 +139,7 @@ bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t num
     return array_find(f, called, &a);
 }
 
-/* Finds the array `name` of n numbers and describes it in *a. Returns REFUSED if it is missing, has another size, holds
+/* Finds the array `name` and describes it in *a. Returns REFUSED if it is missing, does not have n numbers, contains
  * letters, or is larger than its file can be. */
 static status array_check(const struct exodus_file *f, const char *name, int64_t n, struct exodus_array *a)
 {
@@ -155,9 +154,9 @@ static status array_check(const struct exodus_file *f, const char *name, int64_t
                                name, (long long)n);
 }
 
-/* Reads the array that is called `name` followed by `number`, of n numbers, into the new array *reals or *integers; one
- * of the two pointers is NULL. The caller releases it with memory_free. Returns REFUSED, with nothing allocated, if it
- * is missing, has another size, or the file is damaged. */
+/* Reads the array called `name` followed by `number` (n numbers) into the new array *reals or *integers; one of
+ * these two pointers must be NULL. The caller releases it with memory_free. Returns REFUSED, with nothing allocated,
+ * if the array is missing or has another size, or the file is damaged. */
 static status array_read(const struct exodus_file *f, const char *name, int64_t number, int64_t n, real **reals,
                          int64_t **integers)
 {

@@ -25,7 +25,7 @@ void exodus_hdf5_close(struct exodus_file *f)
     crash_message_set_file_in_use(NULL);
 }
 
-/* Opens the dataset `name` and stores its lengths in extent[2]. Returns its handle, to be closed with H5Dclose; a
+/* Opens the dataset `name` and stores its lengths in extent[2]. Returns its handle, to be closed with H5Dclose, or a
  * negative number unless the dataset is in this file and has one or two dimensions. */
 static hid_t dataset_open(const struct exodus_file *f, const char *name, int64_t extent[2])
 {
@@ -57,7 +57,7 @@ int64_t exodus_hdf5_dimension(const struct exodus_file *f, const char *name)
     return set >= 0 ? extent[0] : 0;
 }
 
-/* Returns the kind of numbers of a dataset, EXODUS_CHAR for letters; 0 if it has neither numbers nor letters. */
+/* Returns the type of the numbers of a dataset, EXODUS_CHAR for letters, or 0 if it contains neither. */
 static enum exodus_type dataset_type(hid_t set)
 {
     const hid_t type = H5Dget_type(set);

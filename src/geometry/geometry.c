@@ -43,8 +43,8 @@ static status check_not_plane(const struct hull *s, const char *path)
     return OK;
 }
 
-/* Returns REFUSED if the surface encloses nothing, is too large, or is so open that inside and outside cannot be
- * distinguished. path: its file, for messages. */
+/* Returns REFUSED if the surface encloses nothing, is too large, or has such large holes that inside and outside
+ * cannot be distinguished. path: its file, for messages. */
 static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;

@@ -24,8 +24,9 @@ static const struct gmsh_type {
              {6, ELEMENT_PRISM, 6, 1},         {13, ELEMENT_PRISM, 18, 2},       {18, ELEMENT_PRISM, 15, 2},
              {7, ELEMENT_PYRAMID, 5, 1},       {14, ELEMENT_PYRAMID, 14, 2},     {19, ELEMENT_PYRAMID, 13, 2}};
 
-/* For Gmsh's nodes after the corners: position among the middle nodes of elements.h; nodes of edges come first, also in
- * elements of higher order, whose edges have this order. -1: interior node, ignored. */
+/* For each node of a Gmsh element after its corners: its position among the middle nodes as elements.h orders them;
+ * -1: interior node, ignored. Nodes of edges come first, also in elements of higher order, whose edges have the same
+ * order. */
 static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
     [ELEMENT_LINE] = {0},
     [ELEMENT_TRIANGLE] = {0, 1, 2, 3},
@@ -104,8 +105,9 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* Returns REFUSED unless a node on an edge of an element of order 3 or more is on the straight line between the ends of
- * the edge. node: corners of the element; edge: number of the edge in Gmsh's order; between: index of the node. */
+/* Returns REFUSED unless a node on an edge of an element of order 3 or more is on the straight line between the ends
+ * of the edge. node: corners of the element; edge: number of the edge in Gmsh's order; between: index of the node on
+ * the edge. */
 static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
                              int32_t between)
 {
@@ -121,9 +123,9 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
         type->order);
 }
 
-/* Reads the nodes of an element of this type and appends it to the mesh. Middle nodes are stored for second-order
- * elements only; edges of higher order must be straight. label: its number in the file. Returns REFUSED for unknown
- * nodes. */
+/* Reads the nodes of an element of type `type` and appends it to the mesh. Stores middle nodes of second-order
+ * elements only; edges of higher order must be straight. label: number of the element in the file. Returns REFUSED
+ * for unknown nodes. */
 static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t label)
 {
     const int corners = element_corners[type->kind], edges = element_edges[type->kind].n;
@@ -153,8 +155,8 @@ static status nodes_known(struct gmsh *g)
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
 
-/* Reads a text in double quotes into text[capacity]; cut off if it is too long. Returns REFUSED if there are no quotes,
- * or no closing one on the line. */
+/* Reads a text in double quotes into text[capacity]; longer texts are cut off. Returns REFUSED if the text does not
+ * begin with a quote, or does not end with one on the same line. */
 static status quoted_next(struct source *s, char *text, size_t capacity)
 {
     size_t n = 0;
@@ -193,8 +195,8 @@ static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
     g->entity[g->links] = entity, g->group[g->links++] = group;
 }
 
-/* Reads an entity of dimension dim: its tag, bounding box (for a point its position), physical groups and, except for
- * points, bounding entities. Only the groups are stored. Returns REFUSED if it is malformed. */
+/* Reads an entity of dimension dim: its tag, bounding box (for a point its position), physical groups and, except
+ * for points, bounding entities. Stores only the groups. Returns REFUSED if it is malformed. */
 static status entity_read(struct gmsh *g, int64_t dim)
 {
     int64_t tag, groups, group, bounds;
@@ -231,8 +233,9 @@ static status entities_read(struct gmsh *g)
 
 /* ---- format 2.2 ----------------------------------------------------------------------------------------------- */
 
-/* Reads a count of format 2.2, which is text even in binary files, to the end of its line into *n. what: what is
- * counted, for messages; bytes: least size of one item. Returns REFUSED if the file is too short for it. */
+/* Reads a count of format 2.2, which is text even in binary files, into *n, and advances to the next line. what:
+ * what is counted, for messages; bytes: least size of one counted item. Returns REFUSED if the file is too short for
+ * so many items. */
 static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t *n)
 {
     g->s->binary = false;
@@ -293,8 +296,8 @@ static status old_elements(struct gmsh *g)
 
 /* ---- format 4.1 ----------------------------------------------------------------------------------------------- */
 
-/* Reads the first line of a section in format 4.1: the number of blocks, stored in *blocks, and three numbers that are
- * not needed. what: name of these numbers, for messages. Returns REFUSED if the line is malformed. */
+/* Reads the first line of a section in format 4.1: the number of blocks, into *blocks, and three numbers that are
+ * skipped. what: name of the skipped numbers, for messages. Returns REFUSED if the line is malformed. */
 static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
 {
     int64_t skipped;
@@ -303,8 +306,8 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
     return source_check_count(g->s, "blocks", *blocks, 8);
 }
 
-/* Reads a block of nodes in format 4.1: their labels, then their coordinates, each followed by its parameters on the
- * entity, which are ignored. Returns REFUSED if it is malformed. */
+/* Reads a block of nodes in format 4.1: their labels, then their coordinates. Each node may have parameters on its
+ * entity after its coordinates, which are ignored. Returns REFUSED if the block is malformed. */
 static status new_node_block(struct gmsh *g)
 {
     int64_t dim, tag, parametric, n, label;
@@ -373,8 +376,8 @@ static status new_elements(struct gmsh *g)
 
 /* ---- sections ------------------------------------------------------------------------------------------------- */
 
-/* Reads the header of the file. Returns REFUSED for a version other than 2.2 and 4.1, numbers that have not 8 bytes,
- * and another byte order. */
+/* Reads the header of the file. Returns REFUSED unless the version is 2.2 or 4.1, numbers have 8 bytes, and the byte
+ * order is that of this machine. */
 static status format_read(struct gmsh *g)
 {
     char version[16];
@@ -399,7 +402,8 @@ static status format_read(struct gmsh *g)
                     : source_report_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
 }
 
-/* Skips the rest of a section: advances behind the line $EndNAME, where `name` is $NAME, or to the end of the file. */
+/* Skips the rest of section `name`, such as $Nodes: advances behind its last line, such as $EndNodes, or to the end
+ * of the file. */
 static void section_skip(struct source *s, const char *name)
 {
     char end[48];

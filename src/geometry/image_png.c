@@ -7,7 +7,8 @@
 #include "base/memory.h"
 #include "pages.h"
 
-/* Copies the next n bytes of the file to `to`, for libpng. Reports an error to libpng if the file ends before. */
+/* Callback of libpng for reading: copies the next n bytes of the file to `to`. Reports an error to libpng if the
+ * file ends before. */
 static void bytes_next(png_structp png, png_bytep to, size_t n)
 {
     struct source *s = png_get_io_ptr(png);
@@ -16,14 +17,14 @@ static void bytes_next(png_structp png, png_bytep to, size_t n)
     s->at += (int64_t)n;
 }
 
-/* Stores the message of an error that libpng reports, and jumps back to png_read_pages. */
+/* Callback of libpng for errors: stores the message `what` and jumps back to png_read_pages. */
 static void fault_kept(png_structp png, png_const_charp what)
 {
     snprintf(png_get_error_ptr(png), 128, "%s", what);
     png_longjmp(png, 1);
 }
 
-/* Ignores a warning of libpng. */
+/* Callback of libpng for warnings: does nothing. */
 static void warning_dropped(png_structp png, png_const_charp what) { (void)png, (void)what; }
 
 /* Makes libpng convert any kind of image to grey values of 8 or 16 bits, big-endian. */

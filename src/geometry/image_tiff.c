@@ -8,7 +8,8 @@
 
 /* ---- callbacks that let libtiff read from memory ----------------------------------------------------------------- */
 
-/* Copies up to n bytes of the file `handle` to `to` for libtiff. Returns their number; 0 at the end of the file. */
+/* Callback of libtiff for reading: copies up to n bytes of the file `handle` to `to`. Returns their number, 0 at the
+ * end of the file. */
 static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
 {
     struct source *s = handle;
@@ -19,15 +20,15 @@ static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
     return taken;
 }
 
-/* Callback of libtiff for writing, which is not needed. Returns -1, a fault. */
+/* Callback of libtiff for writing, which never happens. Returns -1 for failure. */
 static tmsize_t tiff_write(thandle_t handle, void *from, tmsize_t n)
 {
     (void)handle, (void)from, (void)n;
     return -1;
 }
 
-/* Sets the reading position of the file `handle` for libtiff. whence: origin of the offset (SEEK_*). Returns the
- * position, or -1 if it is outside the file. */
+/* Callback of libtiff for seeking: sets the reading position of the file `handle`. whence: origin of the offset
+ * (SEEK_SET, SEEK_CUR, SEEK_END). Returns the position, or -1 if it is outside the file. */
 static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
 {
     struct source *s = handle;
@@ -40,12 +41,13 @@ static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
 /* Callback of libtiff for closing. Does nothing, since the caller owns the bytes. */
 static int tiff_close(thandle_t handle) { return (void)handle, 0; }
 
-/* Returns the size of the file `handle` [byte], for libtiff. */
+/* Callback of libtiff for the size of the file `handle` [byte]. */
 static toff_t tiff_size(thandle_t handle) { return (toff_t)((struct source *)handle)->length; }
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of a 16-bit tag of the current page, else its default; 0 if it has none. */
+/* Returns the value of a 16-bit tag of the current page. If the page does not have the tag, returns its default, or
+ * 0 without a default. */
 static int tag_of(TIFF *tiff, uint32_t tag)
 {
     uint16_t value = 0;
@@ -124,8 +126,9 @@ struct planes {
     uint16_t *sample; /* [used][height][width], top row first, left to right */
 };
 
-/* Stores n pixels of row y of the file, from column x on, in p, with the orientation of the page applied. from: the
- * pixels, `stride` samples each, of which the first is sample number `first`. */
+/* Stores n pixels of row y of the file, from column x on, in p->sample, with the orientation of the page applied.
+ * from: the pixels, `stride` samples each; first: which of the samples of a pixel (red, green, blue) the first one
+ * of `from` is. */
 static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y, int64_t n, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -141,8 +144,8 @@ static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y
         }
 }
 
-/* Reads all rows or tiles of the page into p. stride: samples per pixel in the file's rows; first: number of the first
- * of them. Returns false if the file is malformed. */
+/* Reads all rows or tiles of the page into p->sample. stride: samples per pixel in the rows of the file; first:
+ * which of the samples of a pixel (red, green, blue) comes first. Returns false if the file is malformed. */
 static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -166,8 +169,8 @@ static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
     return good;
 }
 
-/* Fills a page[height * width] with the grey values of a page whose samples can be read directly. Returns false if the
- * file is malformed. */
+/* Fills page[height * width] with the grey values of a page whose samples can be read directly (grey or RGB).
+ * Returns false if the file is malformed. */
 static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
 {
     const int64_t size = a->width * a->height;
@@ -184,8 +187,8 @@ static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
     return good;
 }
 
-/* Fills a page[height * width] with grey values from libtiff's conversion to RGBA. Returns false if the file is
- * malformed. */
+/* Fills page[height * width] with grey values, from the conversion of a page to RGBA by libtiff. Returns false if
+ * the file is malformed. */
 static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t height)
 {
     uint32_t *colour = BARE("image.colours", width * height, uint32_t);

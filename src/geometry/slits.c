@@ -59,8 +59,8 @@ static bool sheets_coincide(const struct sheet *p, const struct sheet *q, int di
     return true;
 }
 
-/* Returns the faces of a surface that coincide with another face, one of each pair. The caller releases s.at with
- * memory_free. */
+/* Returns the faces of the surface h that coincide with another face, one of each pair. The caller releases the
+ * array `at` of the returned structure with memory_free. */
 static struct sheets sheets_doubled(const struct hull *h)
 {
     struct sheets s = {.dim = h->dim};
@@ -80,7 +80,7 @@ static struct sheets sheets_doubled(const struct hull *h)
 
 /* ---- in the plane ------------------------------------------------------------------------------------------------ */
 
-/* Extends the segment `to` by the segment `by` if they have a common end and are collinear, and returns true; otherwise
+/* If the segments `to` and `by` have a common end and are collinear, extends `to` by `by` and returns true. Else
  * returns false. */
 static bool segments_join(struct sheet *to, const struct sheet *by)
 {
@@ -148,9 +148,8 @@ static int by_place(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Computes the convex hull of the points in the plane f (Andrew's monotone chain): its corners in corner[], which has
- * room for 2 f->n + 2 points, and its *area [m^2]. size: length that tolerances refer to [m]. Returns the number of
- * corners. */
+/* Computes the convex hull of the points in the plane f (Andrew's monotone chain): its corners in corner[2 f->n + 2]
+ * and its area in *area [m^2]. size: length to which tolerances refer [m]. Returns the number of corners. */
 static int flat_convex_hull(struct flat *f, real (*corner)[2], real size, real *area)
 {
     int n = 0;
@@ -196,8 +195,8 @@ static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
     return common == 2;
 }
 
-/* Moves all faces that are connected to face number `first`, directly or through other faces, to the positions after it
- * in the list. Returns their number, with the first face. */
+/* Moves all faces that adjoin face number `first` in its plane, directly or through other faces, to the positions
+ * after it in the list. Returns their number, `first` included. */
 static int64_t group_gather(struct sheets *s, int64_t first)
 {
     int64_t n = 1;
@@ -212,7 +211,8 @@ static int64_t group_gather(struct sheets *s, int64_t first)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Appends a crack with this number of corners, whose positions the caller sets, to the list *crack of *n cracks. */
+/* Appends a crack with `corners` corners to the list *crack of *n cracks. The caller sets the positions of the
+ * corners. */
 static void slit_add(struct crack **crack, int *n, int corners)
 {
     GROW("cracks", *crack, *n + 1);
@@ -228,8 +228,8 @@ static void crack_of_sheet(struct crack **crack, int *n, const struct sheet *s, 
         for (int d = 0; d < dim; d++) (*crack)[*n - 1].corner[c][d] = s->corner[c][d];
 }
 
-/* Appends the coplanar faces s[sheets] of a group to the list *crack of *n cracks: as one crack if they form a convex
- * polygon, else one crack per face. */
+/* Appends the coplanar faces s[sheets], which are connected, to the list *crack of *n cracks: as one crack if they
+ * form a convex polygon, else as one crack per face. */
 static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s, int64_t sheets)
 {
     struct flat f = {.n = 0};

@@ -8,8 +8,8 @@
 
 enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* sizes in a binary file [byte] */
 
-/* Appends a corner at X as a node of its own; every third corner completes a triangle. Returns REFUSED if the mesh is
- * full. */
+/* Appends a corner of a triangle at X as a node of its own; every third corner completes a triangle. Returns REFUSED
+ * if the mesh is full. */
 static status corner_add(struct element_mesh *m, const struct source *s, const real *X)
 {
     const int32_t node[] = {(int32_t)m->nodes - 2, (int32_t)m->nodes - 1, (int32_t)m->nodes};
@@ -84,7 +84,7 @@ static status words_read(struct element_mesh *m, struct source *s)
 
 /* ---- merging of corners --------------------------------------------------------------------------------------- */
 
-/* Rounded coordinates of a corner, and its node. */
+/* Coordinates of a corner, rounded to whole multiples of a small step, and its node. */
 struct corner_key {
     real X[DIM_MAX];
     int32_t at;
@@ -99,8 +99,8 @@ static int corner_order(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
-/* Corners closer than this share of the extent of the mesh become one: programs write the same corner with different
- * last digits. */
+/* Distance below which corners become one node, relative to the extent of the mesh [1]: programs write the same
+ * corner with different last digits. */
 #define SAME_PLACE 1e-6
 
 /* Returns the largest extent of the nodes along x, y and z [unit of the file]. */

@@ -299,9 +299,9 @@ void probes_free(struct probes *s)
 
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
-/* Counts the separate groups of bonds that break in this step in the region of a BREAK probe. If there are any, and
- * they are the first, also stores time, load step and position. Bonds of particles with prescribed motion do not
- * count. */
+/* Counts the separate groups of bonds that break in this step in the region of a BREAK probe. If there are any, also
+ * stores time, load step and position as those of the first break; must not be called after it. Bonds of particles
+ * with prescribed motion do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
     q->memory.ends = diagnostics_locate_cuts(o->part, q->list, q->n, o->horizon, q->memory.position);
